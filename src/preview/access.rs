@@ -1,30 +1,30 @@
-//! Access control: only the page that the user has opened may send requests.
+//! Access control: only the page that the user has opened can send requests.
 //!
-//! The server listens on the loopback address alone, but web pages run on the same machine. Any of them may send requests here.
-//! If its own host name resolves to 127.0.0.1, it may even read the answers. So a request passes only if its host is a name of
-//! this machine, its origin (where the browser sends one) is that host, and it carries the token. Each start makes a new token.
-//! Only the empty page needs none.
+//! The server listens only on the loopback address, but other web pages run on the same machine. Any of them can send
+//! requests to the server. If the host name of a page resolves to 127.0.0.1, the page can even read the answers. So a
+//! request must meet three conditions: its host is a name of this machine; its origin, if the browser sends one, is
+//! this host; and it carries the token. Each start makes a new token. Only the empty page needs no token.
 
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
 
-/// The secret that a request must carry.
+/// The secret token of a request.
 #[derive(Clone)]
 pub(super) struct Token(String);
 
-/// Why somebody is not let in.
+/// The reason why a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
-    /// The host is none of this machine's names.
+    /// The host is not a name of this machine.
     Host,
-    /// The page that asks is another one.
+    /// The request comes from another page.
     Origin,
     /// The token is missing or wrong.
     Token,
 }
 
 impl Refused {
-    /// Why, in a line.
+    /// A message with the reason, in one line.
     pub(super) fn message(self) -> &'static str {
         match self {
             Refused::Host => "this server answers to 127.0.0.1 and localhost only\n",
@@ -37,29 +37,30 @@ impl Refused {
 }
 
 impl Token {
-    /// A new one: 128 bits of the system's random numbers.
+    /// Makes a new token from 128 random bits of the system.
     pub(super) fn new() -> std::io::Result<Token> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes)?;
         Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
     }
 
-    /// The token as it stands in the address.
+    /// The token as in the page's address.
     pub(super) fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Whether a request may see anything of the scene: its query has the token.
+    /// Checks that the query of a request contains the token.
     pub(super) fn admits(&self, uri: &Uri) -> Result<(), Refused> {
         let query = uri.query().unwrap_or_default();
         let given = query.split('&').find_map(|pair| pair.strip_prefix("token=")).unwrap_or_default();
-        // In a time that does not tell how much of it is right.
+        // Compare in constant time, so that the time does not reveal how much of the token is right.
         let differs = given.bytes().zip(self.0.bytes()).fold(0, |differs, (a, b)| differs | (a ^ b));
         if given.len() == self.0.len() && differs == 0 { Ok(()) } else { Err(Refused::Token) }
     }
 }
 
-/// Whether a request comes from this machine's own page, or from no page at all. Any port will do: it may be forwarded.
+/// Checks that a request comes from this machine's page, or from no page. The port can differ, since it may be
+/// forwarded.
 pub(super) fn is_own(headers: &HeaderMap) -> Result<(), Refused> {
     let text = |name| headers.get(name).map(|value| value.to_str().unwrap_or_default());
     let host = text(HOST).unwrap_or_default();
@@ -72,7 +73,7 @@ pub(super) fn is_own(headers: &HeaderMap) -> Result<(), Refused> {
     }
 }
 
-/// Whether a host, with or without a port, is a name of this machine that nobody else can give away.
+/// Whether a host, with or without a port, is a loopback name or address. Nobody else can own such a name.
 fn is_loopback(host: &str) -> bool {
     let is_port = |port: &str| port.parse::<u16>().is_ok();
     ["127.0.0.1", "localhost", "[::1]"].into_iter().any(|own| match host.strip_prefix(own) {

@@ -1,4 +1,4 @@
-//! The description of a run for the page: all that stays the same.
+//! The description of a run for the page: all values that are constant during the run.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,8 @@ use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
 
-/// A run, without its frames. Lengths are metres, angles degrees, colors linear where nothing else is said.
+/// A run, without its frames. Unless noted otherwise, lengths are in metres, angles in degrees, and colors in linear
+/// light.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Description<'a> {
@@ -26,7 +27,7 @@ pub(super) struct Description<'a> {
     methods: Vec<Method>,
     size: [u32; 2],
     preset: &'static str,
-    /// sRGB.
+    /// The color of a plain sky in sRGB.
     sky: Option<Color3>,
     dark: bool,
     bodies: Vec<BodyText<'a>>,
@@ -35,11 +36,11 @@ pub(super) struct Description<'a> {
     tiles: Surface,
     views: Vec<&'a str>,
     bounds: Option<[[f64; 3]; 2]>,
-    /// Whether there is more to be seen in a frame than where its bodies are.
+    /// Whether frames contain more to draw than the poses of bodies.
     shows: bool,
-    /// Whether there are emitters.
+    /// Whether the scene has emitters.
     particles: bool,
-    /// The stage, which is known when the run is finished.
+    /// The stage. `None` until the run is finished.
     stage: Option<Stage>,
 }
 
@@ -55,40 +56,40 @@ struct Method {
 struct BodyText<'a> {
     name: &'a str,
     mass: f64,
-    /// `free`, `fixed`, or `driven` by a motion that is given.
+    /// The kind of the motion: `free`, `fixed`, or `driven` for a prescribed motion.
     kind: &'static str,
-    /// A number among the materials.
+    /// The index of the material.
     material: Option<usize>,
     ghosts: bool,
     trail: Option<TrailText>,
-    /// The length of its arms, m, if it is a triad of axes.
+    /// The length of the arms, m, for a triad of axes.
     axes: Option<f64>,
 }
 
 #[derive(Serialize)]
 struct TrailText {
-    /// How far back it goes, s.
+    /// The time that the trail covers, s.
     duration: Option<f64>,
-    /// The point of the body that leaves it, in its own axes, m.
+    /// The point of the body that draws the trail, m, in the body's axes.
     at: [f64; 3],
 }
 
-/// One of the forms that a body is drawn of.
+/// A piece of a drawn body: a form with a scale.
 #[derive(Serialize)]
 struct PieceText {
     body: usize,
-    /// A number among the forms.
+    /// The index of the form.
     form: usize,
     scale: [f64; 3],
     location: [f64; 3],
     turn: [f64; 4],
-    /// sRGB; none: as the body's material.
+    /// The color in sRGB. `None` for the material of the body.
     color: Option<Color3>,
-    /// Whether it has no end.
+    /// Whether the piece is an infinite plane.
     plane: bool,
-    /// Whether it is round from all sides.
+    /// Whether the piece is a ball.
     ball: bool,
-    /// The radius of a ball of the body's volume, by which patterns are measured.
+    /// The radius of a ball of the body's volume. The size of patterns depends on it.
     radius: f64,
 }
 
@@ -118,11 +119,11 @@ struct Stage {
     timestep: f64,
     steps_per_frame: u32,
     drift: f64,
-    /// The trails by the numbers of their bodies, with colors in sRGB.
+    /// The trails by the indices of their bodies, with colors in sRGB.
     trails: Vec<Trail>,
-    /// For each camera that stands still, the grid that it sees.
+    /// The grid in the view of each camera that does not move.
     grids: Vec<Vec<super::shown::Line>>,
-    /// For each camera, its place before it moves.
+    /// The place of each camera at the start.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
 }
@@ -138,13 +139,13 @@ struct Ground {
 #[derive(Serialize)]
 struct Trail {
     body: usize,
-    /// `None` if no width is given: the trail is then as wide as the frame's strokes.
+    /// The radius of the trail, m. `None` if the scene sets no width: the trail then has the stroke width of the frame.
     radius: Option<f64>,
     color: Color3,
     tapers: bool,
 }
 
-/// Describes a run as far as it is known.
+/// Describes a run, as far as it has been simulated.
 pub(super) fn describe(run: &Simulation) -> Description<'_> {
     let scene: &Scene = &run.scene;
     let dark = scene.environment.is_dark();
@@ -181,8 +182,8 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
     }
 }
 
-/// The triangles of all forms, one after another: how many vertices and indices there are, positions, normals and
-/// indices, in little-endian numbers of 32 bits.
+/// The triangles of all forms in sequence. Each form has its number of vertices and of indices, then positions, normals
+/// and indices, as little-endian 32-bit numbers.
 pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
     let detail = detail(scene);
     let mut bytes = Vec::new();
@@ -198,13 +199,13 @@ pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
-/// Many bodies are small in the picture, and few need to be perfectly round.
+/// If there are many bodies, they are small in the picture, and coarse forms suffice.
 fn detail(scene: &Scene) -> Detail {
     const MANY: usize = 1_000;
     if scene.bodies.len() > MANY { Detail::Coarse } else { Detail::Fine }
 }
 
-/// The forms of a scene, each once, in the order in which bodies need them.
+/// The forms of a scene, each once, in the order of the bodies.
 fn forms(scene: &Scene) -> Vec<Form> {
     let mut known = HashMap::new();
     let mut forms = Vec::new();

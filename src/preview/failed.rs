@@ -1,4 +1,4 @@
-//! Why there is no answer.
+//! The reasons why a request fails.
 
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
@@ -8,13 +8,13 @@ use crate::diagnostic::Report;
 use crate::output::OutputError;
 use crate::render::RenderError;
 
-/// Why there is no answer.
+/// The reason why a request fails.
 pub(super) enum Failed {
-    /// The run is not kept any more, or has no such frame or body.
+    /// The run has been removed, or has no such frame or body.
     Gone,
-    /// The report that the terminal would show.
+    /// A report, as the terminal would show it.
     Report(Report),
-    /// Something of this machine.
+    /// An error of the operating system.
     Io(std::io::Error),
 }
 

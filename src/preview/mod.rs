@@ -1,4 +1,4 @@
-//! Frames → a page in the browser, which shows them while the scene is being written.
+//! Shows the frames of a scene on a page in the browser, while the user edits the scene.
 //!
 //! | what | where |
 //! | --- | --- |
@@ -44,29 +44,29 @@ use crate::diagnostic::Report;
 use crate::sandbox::{Confinement, Launcher};
 use crate::scene::Options;
 
-/// The scene to preview, and settings.
+/// The scene to preview, and the settings of the preview.
 #[derive(Clone, Debug)]
 pub struct Preview {
-    /// The scene's file.
+    /// The file of the scene.
     pub scene: PathBuf,
-    /// How it is read.
+    /// The options for reading the scene.
     pub options: Options,
     /// The cache that keeps runs.
     pub cache: Cache,
-    /// The port; none: any that is free.
+    /// The port of the server. `None` for any free port.
     pub port: Option<u16>,
-    /// The program POV-Ray; none: that of the `PATH`.
+    /// The POV-Ray program. `None` for the one in the `PATH`.
     pub povray: Option<PathBuf>,
     /// The launcher that confines POV-Ray. `None`: POV-Ray is not confined.
     pub launcher: Option<Launcher>,
 }
 
 impl Preview {
-    /// Serves the page on the loopback address until somebody asks to stop. `listening` gets its address, `said` what
-    /// is wrong with the scene whenever that changes.
+    /// Serves the page on the loopback address until the user stops the program. `listening` gets the address of the
+    /// page. `said` gets the report on the scene whenever the report changes.
     ///
     /// # Errors
-    /// If the port is taken, or the system refuses.
+    /// If the port is in use, or the system refuses to open it.
     pub fn serve(
         self,
         stop: &'static AtomicBool,
@@ -85,7 +85,7 @@ impl Preview {
         let renderer = Arc::new(Renderer::new(self.povray, confinement));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
-        // It ends with the process: a scene that takes long to be read holds nobody up.
+        // The thread ends with the process, so a scene that takes long to read does not delay the end.
         thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
         let served = runtime.block_on(async {
             tokio::select! {
@@ -95,7 +95,7 @@ impl Preview {
         });
         stop.store(true, Ordering::Relaxed);
         renderer.end();
-        // Connections that are open have nothing to lose.
+        // Open connections lose no data when they are closed.
         runtime.shutdown_timeout(Duration::from_secs(1));
         served
     }

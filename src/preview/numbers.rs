@@ -1,28 +1,28 @@
-//! Frames as the page reads them: little-endian 64-bit numbers.
+//! Encodes frames for the page: little-endian 64-bit numbers.
 
 use std::io;
 
 use crate::dynamics::Balance;
 use crate::simulate::Reader;
 
-/// The numbers that are said of all bodies of a frame together.
+/// The count of numbers in the balance of a frame, over all bodies.
 #[cfg(test)]
 pub(super) const HEAD: usize = 13;
-/// The numbers that are said of one body over time.
+/// The count of numbers in a sample of one body.
 #[cfg(test)]
 pub(super) const BODY: usize = 15;
-/// The numbers of a body that say where it is.
+/// The count of numbers in a pose.
 const POSE: usize = 7;
-/// The bytes of a number.
+/// The size of a number, bytes.
 const NUMBER: usize = 8;
 
-/// The bytes of the poses of a frame.
+/// The size of the poses of a frame, bytes.
 pub(super) fn pose_bytes(bodies: usize) -> usize {
     POSE * bodies * NUMBER
 }
 
-/// The poses of all bodies in some frames: for each frame, all locations, then all orientations, x y z w. An absent body has
-/// NaNs.
+/// The poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). An
+/// absent body has NaNs.
 pub(super) fn poses(
     reader: &mut Reader,
     bodies: usize,
@@ -42,8 +42,8 @@ pub(super) fn poses(
     Ok(bytes)
 }
 
-/// Appends what is said of all bodies together: the time; kinetic, potential, total energy; the sum of the accounts; drift; linear
-/// momentum; angular momentum; the number of impacts, which is not a number without contacts.
+/// Appends the balance of a frame: the time; kinetic, potential and total energy; the sum of the accounts; drift;
+/// linear momentum; angular momentum; the number of impacts, which is NaN without contacts.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
     let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
     put(bytes, &[time, *kinetic, *potential, *total]);
@@ -53,7 +53,7 @@ pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, imp
     put(bytes, &[impacts]);
 }
 
-/// Appends numbers.
+/// Appends numbers in little-endian order.
 pub(super) fn put(bytes: &mut Vec<u8>, numbers: &[f64]) {
     numbers.iter().for_each(|number| bytes.extend_from_slice(&number.to_le_bytes()));
 }

@@ -1,10 +1,10 @@
-//! The page: plain files, which are part of the program.
+//! The files of the page. They are built into the program.
 
 const HTML: &str = "text/html; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
-/// Its files: the path of each, its kind and its text.
+/// The files: path, content type and text of each.
 pub(super) const FILES: &[(&str, &str, &str)] = &[
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", STYLE, include_str!("page/style.css")),

@@ -1,13 +1,13 @@
-//! Turns a panic, which is a mistake in jabuka, into an error that the page can show.
+//! Turns a panic, which is a bug in jabuka, into an error on the page.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Does a piece of work. If it panics, the report says so, and the thread goes on.
+/// Runs work that may panic. If it panics, the panic becomes a report, and the thread continues.
 ///
-/// Runs work that may panic. Data that the work leaves half done must not be used again, unless they are valid at every moment.
+/// After a panic, the caller must not use data that the work left half done.
 pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -> Result<T, Report> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let message = format!("jabuka failed while {doing}: {}", message_of(&*panic));

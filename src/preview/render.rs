@@ -1,4 +1,4 @@
-//! A frame by POV-Ray, as `jabuka still` makes it.
+//! Renders a frame with POV-Ray, as `jabuka still` does.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,33 +16,33 @@ use crate::render::{Images, Job, PovRay, Quality, Sequence, options};
 use crate::sandbox::Confinement;
 use crate::simulate::Recorded;
 
-/// Renders one frame after another.
+/// Renders frames with POV-Ray, one at a time.
 pub(super) struct Renderer {
     povray: Option<PathBuf>,
     confinement: Confinement,
     one_at_a_time: Mutex<()>,
-    /// Requests that a client waits for, or has waited for.
+    /// All requests for images, also those whose clients have left.
     wishes: Mutex<Vec<Weak<AtomicBool>>>,
 }
 
-/// A request to POV-Ray.
+/// A request for an image by POV-Ray.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Wanted {
     run: String,
     frame: usize,
-    /// The camera: 0 is the main one, then come the views.
+    /// The index of the camera: 0 for the main camera, then the views.
     #[serde(default)]
     view: usize,
-    /// Whether it shall be as good as can be; else it shall be quick.
+    /// Whether the image has the best quality, instead of a quick one.
     #[serde(default)]
     fine: bool,
 }
 
-/// Somebody's wish for an image. When it is dropped, nobody waits for the image any more.
+/// A client's request for an image. When the client leaves, the request is dropped, and the rendering stops.
 pub(super) struct Wish(Arc<AtomicBool>);
 
 impl Wish {
-    /// A flag that becomes true when no client waits any more.
+    /// A flag that becomes `true` when the client has left.
     pub(super) fn stop(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
@@ -55,25 +55,25 @@ impl Drop for Wish {
 }
 
 impl Wanted {
-    /// The number of the run.
+    /// The id of the run.
     pub(super) fn run(&self) -> RunId {
         self.run.parse().unwrap_or_default()
     }
 }
 
 impl Renderer {
-    /// One that takes the given POV-Ray, or that of the `PATH`, and confines it.
+    /// Creates a renderer with the given POV-Ray program, or the one in the `PATH`. `confinement` confines POV-Ray.
     pub(super) fn new(povray: Option<PathBuf>, confinement: Confinement) -> Renderer {
         Renderer { povray, confinement, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
-    /// Ends the current rendering, since the server ends.
+    /// Stops the current rendering, since the server stops.
     pub(super) fn end(&self) {
         let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
         wishes.iter().filter_map(Weak::upgrade).for_each(|stop| stop.store(true, Ordering::Relaxed));
     }
 
-    /// A wish for an image.
+    /// Registers a request for an image.
     pub(super) fn wish(&self) -> Wish {
         let stop = Arc::default();
         let mut wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -82,7 +82,7 @@ impl Renderer {
         Wish(stop)
     }
 
-    /// The image of a frame as a PNG.
+    /// Renders the image of a frame as a PNG.
     pub(super) fn render(
         &self,
         run: &Simulation,
@@ -103,7 +103,7 @@ impl Renderer {
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen?.unwrap_or(whole);
-        // Scripts that belong to no scene go to this folder: nothing in it is a script.
+        // A hidden folder keeps these files apart from the scripts that the user writes.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
         output::write_moment(&seen, &folder, time)?;

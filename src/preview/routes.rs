@@ -37,7 +37,7 @@ use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
 
-/// The state that all answers are made from.
+/// The state from which the server makes its answers.
 #[derive(Clone)]
 pub(super) struct Server {
     pub(super) session: Arc<Session>,
@@ -45,7 +45,7 @@ pub(super) struct Server {
     pub(super) token: Token,
 }
 
-/// All that the page may do: load what is beside it, and ask this server.
+/// The content security policy of the page: it can load its own files and send requests to this server, nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -58,7 +58,7 @@ const HEADERS: [(HeaderName, &str); 6] = [
     (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
 ];
 
-/// All answers.
+/// The routes of the server.
 pub(super) fn router(server: Server) -> Router {
     let api = Router::new()
         .route("/api/events", get(events))
@@ -79,7 +79,7 @@ pub(super) fn router(server: Server) -> Router {
     api.merge(page).layer(middleware::from_fn(guarded)).with_state(server)
 }
 
-/// Lets nobody in but this machine's own page, and says with each answer what that page may do.
+/// Refuses requests from other pages, and adds the content security policy to each answer.
 async fn guarded(request: Request, next: Next) -> Response {
     let mut response = match access::is_own(request.headers()) {
         Ok(()) => next.run(request).await,
@@ -110,20 +110,21 @@ impl Server {
     }
 }
 
-/// Some frames of a run; those that are not simulated yet are waited for, or left out.
+/// A request for some frames of a run. Depending on the route, the answer waits for frames that are not simulated yet,
+/// or omits them.
 #[derive(Deserialize)]
 struct Frames {
     #[serde(default)]
     from: usize,
-    /// The frame after the last one.
+    /// The end of the range, exclusive.
     to: Option<usize>,
-    /// Every so many-th.
+    /// The stride: only every n-th frame is included.
     #[serde(default = "one")]
     every: usize,
-    /// The number of the body, where it is about one.
+    /// The index of the body, for requests about one body.
     #[serde(default)]
     body: usize,
-    /// The camera: 0 is the main one, then come the views.
+    /// The index of the camera: 0 for the main camera, then the views.
     #[serde(default)]
     view: usize,
 }
@@ -137,7 +138,7 @@ impl Frames {
         self.to.unwrap_or(usize::MAX).min(run.scene.simulation.frames())
     }
 
-    /// Those that have been simulated.
+    /// The requested frames that have been simulated.
     fn recorded(&self, run: &Simulation) -> impl Iterator<Item = usize> + use<> {
         (self.from..self.end(run).min(run.recorded())).step_by(self.every.max(1))
     }
@@ -146,7 +147,7 @@ impl Frames {
 async fn events(
     State(server): State<Server>,
 ) -> Sse<impl Stream<Item = Result<Event, std::convert::Infallible>>> {
-    /// No more often than this.
+    /// The smallest interval between two events.
     const PAUSE: Duration = Duration::from_millis(30);
     let (sender, receiver) = mpsc::channel(1);
     tokio::spawn(async move {
@@ -186,13 +187,13 @@ async fn ghosts(State(server): State<Server>, Path(id): Path<RunId>) -> Result<R
     Ok(Json(shown::ghosts(&run)).into_response())
 }
 
-/// The frames one after another, as soon as each is simulated.
+/// Sends the poses of frames in order, each as soon as it is simulated.
 async fn poses(
     State(server): State<Server>,
     Path(id): Path<RunId>,
     Query(frames): Query<Frames>,
 ) -> Result<Response, Failed> {
-    /// Several small frames go together.
+    /// The size up to which small frames are sent together, bytes.
     const TOGETHER: usize = 1 << 16;
     /// The interval between checks for new frames.
     const LOOK: Duration = Duration::from_millis(4);
@@ -200,7 +201,8 @@ async fn poses(
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
     tokio::spawn(async move {
         let (mut frame, end, bodies) = (frames.from, frames.end(&run), run.scene.bodies.len());
-        // One reader for all of them: it goes on from where it is, and a new one would read a page from its beginning.
+        // Use one reader for all frames: it continues from its place, whereas a new reader starts at the beginning of a
+        // page.
         let mut reader = None;
         while frame < end && !sender.is_closed() {
             let (is_over, recorded) = (run.outcome().is_some(), run.recorded().min(end));
@@ -284,7 +286,7 @@ async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> 
 
 async fn render(State(server): State<Server>, Json(wanted): Json<Wanted>) -> Result<Response, Failed> {
     let run = server.run(wanted.run())?;
-    // When the page goes away, so does the wish.
+    // When the client leaves, the request is dropped too.
     let wish = server.renderer.wish();
     let stop = wish.stop();
     let image = blocking(move || server.renderer.render(&run, &wanted, &stop)).await?;
@@ -296,7 +298,7 @@ fn binary(body: Body) -> Response {
     ([(header::CONTENT_TYPE, "application/octet-stream")], body).into_response()
 }
 
-/// Does what takes a while without holding up others.
+/// Runs slow work on another thread, so that it does not delay other requests.
 async fn blocking<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Failed> + Send + 'static,
 ) -> Result<T, Failed> {

@@ -1,4 +1,4 @@
-//! A run of a scene in the background, which is watched while it goes on.
+//! A run of a scene in the background, which the page shows while it is simulated.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,14 +19,14 @@ use crate::simulate::{
 };
 use crate::{Run, Scene};
 
-/// The number of a run, unique within a server, so that data of one run never pass for another's.
+/// The id of a run, unique within a server, so that the page never mixes data of two runs.
 pub(super) type RunId = u64;
 
-/// A run, from the moment on in which it is begun.
+/// A run, from its start on.
 pub(super) struct Simulation {
     pub(super) id: RunId,
     pub(super) scene: Arc<Scene>,
-    /// The part that has been simulated so far.
+    /// The frames that have been simulated so far.
     recording: Mutex<Arc<Recording>>,
     cache: Cache,
     moments: Moments,
@@ -36,45 +36,45 @@ pub(super) struct Simulation {
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
-/// The past of the frames of a run, for trails.
+/// The earlier states of a run that later frames show.
 #[derive(Default)]
 struct PastOfRun {
     ghosts: Vec<Arc<Ghost>>,
-    /// The lagging cameras of each frame, if there are any.
+    /// The lagging cameras of each frame. Empty if there are none.
     lagging: Vec<Vec<Lagging>>,
     bounds: Option<Bounds>,
 }
 
-/// The results that are known after the last frame.
+/// The results after the last frame.
 pub(super) struct Outcome {
     pub(super) survey: Survey,
-    /// How the main camera sees the run, and then each view.
+    /// The plan of the main camera, then the plan of each view.
     pub(super) plans: Vec<Plan>,
-    /// The warnings of the run.
+    /// The warnings about the run.
     pub(super) warnings: Report,
 }
 
-/// How far a run is, as the page is told.
+/// The progress of a run, for the page.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Progress {
-    /// The number of the run.
+    /// The id of the run.
     id: String,
-    /// How many frames there will be.
+    /// The number of frames of the whole run.
     frames: usize,
-    /// How many there are.
+    /// The number of frames so far.
     recorded: usize,
-    /// Whether all is known of it.
+    /// Whether the run has ended, so that all results are known.
     settled: bool,
-    /// Why it ended early.
+    /// The reason why the run ended early.
     pub(super) problem: Option<String>,
     warnings: Option<String>,
 }
 
-/// The interval between notices that there are more frames.
+/// The interval between two notices of new frames.
 const PULSE: Duration = Duration::from_millis(40);
 
 impl Simulation {
-    /// Begins a run; `pulse` is called whenever there is something new of it, from another thread.
+    /// Starts a run in another thread. The thread calls `pulse` whenever there is news of the run.
     pub(super) fn begin(
         id: RunId,
         scene: Arc<Scene>,
@@ -97,34 +97,34 @@ impl Simulation {
         let own = Arc::clone(&run);
         thread::Builder::new().name("run".to_owned()).spawn(move || {
             let outcome = caught("simulating", || own.simulate(&pulse));
-            // Nobody else sets it.
+            // Only this thread sets the outcome.
             let _ = own.outcome.set(outcome);
             pulse();
         })?;
         Ok(run)
     }
 
-    /// The part that has been simulated so far.
+    /// The frames that have been simulated so far.
     pub(super) fn recording(&self) -> Arc<Recording> {
         Arc::clone(&self.recording.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// How many frames there are.
+    /// The number of frames so far.
     pub(super) fn recorded(&self) -> usize {
         self.recording().frames()
     }
 
-    /// Ends it early: nobody looks at it any more.
+    /// Cancels the run, since no page shows it.
     pub(super) fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// The results after the last frame, if the run reached it; or the reason why it did not.
+    /// The results after the last frame, or the reason why the run ended early. `None` while the run is going on.
     pub(super) fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
         self.outcome.get().map(Result::as_ref)
     }
 
-    /// How far it is.
+    /// The progress of the run.
     pub(super) fn progress(&self) -> Progress {
         let outcome = self.outcome();
         let warnings = outcome.and_then(Result::ok).map(|outcome| outcome.warnings.to_text(false));
@@ -138,7 +138,7 @@ impl Simulation {
         }
     }
 
-    /// A frame that has been recorded, with as much of its past as pictures of the preview show.
+    /// Reads a recorded frame, with the part of its past that the preview shows.
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
         let mut frame = self.recording().read().seen(index)?;
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
@@ -154,7 +154,7 @@ impl Simulation {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).ghosts.clone()
     }
 
-    /// The box in which everything has taken place so far.
+    /// The box around the motion so far.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds
     }
@@ -181,7 +181,7 @@ impl Simulation {
         Ok(Outcome { survey, plans, warnings })
     }
 
-    /// The run that an earlier command has kept.
+    /// The recording of the run in the cache, if an earlier command has saved it.
     fn kept(&self) -> Option<Recorded<'_>> {
         let recording = Arc::new(self.cache.find(&self.scene, &self.moments)?);
         match Recorded::read(&self.scene, Arc::clone(&recording), |_| {}) {
@@ -222,7 +222,7 @@ impl Simulation {
         Ok(recorded)
     }
 
-    /// Collects what trails behind the frames, if anything does.
+    /// Collects the ghosts and lagging cameras of all frames, if the scene has any.
     fn remember(&self, recorded: &Recorded<'_>) -> Result<(), Report> {
         let mut collected = PastOfRun { bounds: recorded.survey().bounds(), ..PastOfRun::default() };
         if Frames::recorded(&self.scene, recorded.recording()).remember_anything() {

@@ -1,4 +1,4 @@
-//! Data for the plots: numbers of frames, little-endian 64-bit.
+//! Encodes data for the plots: little-endian 64-bit numbers.
 
 use std::io;
 
@@ -8,12 +8,12 @@ use super::numbers::{put, put_balance};
 use super::run::Simulation;
 use crate::dynamics::{BodySnapshot, RigidBody};
 
-/// The balances of all bodies together, for each frame, as [`put_balance`] writes them.
+/// The balance of each frame over all bodies, as written by [`put_balance`].
 pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
     for frame in frames {
-        // One body is read faster than all.
+        // Reading one body is faster than reading all.
         let (moment, _) = reader.body(frame, 0)?;
         let impacts =
             if run.scene.simulation.contacts.is_some() { moment.impacts.of_run() } else { f64::NAN };
@@ -22,9 +22,9 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
     Ok(all)
 }
 
-/// The samples of a body in each frame: the time; its location, velocity, angular velocity and the force on it, 3 numbers each;
-/// its kinetic energy; its number of impacts. While the body is absent, all but the time are NaN. Without contacts, the number of
-/// impacts is NaN.
+/// The sample of a body in each frame: the time; location, velocity, angular velocity and net force, with 3 numbers
+/// each; the kinetic energy; the number of impacts. While the body is absent, all numbers except the time are NaN.
+/// Without contacts, the number of impacts is NaN.
 pub(super) fn of_body(
     run: &Simulation,
     body: usize,
@@ -50,7 +50,7 @@ pub(super) fn of_body(
     Ok(all)
 }
 
-/// The kinetic energy of a body, translation and rotation, J.
+/// The kinetic energy of a body, translational and rotational, J.
 fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
     if body.fixed || body.mass <= 0.0 {
         return 0.0;

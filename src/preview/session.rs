@@ -1,4 +1,4 @@
-//! A session: the scene's last good run, the current errors of the scene, and runs by other methods.
+//! A session: the last run of the scene without errors, the current errors of the scene, and runs by other methods.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
@@ -22,7 +22,7 @@ use crate::scene::{Options, Override};
 /// Reads a scene from its file.
 type Reader = dyn Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync;
 
-/// The state of a preview. All open pages see the same.
+/// The state of a preview. All open pages show the same state.
 pub(super) struct Session {
     path: PathBuf,
     pub(super) options: Options,
@@ -30,50 +30,50 @@ pub(super) struct Session {
     reader: Box<Reader>,
     inner: Mutex<Inner>,
     next: AtomicU64,
-    /// Counts whatever changes.
+    /// A counter that increases with each change of the state.
     pulse: watch::Sender<u64>,
     said: Box<dyn Fn(&Report) + Send + Sync>,
 }
 
 #[derive(Default)]
 struct Inner {
-    /// How many scenes there have been.
+    /// The number of scenes so far: each change of the scene increases it.
     generation: u64,
     current: Option<Arc<Simulation>>,
-    /// Runs of the same scene by other methods, each with what it differs by; the oldest first.
+    /// Runs of the same scene by other methods, each with its method and step, oldest first.
     variants: VecDeque<(Variant, Arc<Simulation>)>,
     problem: Option<String>,
     warnings: Option<String>,
 }
 
-/// A method and a step that are not the scene's.
+/// A method and a step that replace those of the scene.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 pub(super) struct Variant {
     /// The name of the method.
     integrator: String,
-    /// The longest timestep, s, as it was typed.
+    /// The largest timestep, s, as the user typed it.
     step: String,
 }
 
-/// The state that the page receives whenever something changes.
+/// The state that the page receives after each change.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct State {
-    /// The run of the scene as it last was without errors.
+    /// The id of the scene's last run without errors.
     current: Option<String>,
-    /// The method that the scene itself names.
+    /// The method that the scene sets.
     integrator: Option<&'static str>,
     /// The current errors of the scene, as the terminal shows them.
     problem: Option<String>,
     /// The warnings of the scene.
     warnings: Option<String>,
-    /// All runs that can be asked for.
+    /// The progress of all runs that the page can request.
     runs: BTreeMap<String, Progress>,
 }
 
-/// The most runs by other methods that are kept.
+/// The largest number of runs by other methods.
 const VARIANTS: usize = 8;
 
-/// A new run that takes longer than this is shown unfinished.
+/// A new run is shown unfinished if it takes longer than this.
 const QUICK: Duration = Duration::from_millis(150);
 
 impl Inner {
@@ -84,7 +84,7 @@ impl Inner {
 }
 
 impl Session {
-    /// The session of a scene, before it is read. `said` gets what the terminal shall show.
+    /// Creates a session. It has not read the scene yet. `said` gets the reports for the terminal.
     pub(super) fn new(
         path: PathBuf,
         options: Options,
@@ -94,7 +94,7 @@ impl Session {
         Session::with_reader(path, options, cache, said, |path, options| Scene::from_path_with(path, options))
     }
 
-    /// A session whose scene is read by the given function.
+    /// Creates a session that reads its scene with the given function.
     fn with_reader(
         path: PathBuf,
         options: Options,
@@ -107,7 +107,7 @@ impl Session {
         Arc::new(Session { path, options, cache, reader, inner, next, pulse, said })
     }
 
-    /// Reads the scene, and again whenever one of its files changes, until somebody asks to stop.
+    /// Reads the scene, and reads it again whenever one of its files changes, until `stop` is set.
     pub(super) fn follow(self: &Arc<Session>, stop: &AtomicBool) {
         let mut watched = Watched::new(std::slice::from_ref(&self.path));
         loop {
@@ -129,12 +129,12 @@ impl Session {
         }
     }
 
-    /// A counter that goes up whenever something changes.
+    /// A receiver for the counter, which increases with each change.
     pub(super) fn pulse(&self) -> watch::Receiver<u64> {
         self.pulse.subscribe()
     }
 
-    /// All that a page needs to know.
+    /// The current state, for the page.
     pub(super) fn state(&self) -> State {
         let inner = self.lock();
         let runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
@@ -147,14 +147,14 @@ impl Session {
         }
     }
 
-    /// The run with a number, if it is still kept.
+    /// The run with this id. `None` if the run has been removed.
     pub(super) fn run(&self, id: RunId) -> Option<Arc<Simulation>> {
         let inner = self.lock();
         let mut runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
         runs.find(|run| run.id == id).cloned()
     }
 
-    /// A run of the scene by another method; the same for everyone who asks for the same.
+    /// Starts a run of the scene by another method. Equal requests share one run.
     ///
     /// # Errors
     /// If the scene, the method or the step is wrong.
@@ -171,7 +171,7 @@ impl Session {
             let run = self.begin(scene).map_err(|error| no_room(&error))?;
             let mut inner = self.lock();
             let other = inner.variant(&variant);
-            // The scene may have become another one meanwhile, and somebody else may have asked for the same.
+            // Meanwhile, the scene may have changed, and another page may have made the same request.
             if inner.generation != begun_with || other.is_some() {
                 run.cancel();
                 continue;
@@ -186,7 +186,7 @@ impl Session {
         }
     }
 
-    /// How the scene is read for another method; an empty one, or an empty step, is the scene's own.
+    /// The options for reading the scene with another method. An empty method or step keeps that of the scene.
     fn options_of(&self, variant: &Variant) -> Options {
         let mut options = self.options.clone();
         for (key, value) in [("integrator", &variant.integrator), ("step", &variant.step)] {
@@ -197,12 +197,12 @@ impl Session {
         options
     }
 
-    /// The scene, as its files are now. A panic is an error like any other: the next save is read.
+    /// Reads the scene's current files. A panic becomes an error report, so that the session can read the next version.
     fn scene(&self, options: &Options) -> Result<Scene, Report> {
         caught("reading the scene", || (self.reader)(&self.path, options))
     }
 
-    /// Reads the scene; tells whether it should be read once more, since it may have changed meanwhile.
+    /// Reads the scene. Returns whether to read it once more, since a file may have changed during the reading.
     fn read(self: &Arc<Session>, watched: &mut Watched) -> bool {
         *watched = Watched::new(&watched.files());
         let read = self.scene(&self.options);
@@ -216,7 +216,7 @@ impl Session {
         watched.are_young()
     }
 
-    /// Shows another scene, unless it is the same.
+    /// Starts the run of a changed scene. Does nothing if the scene is the same as before.
     fn replace(self: &Arc<Session>, scene: Scene) {
         let is_same = |run: &Arc<Simulation>| run.scene.digest == scene.digest;
         if self.lock().current.as_ref().is_some_and(is_same) {
@@ -229,7 +229,7 @@ impl Session {
             Ok(run) => run,
             Err(error) => return self.complain(&no_room(&error)),
         };
-        // A run that finishes at once need not be shown unfinished.
+        // A run that finishes at once is not shown unfinished.
         let begun = Instant::now();
         while run.outcome().is_none() && begun.elapsed() < QUICK {
             thread::sleep(Duration::from_millis(2));
@@ -244,7 +244,7 @@ impl Session {
         old.iter().chain(variants.iter().map(|(_, run)| run)).for_each(|run| run.cancel());
     }
 
-    /// Says what is wrong with the scene; its last good run stays.
+    /// Reports the errors of the scene. The last run without errors stays.
     fn complain(&self, report: &Report) {
         let text = report.to_text(false);
         let is_new = self.lock().problem.replace(text.clone()).is_none_or(|before| before != text);

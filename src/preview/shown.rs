@@ -1,4 +1,4 @@
-//! The things shown beside the bodies in a frame, as the page receives them: lengths in metres, colors in sRGB.
+//! The things drawn with the bodies in a frame, for the page. Lengths are in metres, colors in sRGB.
 
 use std::io;
 
@@ -12,15 +12,15 @@ use crate::simulate::Frame;
 
 type Vector = [f64; 3];
 
-/// The things shown beside the bodies in a frame.
+/// The things drawn with the bodies in a frame.
 #[derive(Serialize)]
 pub(super) struct Shown {
     camera: Camera,
-    /// Given only where they move.
+    /// The lights. `None` if they do not move.
     lights: Option<Vec<Light>>,
-    /// The width of trails without one of their own.
+    /// The width of trails whose width the scene does not set, m.
     stroke: f64,
-    /// Given only where the camera moves.
+    /// The grid. `None` if the camera does not move.
     grid: Option<Vec<Line>>,
     arrows: Vec<Arrow>,
     axes: Vec<Axes>,
@@ -29,25 +29,25 @@ pub(super) struct Shown {
     bar: Option<Bar>,
 }
 
-/// A camera at a moment.
+/// A camera at one time.
 #[derive(Serialize)]
 pub(super) struct Camera {
     location: Vector,
     look_at: Vector,
-    /// The horizontal field of view in perspective, degrees.
+    /// The horizontal field of view of a perspective camera, degrees.
     angle: Option<f64>,
-    /// The width that is seen without perspective.
+    /// The width of the view of an orthographic camera, m.
     width: Option<f64>,
 }
 
-/// A light at a moment.
+/// A light at one time.
 #[derive(Serialize)]
 pub(super) struct Light {
     location: Vector,
-    /// Linear, times its intensity.
+    /// The linear color, multiplied by the intensity.
     color: Vector,
     shadows: bool,
-    /// Whether its rays are parallel; then it is far away in the direction of its location.
+    /// Whether the light is parallel. `location` is then a far point in the direction from which the light comes.
     sun: bool,
 }
 
@@ -96,15 +96,16 @@ enum LinkForm {
 struct Text {
     name: String,
     says: String,
-    /// The place on the screen, whose x goes from -1 to 1, and whose y has the same scale and is 0 in the middle.
+    /// The place in the image plane: x goes from -1 to 1, and y has the same scale, with 0 in the middle.
     x: f64,
     y: f64,
     height: f64,
     align: f64,
     color: Vector,
-    /// The body beside which it stands, and on which side.
+    /// The index of the body at which the text stands, and the side of the body. `None` for a text in a corner.
     beside: Option<(usize, &'static str)>,
-    /// Whether it belongs to what only the scene's camera sees so: a grid, the scale bar.
+    /// Whether the text is right only in the view of the scene's camera, as are the numbers of the grid and the scale
+    /// bar.
     in_world: bool,
 }
 
@@ -117,7 +118,7 @@ struct Bar {
     color: Vector,
 }
 
-/// A body as it was.
+/// A ghost: a body at an earlier time.
 #[derive(Serialize)]
 pub(super) struct Ghost {
     time: f64,
@@ -144,7 +145,7 @@ impl Light {
     }
 }
 
-/// The view of a camera in some frames. `None` if the run is not finished, since its cameras have no place yet.
+/// The things drawn in some frames, for one camera. `None` if the run is not finished: its cameras have no place yet.
 pub(super) fn frames(
     run: &Simulation,
     view: usize,
@@ -155,7 +156,7 @@ pub(super) fn frames(
     frames.map(|frame| Ok(shown(&run.scene, plan, &run.frame(frame)?))).collect()
 }
 
-/// The ghosts so far, in the order of their times.
+/// The ghosts so far, in order of time.
 pub(super) fn ghosts(run: &Simulation) -> Vec<Ghost> {
     let ghost = |ghost: &crate::simulate::Ghost| Ghost {
         time: ghost.time,
@@ -239,7 +240,7 @@ pub(super) fn lines(grid: &picture::Grid) -> Vec<Line> {
     grid.lines.iter().map(line).collect()
 }
 
-/// The body beside which a label of a name stands.
+/// The body and side of the label with this name. `None` if the label is not at a body.
 fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
     let label = scene.labels.iter().find(|label| label.name == name)?;
     match label.place {

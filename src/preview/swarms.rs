@@ -1,4 +1,4 @@
-//! The particles of frames, as the page draws them: numbers, little-endian 64-bit.
+//! Encodes the particles of frames for the page: little-endian 64-bit numbers.
 
 use std::io;
 use std::sync::{Mutex, PoisonError};
@@ -9,28 +9,29 @@ use crate::dynamics::Particle;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Swarms;
 
-/// All emitters together show about so many particles at once: the page draws them anew in each frame.
+/// The approximate limit of drawn particles, over all emitters. The page draws all particles anew in each frame.
 const MOST: f64 = 10_000.0;
 
-/// Computes the particles of a run when a page first asks for them.
+/// The particles of a run. They are computed when a page first requests them.
 #[derive(Default)]
 pub(super) struct Kept(Mutex<Option<Swarms>>);
 
-/// At most so many particles of each emitter are shown at once.
+/// The limit of drawn particles per emitter.
 #[allow(clippy::cast_precision_loss, reason = "emitters are few")]
 fn most_of_each(scene: &Scene) -> f64 {
     MOST / scene.emitters.len().max(1) as f64
 }
 
-/// The emitters of which only every so many-th particle is shown.
+/// The emitters with too many particles: name, and n if only every n-th particle is drawn.
 pub(super) fn thinned(run: &Simulation) -> Vec<(String, u64)> {
     let swarms = Swarms::thinned(&run.scene, run.recording(), most_of_each(&run.scene));
     let names = run.scene.emitters.iter().map(|emitter| emitter.name.to_string());
     names.zip(swarms.strides().iter().copied()).filter(|(_, stride)| *stride > 1).collect()
 }
 
-/// The particles of some frames. Of each frame: how many there are; and of each its place and where its streak ends, m; its radius, m; its
-/// color, sRGB; and whether it shines by itself. What has no streak has its end at its place.
+/// The particles of some frames. A frame has the number of its particles, then for each particle: its place and the end
+/// of its streak, m; its radius, m; its color, sRGB; whether it gives light. Without a streak, the end of the streak is
+/// the place.
 pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let mut kept = run.swarms.0.lock().unwrap_or_else(PoisonError::into_inner);
     let recording = run.recording();
@@ -55,7 +56,7 @@ pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> i
     Ok(bytes)
 }
 
-/// The numbers that show a particle at a time, s: its two ends, radius and color, and whether it shines.
+/// The numbers of a particle at `time`, s: its two ends, its radius and color, and whether it gives light.
 fn seen(emitter: &Emitter, particle: &Particle, time: f64) -> impl Iterator<Item = f64> {
     let age = if particle.dies.is_finite() { particle.age(time) } else { 0.0 };
     let past = emitter.streak.min(time - particle.born).max(0.0);

@@ -1,45 +1,45 @@
-//! When the files of a scene change.
+//! Detects changes in the files of a scene.
 //!
-//! They are looked at from time to time, rather than reported by the system: so files are seen that come over a
-//! network, that an editor replaces instead of writing to, and that are not there yet.
+//! The files are checked at regular intervals, without notifications from the system. So changes are also found in
+//! files on a network, in files that an editor replaces, and in files that do not exist yet.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// The interval at which the files are checked.
+/// The interval between two checks of the files.
 pub(super) const INTERVAL: Duration = Duration::from_millis(60);
 
-/// A mark that tells whether a file has changed. `None` if there is no file.
+/// The size, inode and time of a file, which show whether it has changed. `None` if the file does not exist.
 type Mark = Option<(u64, u64, SystemTime)>;
 
-/// The files that a scene was read from, as they were.
+/// The files of a scene, with their marks.
 pub(super) struct Watched(Vec<(PathBuf, Mark)>);
 
 impl Watched {
-    /// These files, as they are now. It is asked for before they are read, so that no change is missed.
+    /// Records the current marks of the files. Call it before the files are read, so that no change is missed.
     pub(super) fn new(files: &[PathBuf]) -> Watched {
         Watched(files.iter().map(|file| (file.clone(), mark(file))).collect())
     }
 
-    /// Watches further files as well, as they are now.
+    /// Adds files, with their current marks.
     pub(super) fn add(&mut self, files: &[PathBuf]) {
         let new = files.iter().filter(|file| !self.0.iter().any(|(known, _)| known == *file));
         let new: Vec<_> = new.map(|file| (file.clone(), mark(file))).collect();
         self.0.extend(new);
     }
 
-    /// The files.
+    /// The paths of the files.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         self.0.iter().map(|(file, _)| file.clone()).collect()
     }
 
-    /// Whether one has changed since.
+    /// Whether a file has changed since its mark was recorded.
     pub(super) fn have_changed(&self) -> bool {
         self.0.iter().any(|(file, before)| mark(file) != *before)
     }
 
-    /// Waits until nobody writes to them any more, as far as that can be seen: what writes a file anew empties it first.
+    /// Waits until the files stop changing and none is empty: an editor may empty a file before it writes the new text.
     pub(super) fn settle(&self) {
         const QUIET: Duration = Duration::from_millis(20);
         const MOST: u32 = 15;
@@ -56,7 +56,7 @@ impl Watched {
         }
     }
 
-    /// Whether one is so young that another change of the same moment might look the same.
+    /// Whether a file changed so recently that a further change might leave the same mark.
     pub(super) fn are_young(&self) -> bool {
         const YOUNG: Duration = Duration::from_millis(50);
         let is_young = |mark: &Mark| {
