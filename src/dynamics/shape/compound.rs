@@ -1,4 +1,4 @@
-//! Several solids as one.
+//! Compounds: several solids as one rigid body.
 
 use std::sync::Arc;
 
@@ -7,31 +7,31 @@ use glam::{DMat3, DQuat, DVec3};
 use super::Shape;
 use super::principal::principal;
 
-/// One of the solids of a compound.
+/// A solid in a compound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Its shape, which is finite unless it weighs nothing.
+    /// The shape of the part. It is finite, or has no mass.
     pub shape: Shape,
-    /// Its centre of mass, m.
+    /// The location of the part's centre of mass, m.
     pub location: DVec3,
-    /// Its orientation.
+    /// The orientation of the part.
     pub orientation: DQuat,
 }
 
-/// Several solids of one density as one rigid body. Where they overlap, both count.
+/// Several solids of one density as one rigid body. The mass of an overlap counts for each part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compound {
-    /// Clones of a compound share them.
+    /// The parts. Clones of a compound share them.
     parts: Arc<[Part]>,
     volume: f64,
-    /// Principal moments of inertia per mass, m².
+    /// The principal moments of inertia per mass, m².
     inertia: DVec3,
     principal_axes: DQuat,
 }
 
 impl Compound {
-    /// The compound of some parts, in a frame whose axes are theirs and whose origin is the centre of mass of all, so
-    /// it does not matter where theirs is.
+    /// Creates a compound from parts. Moves the origin to the common centre of mass and keeps the axes, so the origin
+    /// of the given parts does not matter.
     #[must_use]
     pub fn new(mut parts: Vec<Part>) -> Compound {
         let volume_of = |part: &Part| part.shape.volume().unwrap_or(0.0);
@@ -44,7 +44,7 @@ impl Compound {
         Compound { parts: parts.into(), volume, inertia, principal_axes }
     }
 
-    /// Its parts, about its centre of mass.
+    /// The parts, in a frame whose origin is the centre of mass of the compound.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -62,7 +62,7 @@ impl Compound {
         self.principal_axes
     }
 
-    /// The farthest that a part reaches along a direction in the frame of the compound.
+    /// The largest reach of a part in a direction in the frame of the compound, m.
     pub(super) fn support(&self, direction: DVec3) -> Option<f64> {
         let reach = |part: &Part| {
             Some(part.location.dot(direction) + part.shape.support(part.orientation, direction)?)
@@ -86,8 +86,8 @@ impl Compound {
     }
 }
 
-/// The inertia of a part per mass about the origin, m²: that about its own centre, turned, and by the parallel axis
-/// theorem (Goldstein, *Classical Mechanics*, ch. 5) that of its centre.
+/// The inertia tensor of a part about the origin, per mass, m²: the tensor about its own centre, rotated, plus that of
+/// its centre by the parallel axis theorem (Goldstein, *Classical Mechanics*, ch. 5).
 fn tensor(part: &Part) -> DMat3 {
     let turn = DMat3::from_quat(part.orientation * part.shape.principal_axes());
     let own = turn * DMat3::from_diagonal(part.shape.inertia(1.0)) * turn.transpose();

@@ -4,30 +4,30 @@ use glam::{DQuat, DVec3};
 
 use super::Shape;
 
-/// The most iterations spent on finding a point that two shapes share. Round shapes that just touch need the most.
+/// The largest number of iterations in the search for a common point. Round shapes that just touch need the most.
 const MAX_STEPS: usize = 64;
 
-/// A convex shape at a place.
+/// A convex shape with a location, an orientation and a scale.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
     /// The shape.
     pub shape: &'a Shape,
-    /// Its centre of mass, m.
+    /// The location of the centre of mass, m.
     pub location: DVec3,
-    /// Its orientation.
+    /// The orientation of the shape.
     pub orientation: DQuat,
-    /// The factor by which it is enlarged.
+    /// The factor by which the shape is enlarged.
     pub scale: f64,
 }
 
 impl Placed<'_> {
-    /// The point that is farthest in a direction, m.
+    /// The point of the shape that is farthest in a direction, m.
     fn farthest(&self, direction: DVec3) -> DVec3 {
         let point = self.shape.farthest(self.orientation.conjugate() * direction).unwrap_or(DVec3::ZERO);
         self.location + self.scale * (self.orientation * point)
     }
 
-    /// Whether two convex shapes have a point in common; `false` where that cannot be decided.
+    /// Whether two convex shapes have a common point. `false` if the search does not converge.
     ///
     /// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, IEEE J. Robotics and Automation 4 (1988) 193; balls by their
     /// distance.
@@ -37,12 +37,12 @@ impl Placed<'_> {
         if let (Shape::Sphere { radius: a }, Shape::Sphere { radius: b }) = (self.shape, other.shape) {
             return between.length() < a * self.scale + b * other.scale;
         }
-        // Points of the difference of the shapes, which holds the origin if they meet.
+        // The points of the Minkowski difference of the shapes. The difference contains the origin if the shapes meet.
         let difference = |direction: DVec3| self.farthest(direction) - other.farthest(-direction);
         let mut simplex = vec![difference(if between == DVec3::ZERO { DVec3::X } else { between })];
         let mut nearest = simplex[0];
         for _ in 0..MAX_STEPS {
-            // Nearer than that, rounding decides.
+            // At smaller distances, rounding errors decide.
             if nearest.length_squared() <= 1e-24 * between.length_squared() {
                 return true;
             }
@@ -60,8 +60,8 @@ impl Placed<'_> {
     }
 }
 
-/// The point of a simplex that is nearest to the origin, of which the simplex keeps no more than the part that has that
-/// point; none if a tetrahedron holds the origin.
+/// Finds the point of the simplex that is nearest to the origin, and reduces the simplex to the vertices of the corner,
+/// edge or face that contains the point. `None` if a tetrahedron contains the origin.
 fn reduce(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
     match *simplex.as_slice() {
         [a, b] => Some(of_edge(simplex, a, b)),
@@ -70,7 +70,7 @@ fn reduce(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
             let mut best: Option<(DVec3, Vec<DVec3>)> = None;
             for (a, b, c, opposite) in [(a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)] {
                 let normal = (b - a).cross(c - a);
-                // The origin is on the other side of this face than the rest, or the tetrahedron is flat.
+                // Skip this face: the origin and the opposite vertex are on the same side of it.
                 if normal.dot(-a) * normal.dot(opposite - a) > 0.0 {
                     continue;
                 }

@@ -1,19 +1,19 @@
-//! The exit point of a ray from a shape.
+//! Finds the point at which a ray leaves a shape.
 
 use glam::{DVec2, DVec3};
 
 use super::{Mesh, Shape, cone_base};
 
-/// The most steps taken towards a surface. Only a ray that grazes it needs more than about twenty.
+/// The largest number of steps towards a surface. Only a ray that grazes the surface needs more than about twenty.
 const MAX_STEPS: usize = 300;
-/// A point is on the surface if it is nearer to it than this part of the size of the shape.
+/// A point is on the surface if its distance is below this fraction of the size of the shape.
 const NEAR: f64 = 1e-12;
 /// The radius of the shafts of axes, in lengths of an arm.
 const SHAFT: f64 = 0.03;
 
 impl Shape {
-    /// The distance along a ray to its last point in the shape, m. The ray begins at `origin` (m) and goes along the unit vector
-    /// `direction`, both in the frame of the body. `None` if the ray misses the shape, and for a plane.
+    /// The distance along a ray to its last point in the shape, m. The ray begins at `origin` (m) and has the unit
+    /// direction `direction`, both in the frame of the body. `None` if the ray misses the shape, and for a plane.
     #[must_use]
     pub fn exit(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         match *self {
@@ -32,7 +32,8 @@ impl Shape {
         }
     }
 
-    /// Finds the surface from outside: from each point, as far against the ray as no surface can be.
+    /// Finds the exit point backwards, from a point outside. Each step against the ray is the distance to the surface,
+    /// so that no step passes through it (sphere tracing).
     ///
     /// Source: J. C. Hart, The Visual Computer 12 (1996) 527.
     fn traced(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
@@ -51,10 +52,10 @@ impl Shape {
         Some(along)
     }
 
-    /// The signed distance of a point in the frame of the body from the surface, m; negative inside. `None` for shapes that need
-    /// no distance function.
+    /// The signed distance of a point from the surface, m; negative inside. The point is in the frame of the body.
+    /// `None` for shapes that need no distance function.
     fn distance(&self, point: DVec3) -> Option<f64> {
-        // All of these are round about y.
+        // All shapes below that use `across` are round about y.
         let across = DVec2::new(point.x, point.z).length();
         Some(match *self {
             Shape::RoundedBox { size, rounding } => {
@@ -92,7 +93,8 @@ fn sphere(origin: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     (half_chord >= 0.0 && exit >= 0.0).then_some(exit)
 }
 
-/// The slab method: the ray is inside between the last of the three entries and the first of the three exits.
+/// Finds the exit from a box by the slab method: the ray is inside between the last of the three entries and the first
+/// of the three exits.
 fn cuboid(origin: DVec3, direction: DVec3, half: DVec3) -> Option<f64> {
     let (mut enters, mut leaves) = (0.0f64, f64::MAX);
     for axis in 0..3 {
@@ -109,7 +111,8 @@ fn cuboid(origin: DVec3, direction: DVec3, half: DVec3) -> Option<f64> {
     (enters <= leaves).then_some(leaves)
 }
 
-/// The distance of a point, by its distance from the axis and its height above the base, from a cone without its tip.
+/// The signed distance of a point from a frustum. The coordinates of `point` are its distance from the axis and its
+/// height above the base.
 ///
 /// Source: I. Quilez, "Capped Cone", in his list of distance functions.
 fn cone(point: DVec2, radius: f64, top_radius: f64, height: f64) -> f64 {
@@ -124,7 +127,7 @@ fn cone(point: DVec2, radius: f64, top_radius: f64, height: f64) -> f64 {
     if inside { -off } else { off }
 }
 
-/// The farthest triangle that a ray meets (Möller and Trumbore, J. Graphics Tools 2 (1997) 21).
+/// Finds the farthest triangle that a ray meets (Möller and Trumbore, J. Graphics Tools 2 (1997) 21).
 fn triangles(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<f64> {
     let vertices = mesh.vertices();
     let met = |triangle: &[u32; 3]| {
@@ -140,7 +143,7 @@ fn triangles(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<f64> {
         let turned = from_a.cross(ab);
         let v = direction.dot(turned) / volume;
         let along = ac.dot(turned) / volume;
-        // A ray through an edge meets one of its triangles at least, whatever rounding does.
+        // The tolerance makes a ray through an edge meet at least one triangle at that edge, in spite of rounding.
         (u >= -1e-9 && v >= -1e-9 && u + v <= 1.0 + 1e-9 && along >= 0.0).then_some(along)
     };
     mesh.triangles().iter().filter_map(met).reduce(f64::max)

@@ -1,4 +1,4 @@
-//! The part of a solid that is below a plane: what floats displaces as much water.
+//! Computes the part of a solid below a plane. For a floating body, this part displaces the liquid.
 
 mod revolution;
 
@@ -7,12 +7,12 @@ use glam::DVec3;
 use self::revolution::Profile;
 use super::{Mesh, Shape, cone_base};
 
-/// The part of a shape below a plane, in the shape's frame.
+/// The part of a shape below a plane, in the frame of the shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Immersed {
-    /// Its volume, m³.
+    /// The volume of the part, m³.
     pub volume: f64,
-    /// The integral of the place over it, m⁴: the volume times its centre.
+    /// The integral of the position over the part, m⁴: its volume times its centre.
     pub moment: DVec3,
 }
 
@@ -24,11 +24,11 @@ impl Immersed {
 }
 
 impl Shape {
-    /// The part below the plane up·p = height, m, where `up` is a unit vector in the frame of the shape; none for a shape that is not cut: a plane,
-    /// axes, a box with round edges, or a mesh that is not closed.
+    /// The part below the plane up·p = height, m. `up` is a unit vector in the frame of the shape. `None` for shapes
+    /// that cannot be cut: a plane, axes, a box with round edges, and a mesh that is not closed.
     ///
-    /// Balls, boxes and meshes are cut exactly; what is round about an axis, by integrals over its slices, whose error is 1e-9 of the whole at most, and
-    /// mostly 1e-12.
+    /// Balls, boxes and meshes are cut exactly. Shapes that are round about an axis are integrated over slices. The
+    /// error is at most 1e-9 of the whole, and mostly 1e-12.
     #[must_use]
     pub fn immersed(&self, up: DVec3, height: f64) -> Option<Immersed> {
         Some(match self {
@@ -67,7 +67,8 @@ impl Shape {
     }
 }
 
-/// A cap of height R + h has the volume π (R + h)² (2R − h)/3, and −π (R² − h²)²/4 is its integral of the height.
+/// The part of a ball below a plane at height h above its centre: a cap of height R + h. Its volume is π (R + h)² (2R −
+/// h)/3, and its integral of the height is −π (R² − h²)²/4.
 fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     let h = height.clamp(-radius, radius);
     let pi = std::f64::consts::PI;
@@ -76,8 +77,8 @@ fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     Immersed { volume, moment: -0.25 * pi * rest * rest * up }
 }
 
-/// The corners of the faces of a box, counter-clockwise as seen from outside. Bit 0 of a corner's number is 1 where its x is positive, bit 1 where its
-/// y is, bit 2 where its z is.
+/// The corners of each face of a box, counter-clockwise as seen from outside. In the number of a corner, bit 0 is 1 for
+/// positive x, bit 1 for positive y, bit 2 for positive z.
 const FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
@@ -104,12 +105,12 @@ fn of_mesh(mesh: &Mesh, scale: f64, up: DVec3, height: f64) -> Immersed {
     cut.done()
 }
 
-/// The sum over the parts of a closed surface that are below a plane, each as the pyramid over it with its tip at a point of the plane. The
-/// surface that the plane itself adds has a pyramid without a height.
+/// Sums pyramids over the parts of a closed surface below a plane. The apex of all pyramids is `tip`, a point of the
+/// plane. So the pyramid over the cut face has height 0 and can be left out.
 struct Cut {
     up: DVec3,
     tip: DVec3,
-    /// About the tip.
+    /// The sum of the pyramids, relative to `tip`.
     sum: Immersed,
 }
 
@@ -121,7 +122,7 @@ impl Cut {
     fn add(&mut self, corners: [DVec3; 3]) {
         let corners = corners.map(|corner| corner - self.tip);
         let above = corners.map(|corner| corner.dot(self.up));
-        // A plane cuts a triangle to a triangle or a quadrilateral, whose corners come in turn.
+        // A plane cuts a triangle to a triangle or a quadrilateral. Its corners are kept in order.
         let mut kept = [DVec3::ZERO; 4];
         let mut count = 0;
         for (k, corner) in corners.iter().enumerate() {

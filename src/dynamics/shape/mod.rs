@@ -1,4 +1,4 @@
-//! Shapes in mechanics: volume, inertia and extent.
+//! Shapes: volume, inertia and extent.
 
 mod compound;
 mod convex;
@@ -19,85 +19,85 @@ pub use convex::Placed;
 pub use immersed::Immersed;
 pub use mesh::{Flaw, Mesh};
 
-/// The shape of a body, in its own frame: the centre of mass is the origin and, but for compounds and meshes, the
-/// principal axes of inertia are the coordinate axes. What has an axis of symmetry has it along y. Lengths are metres.
+/// The shape of a body in its own frame. The centre of mass is the origin. Except for compounds and meshes, the
+/// coordinate axes are the principal axes of inertia. An axis of symmetry is along y. Lengths are in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A solid sphere.
     Sphere {
-        /// Radius, m.
+        /// The radius, m.
         radius: f64,
     },
-    /// A solid box, its edges along the axes.
+    /// A solid box with edges along the axes.
     Box {
-        /// Full lengths of the edges along x, y and z, m.
+        /// The full lengths of the edges along x, y and z, m.
         size: DVec3,
     },
-    /// A solid box with round edges and corners: all that is within `rounding` of a smaller box.
+    /// A solid box with round edges and corners: all points within `rounding` of a smaller box.
     RoundedBox {
-        /// Full lengths of the edges along x, y and z, m.
+        /// The full lengths of the edges along x, y and z, m.
         size: DVec3,
         /// The radius of the edges, m; at most half the smallest edge.
         rounding: f64,
     },
     /// A solid cylinder.
     Cylinder {
-        /// Radius, m.
+        /// The radius, m.
         radius: f64,
-        /// Height, m.
+        /// The height, m.
         height: f64,
     },
-    /// A solid cylinder with a half ball on either end.
+    /// A solid cylinder with a half ball at each end.
     Capsule {
-        /// Radius, m.
+        /// The radius, m.
         radius: f64,
-        /// Height from tip to tip, the half balls included, m; at least twice the radius.
+        /// The full height, including the half balls, m; at least twice the radius.
         height: f64,
     },
-    /// A solid cone, or a frustum of one. Its base is below its tip, so that the centre of mass is the origin: a
-    /// quarter of the height above the base of a whole cone.
+    /// A solid cone or frustum, with the base at the bottom. The origin is the centre of mass: for a whole cone, a
+    /// quarter of the height above the base.
     Cone {
         /// The radius of the base, m.
         radius: f64,
-        /// The radius of the upper end, m: 0 for a whole cone.
+        /// The radius of the top, m: 0 for a whole cone.
         top_radius: f64,
-        /// Height, m.
+        /// The height, m.
         height: f64,
     },
-    /// A solid ring: a disk that goes around the axis.
+    /// A solid torus: a disk that is rotated about the axis.
     Torus {
-        /// The distance of the middle of the tube from the axis, m.
+        /// The distance from the axis to the middle of the tube, m.
         radius: f64,
         /// The radius of the tube, m; at most `radius`.
         tube_radius: f64,
     },
-    /// An infinite plane through the origin, with solid ground below it.
+    /// An infinite plane through the origin, with solid ground below.
     Plane {
-        /// Unit normal, in the frame of the body; it points out of the ground.
+        /// The unit normal in the frame of the body. It points out of the ground.
         normal: DVec3,
     },
-    /// A triad of axes: three arms from the origin along x, y and z. It shows an orientation, and has the mechanics
-    /// of a solid sphere with radius `length / 2`.
+    /// A triad of axes, which shows an orientation: three arms from the origin along x, y and z. Its volume and inertia
+    /// are those of a solid sphere with radius `length / 2`.
     Axes {
-        /// Length of an arm, m.
+        /// The length of an arm, m.
         length: f64,
     },
-    /// Several solids as one.
+    /// Several solids as one rigid body.
     Compound(Compound),
-    /// The solid that a surface of triangles encloses. If the surface is not closed, it has no mechanics.
+    /// The solid inside a surface of triangles. If the surface is not closed, the shape has no volume or inertia.
     Mesh {
-        /// The surface, which several bodies may share.
+        /// The surface. Several bodies may share it.
         mesh: Arc<Mesh>,
-        /// The length of one unit of it, m.
+        /// The length of one unit of the mesh, m.
         scale: f64,
     },
 }
 
-/// The radius of an arm of the axes, at its thickest, in lengths of an arm.
+/// The largest radius of an arm of the axes, in lengths of an arm.
 const ARM_RADIUS: f64 = 0.078;
 
 impl Shape {
-    /// The name by which scenes know it.
+    /// The name of the shape in scenes.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -114,7 +114,7 @@ impl Shape {
         }
     }
 
-    /// The volume in m³; `None` for a plane, which has no finite one, and for a mesh that is not closed.
+    /// The volume, m³. `None` for a plane, whose volume is infinite, and for a mesh that is not closed.
     #[must_use]
     pub fn volume(&self) -> Option<f64> {
         Some(match *self {
@@ -132,15 +132,15 @@ impl Shape {
         })
     }
 
-    /// The radius of a ball of the same volume, m; `None` where there is no volume.
+    /// The radius of a ball of the same volume, m. `None` if the shape has no volume.
     pub(crate) fn radius_of_ball(&self) -> Option<f64> {
         self.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI))
     }
 
-    /// The principal moments of inertia, kg m², of a homogeneous solid of `mass` kg.
+    /// The principal moments of inertia of a homogeneous solid of `mass` kg, kg m².
     ///
-    /// A plane has no finite moments, and a mesh that is not closed has none that are known; zero stands for them, which
-    /// everywhere means that no torque turns the body.
+    /// They are infinite for a plane, and unknown for a mesh that is not closed. The result is then zero, which means
+    /// that no torque rotates the body.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> DVec3 {
         match *self {
@@ -158,8 +158,8 @@ impl Shape {
         }
     }
 
-    /// The rotation that takes the principal axes of inertia to the frame of the body: none but for compounds
-    /// and meshes.
+    /// The rotation from the principal axes of inertia to the frame of the body. The identity, except for compounds and
+    /// meshes.
     #[must_use]
     pub fn principal_axes(&self) -> DQuat {
         match self {
@@ -169,16 +169,16 @@ impl Shape {
         }
     }
 
-    /// How far the shape reaches from its centre along the unit vector `direction` (world axes), in metres: the
-    /// support function, the largest `p · direction` over its points `p`. `None` for a plane.
+    /// The reach of the shape from its centre in the unit direction `direction` (world axes), m. This is the support
+    /// function: the largest `p · direction` over all points `p`. `None` for a plane.
     #[must_use]
     pub fn support(&self, world_from_body: DQuat, direction: DVec3) -> Option<f64> {
         if let Shape::Sphere { radius } = *self {
-            // The same in all directions, and by far the most frequent: no need to turn anything.
+            // A fast path for spheres, the most frequent shape: their reach does not depend on the direction.
             return Some(radius);
         }
         let direction = world_from_body.conjugate() * direction;
-        // The part of the direction across the axis of symmetry.
+        // The component of the direction across the axis of symmetry.
         let across = (direction.x * direction.x + direction.z * direction.z).sqrt();
         Some(match *self {
             Shape::Sphere { radius } => radius,
@@ -193,15 +193,15 @@ impl Shape {
             }
             Shape::Torus { radius, tube_radius } => radius * across + tube_radius,
             Shape::Plane { .. } => return None,
-            // The ends of the arms count: the three tips and the origin, whose p · direction is 0.
+            // The extreme points are the ends of the three arms and the origin. At the origin, p · direction is 0.
             Shape::Axes { length } => length * (direction.max_element().max(0.0) + ARM_RADIUS),
             Shape::Compound(ref compound) => return compound.support(direction),
             Shape::Mesh { ref mesh, scale } => scale * mesh.support(direction),
         })
     }
 
-    /// The point that is farthest in a direction (any length, in the frame of the body), m; `None` for a shape that is
-    /// not convex or has no end.
+    /// The point that is farthest in a direction, m. The direction is in the frame of the body, and need not be a unit
+    /// vector. `None` for shapes that are not convex or not finite.
     #[must_use]
     pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
         let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
@@ -227,9 +227,9 @@ impl Shape {
         })
     }
 
-    /// The radius of a ball around the centre of mass that holds the whole shape, m. `None` for a plane.
+    /// The radius of a ball around the centre of mass that contains the whole shape, m. `None` for a plane.
     ///
-    /// It is the smallest such ball, but for compounds, where it may be a little larger.
+    /// It is the smallest such radius, except for compounds, whose radius may be slightly larger.
     #[must_use]
     pub fn bounding_radius(&self) -> Option<f64> {
         Some(match *self {
@@ -253,11 +253,11 @@ impl Shape {
         })
     }
 
-    /// Half of the smallest thickness anywhere, m: what is to be seen of the shape at all is about as thick. `None`
-    /// for a plane and for a flat mesh.
+    /// Half of the smallest thickness, m. POV-Ray cannot draw a shape whose thickness is too small. `None` for a plane
+    /// and a flat mesh.
     #[must_use]
     pub fn half_thickness(&self) -> Option<f64> {
-        // The shafts of the arrows of axes, in lengths of an arm.
+        // The radius of the shafts of axes, in lengths of an arm.
         const SHAFT_RADIUS: f64 = 0.03;
         Some(match *self {
             Shape::Sphere { radius } => radius,
@@ -273,13 +273,13 @@ impl Shape {
         })
     }
 
-    /// The farthest that the shape reaches along one of its own axes, m; none for a plane.
+    /// The largest reach of the shape along one of its axes, m. `None` for a plane.
     pub fn extent(&self) -> Option<f64> {
         let reach = |axis: DVec3| self.support(DQuat::IDENTITY, axis);
         Some(reach(DVec3::X)?.max(reach(DVec3::Y)?).max(reach(DVec3::Z)?))
     }
 
-    /// The same shape, so many times larger. A plane stays as it is.
+    /// The shape, enlarged by a factor. A plane does not change.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Shape {
         let mut scaled = self.clone();
@@ -311,14 +311,14 @@ impl Shape {
         scaled
     }
 
-    /// Whether the shape has no end, as a plane has none.
+    /// Whether the shape is infinite, as a plane is.
     #[must_use]
     pub fn is_unbounded(&self) -> bool {
         matches!(self, Shape::Plane { .. })
     }
 }
 
-/// The y of the base of a cone whose centre of mass is at the origin, m; negative.
+/// The y coordinate of the base of a cone whose centre of mass is the origin, m; negative.
 #[must_use]
 pub fn cone_base(radius: f64, top_radius: f64, height: f64) -> f64 {
     -solids::cone_centre(radius, top_radius, height)

@@ -1,17 +1,17 @@
-//! Principal axes of an inertia tensor.
+//! Computes the principal axes of an inertia tensor.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Off-diagonal entries below this part of the trace count as rounding errors.
+/// Off-diagonal elements below this fraction of the trace are rounding errors.
 const ROUNDING: f64 = 1e-15;
-/// Far more sweeps than it takes: each squares what is left beside the diagonal.
+/// The largest number of sweeps. Far fewer suffice, since each sweep squares the relative off-diagonal elements.
 const MOST_SWEEPS: usize = 30;
 
-/// The eigenvalues of a symmetric matrix, and the rotation that takes the coordinate axes to its eigenvectors, in that
-/// order. A matrix that is diagonal but for rounding gives its diagonal and no rotation.
+/// The eigenvalues of a symmetric matrix, and the rotation from the coordinate axes to its eigenvectors, in the same
+/// order. For a matrix that is diagonal up to rounding: its diagonal, and no rotation.
 ///
-/// Jacobi's method, in sweeps (W. H. Press et al., *Numerical Recipes*, ch. 11.1): each rotation, by the smaller angle,
-/// makes one element zero. It takes square roots only, so it gives the same bits everywhere.
+/// Jacobi's method, in sweeps (W. H. Press et al., *Numerical Recipes*, ch. 11.1). Each rotation makes one element
+/// zero, by the smaller of two angles. The method uses only square roots, so it gives the same bits on all platforms.
 pub(super) fn principal(tensor: DMat3) -> (DVec3, DQuat) {
     let mut matrix = tensor.to_cols_array_2d();
     let least = ROUNDING * (matrix[0][0] + matrix[1][1] + matrix[2][2]);

@@ -1,46 +1,49 @@
-//! Volumes, and principal moments of inertia per mass (m²), of homogeneous solids about their centre of mass.
+//! Volumes and principal moments of inertia of homogeneous solids. The moments are per mass, m², about the centre of
+//! mass.
 //!
-//! Where nothing else is said, the formulas are those of the tables of solids in J. L. Meriam, L. G. Kraige,
-//! *Engineering Mechanics: Dynamics*, appendix D, with the axis of symmetry along y.
+//! Unless noted otherwise, the formulas are from J. L. Meriam, L. G. Kraige, *Engineering Mechanics: Dynamics*,
+//! appendix D, with the axis of symmetry along y.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-/// ⁴⁄₃ π r³.
+/// The volume of a sphere, m³: ⁴⁄₃ π r³.
 pub(super) fn sphere_volume(radius: f64) -> f64 {
     4.0 / 3.0 * PI * radius * radius * radius
 }
 
-/// ⅖ r².
+/// The moments of a sphere per mass, m²: ⅖ r².
 pub(super) fn sphere(radius: f64) -> DVec3 {
     DVec3::splat(0.4 * radius * radius)
 }
 
-/// b² + c² and its permutations, which is twelve times the moments (Goldstein, *Classical Mechanics*, ch. 5).
+/// Twelve times the moments of a box per mass, m²: b² + c² and its permutations (Goldstein, *Classical Mechanics*, ch.
+/// 5).
 pub(super) fn box_times_12(size: DVec3) -> DVec3 {
     let square = size * size;
     DVec3::new(square.y + square.z, square.z + square.x, square.x + square.y)
 }
 
-/// π r² h.
+/// The volume of a cylinder, m³: π r² h.
 pub(super) fn cylinder_volume(radius: f64, height: f64) -> f64 {
     PI * radius * radius * height
 }
 
-/// ½ r² about the axis, ¹⁄₁₂ (3 r² + h²) across it.
+/// The moments of a cylinder per mass, m²: ½ r² about the axis, ¹⁄₁₂ (3 r² + h²) across it.
 pub(super) fn cylinder(radius: f64, height: f64) -> DVec3 {
     let square = radius * radius;
     about_y(square / 2.0, (3.0 * square + height * height) / 12.0)
 }
 
-/// A cylinder and a ball.
+/// The volume of a capsule, m³: a cylinder and two half balls.
 pub(super) fn capsule_volume(radius: f64, height: f64) -> f64 {
     cylinder_volume(radius, height - 2.0 * radius) + sphere_volume(radius)
 }
 
-/// A cylinder of length l and two half balls, whose centres of mass are l/2 + ⅜ r away: across the axis they have
-/// ⅖ r² + ¼ l² + ⅜ l r, since a half ball has ⁸³⁄₃₂₀ r² about its centre of mass, and ⁸³⁄₃₂₀ + ⁹⁄₆₄ = ⅖.
+/// The moments of a capsule per mass, m²: those of a cylinder of length l and of two half balls. The centre of mass of
+/// a half ball is l/2 + ⅜ r from the origin. Across the axis, its moment about its own centre of mass is ⁸³⁄₃₂₀ r².
+/// With ⁸³⁄₃₂₀ + ⁹⁄₆₄ = ⅖, the moment of the half balls about the origin is ⅖ r² + ¼ l² + ⅜ l r.
 pub(super) fn capsule(radius: f64, height: f64) -> DVec3 {
     let length = height - 2.0 * radius;
     let (tube, balls) = (cylinder_volume(radius, length), sphere_volume(radius));
@@ -50,20 +53,21 @@ pub(super) fn capsule(radius: f64, height: f64) -> DVec3 {
     share * cylinder(radius, length) + (1.0 - share) * of_balls
 }
 
-/// ⅓ π h (R² + R r + r²).
+/// The volume of a cone or frustum, m³: ⅓ π h (R² + R r + r²).
 pub(super) fn cone_volume(radius: f64, top_radius: f64, height: f64) -> f64 {
     PI / 3.0 * height * cone_sum(radius, top_radius)
 }
 
-/// How far the centre of mass is above the base: ¼ h (R² + 2 R r + 3 r²) / (R² + R r + r²).
+/// The height of a cone's centre of mass above the base, m: ¼ h (R² + 2 R r + 3 r²) / (R² + R r + r²).
 pub(super) fn cone_centre(radius: f64, top_radius: f64, height: f64) -> f64 {
     let weighted = radius * radius + 2.0 * radius * top_radius + 3.0 * top_radius * top_radius;
     height / 4.0 * weighted / cone_sum(radius, top_radius)
 }
 
-/// The principal moments of inertia per mass, m², of a cone or frustum. About the axis: ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³),
-/// with the factor R − r cancelled. Across the axis: half of that moment plus the mean square of y − y_c, which is ³⁄₈₀
-/// h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
+/// The moments of a cone or frustum per mass, m².
+///
+/// About the axis: ³⁄₁₀ (R⁵ − r⁵) / (R³ − r³), with the factor R − r cancelled. Across the axis: half of that moment,
+/// plus the mean square of the height relative to the centre of mass, ³⁄₈₀ h² ((R + r)⁴ + 4 R² r²) / (R² + R r + r²)².
 pub(super) fn cone(radius: f64, top_radius: f64, height: f64) -> DVec3 {
     // The fourth powers of lengths may overflow. The ratios of the radii to the larger radius are at most 1.
     let widest = radius.max(top_radius);
@@ -82,24 +86,24 @@ fn cone_sum(radius: f64, top_radius: f64) -> f64 {
     radius * radius + radius * top_radius + top_radius * top_radius
 }
 
-/// 2 π² R r², by Pappus.
+/// The volume of a torus by Pappus's theorem, m³: 2 π² R r².
 pub(super) fn torus_volume(radius: f64, tube_radius: f64) -> f64 {
     2.0 * PI * PI * radius * tube_radius * tube_radius
 }
 
-/// R² + ¾ r² about the axis, ½ R² + ⅝ r² across it.
+/// The moments of a torus per mass, m²: R² + ¾ r² about the axis, ½ R² + ⅝ r² across it.
 pub(super) fn torus(radius: f64, tube_radius: f64) -> DVec3 {
     let (ring, tube) = (radius * radius, tube_radius * tube_radius);
     about_y(ring + 0.75 * tube, 0.5 * ring + 0.625 * tube)
 }
 
-/// Volume and moments of a box with round edges.
+/// The volume, m³, and the moments per mass, m², of a box with round edges.
 ///
-/// Across x, what is at |x| ≤ a/2, where a is the inner edge, is a rectangle b × c with corners of radius r; what is u
-/// farther out is one with corners of radius √(r² − u²). Its area is b c + 2 (b + c) r + π r². The mean of x²
-/// follows from ∫ uⁿ du, ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
+/// Let a, b and c be the inner edges. A slice across x at |x| ≤ a/2 is the rectangle b × c extended by r, with round
+/// corners. At |x| = a/2 + u, it is extended by √(r² − u²). Extended by ρ, its area is b c + 2 (b + c) ρ + π ρ². The mean
+/// of x² follows from ∫ uⁿ du, ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
 pub(super) fn rounded_box(size: DVec3, rounding: f64) -> (f64, DVec3) {
-    // Fifth powers of lengths may be no numbers; those of ratios are.
+    // The fifth powers of lengths may overflow. The ratios of lengths to the longest edge are at most 1.
     let unit = size.max_element();
     let (inner, r) = ((size - 2.0 * rounding).max(DVec3::ZERO) / unit, rounding / unit);
     let (r2, r3) = (r * r, r * r * r);
