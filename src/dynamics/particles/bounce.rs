@@ -1,9 +1,10 @@
 //! Collisions of a particle with obstacles: impacts, friction and rest.
 //!
-//! A particle is a small ball without rotation. If its path through a step leads into an obstacle, conservative advancement finds
-//! the first time of contact (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2). There
-//! it gets an impulse by Newton's law of impact and Coulomb's law of friction, and starts the rest of the step from there. A
-//! particle that would rebound for less than a fraction of a step stays in contact: it slides or sticks.
+//! A particle is a small ball without rotation. If its path through a step leads into an obstacle, conservative
+//! advancement finds the first time of contact (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems*
+//! (1996), chapter 2). There the particle gets an impulse by Newton's law of impact and Coulomb's law of friction. The
+//! rest of the step starts from there. If the rebound would last for less than a fraction of a step, the particle stays
+//! in contact: it slides or sticks.
 
 use glam::DVec3;
 
@@ -13,21 +14,22 @@ use super::stepper::Stepper;
 use super::way::{Leap, Way};
 use crate::dynamics::contact::{Ball, Meeting, Surface};
 
-/// Particles touch where the gap is below this part of their radius, or of the coordinates.
+/// The largest gap of a touching particle, relative to its radius, or, for `DIGITS`, relative to its coordinates.
 const TOUCH: f64 = 1e-11;
 const DIGITS: f64 = 2e-15;
-/// Gaps below this part of the radius count as contact, unless the bodies separate.
+/// The largest gap that counts as contact unless the bodies separate, relative to the particle's radius.
 const SNUG: f64 = 1e-6;
-/// Approaches below this part of the speed have come from rounding.
+/// Approaches slower than this fraction of the speed are rounding errors.
 const SLIGHT: f64 = 1e-10;
-/// A rebound that is over after this part of a step is none.
+/// A rebound that lasts for less than this fraction of a step is ignored.
 const SHORT: f64 = 0.25;
-/// The most events followed in one step.
+/// The largest number of events in one step.
 const MOST: usize = 12;
-/// The most safe steps taken towards a touch. After these, the way is passed in parts.
+/// The largest number of safe steps towards a contact. After these steps, the path is followed in parts of a fixed
+/// length.
 const ADVANCES: usize = 60;
 const PART: f64 = 1.0 / 64.0;
-/// Impulses at several places are found by at most so many rounds.
+/// The largest number of iterations for the impulses of simultaneous contacts.
 const ROUNDS: usize = 50;
 
 /// Moves the particles of one emitter among obstacles.
@@ -35,30 +37,30 @@ const ROUNDS: usize = 50;
 pub(super) struct Bouncer {
     pub(super) ball: Ball,
     surface: Surface,
-    /// Computes the rest of a step again, after an impact.
+    /// A stepper for single particles. It repeats the rest of a step after an impact.
     spare: Stepper,
     targets: Vec<Target>,
     seen: Vec<Contact>,
 }
 
-/// A part that may be touched, as it is seen at one moment.
+/// A part of an obstacle that the particle may touch, at one time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     pub(super) target: Target,
     pub(super) near: Near,
     pub(super) law: Meeting,
-    /// The rate at which the gap grows, m/s.
+    /// The rate of change of the gap, m/s.
     rate: f64,
-    /// An approach that is not faster is none, m/s.
+    /// The speed up to which an approach is ignored, m/s.
     slight: f64,
-    /// A slower rebound is none, m/s.
+    /// The speed up to which a rebound is ignored, m/s.
     slow: f64,
-    /// Whether the particle is pressed against the part.
+    /// Whether a force presses the particle against the part.
     is_pressed: bool,
 }
 
 impl Contact {
-    /// Whether the particle is so near that it touches, m.
+    /// Whether the particle touches the part: the gap is at most `snug`, m.
     fn touches(&self, snug: f64) -> bool {
         !self.near.is_hidden && self.near.gap <= snug
     }
@@ -73,7 +75,7 @@ impl Bouncer {
         &mut self.spare
     }
 
-    /// The end of a step among obstacles: place and velocity. `leap` is the step as it would be without them.
+    /// The place and velocity at the end of a step among obstacles. `leap` is the same step without obstacles.
     pub(super) fn step(&mut self, leap: &Leap, scenery: &Scenery) -> (DVec3, DVec3) {
         let whole = leap.span();
         let mut leap = *leap;
@@ -110,23 +112,23 @@ impl Bouncer {
             (leap.places[0], leap.velocities[0]) = (way.place(hit), way.velocity(hit));
             self.again(&mut leap);
         }
-        // It is struck again and again: for the rest of the step it goes with what it touches.
+        // After too many impacts, the particle moves with the nearest obstacle for the rest of the step.
         let last = self.seen.iter().min_by(|a, b| a.near.gap.total_cmp(&b.near.gap));
         let velocity = last.map_or(DVec3::ZERO, |it| it.near.velocity);
         (leap.places[0] + leap.span() * velocity, velocity)
     }
 
-    /// Computes the rest of a step again, after the place or the velocity at its beginning has changed.
+    /// Repeats the rest of a step, after a change of the place or velocity at its beginning.
     fn again(&mut self, leap: &mut Leap) {
         (leap.places[1], leap.velocities[1]) =
             self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);
     }
 
-    /// Finds all parts that the particle may touch within a step, and how near they are at its beginning.
+    /// Finds all parts that the particle may touch within a step, and their gaps at the beginning of the step.
     fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
         let Bouncer { ball, surface, targets, seen, .. } = self;
         seen.clear();
-        // A held particle deviates from its free path by no more than this.
+        // A bound on the deviation of a particle in contact from its free path.
         let radius = ball.radius();
         let margin = leap.span() * (leap.span() * leap.acceleration().length() + scenery.fastest());
         scenery.near(leap.bounds(), (1.0 + SNUG) * radius + margin, leap.times, targets);
@@ -134,7 +136,7 @@ impl Bouncer {
         let acceleration = leap.acceleration();
         for target in &*targets {
             let near = scenery.seen(ball, target, place, leap.times[0]);
-            // A particle that begins within an obstacle passes out of it.
+            // A particle that begins inside an obstacle passes through this obstacle.
             if near.gap < -radius || !near.gap.is_finite() {
                 continue;
             }
@@ -150,7 +152,7 @@ impl Bouncer {
         }
     }
 
-    /// The velocity after the impacts at all places that are touched.
+    /// The velocity after the impacts at all touched places.
     fn strike(&self, before: DVec3, snug: f64) -> DVec3 {
         let struck = self.seen.iter().filter(|it| it.touches(snug));
         let mut struck: Vec<(&Contact, f64, DVec3)> = struck.map(|it| (it, 0.0, DVec3::ZERO)).collect();
@@ -175,7 +177,8 @@ impl Bouncer {
         velocity
     }
 
-    /// When the particle first touches a part and comes nearer, s after the beginning of its way.
+    /// The time of the first contact with a part, s after the beginning of the path. `None` if the particle does not
+    /// reach the part.
     fn touch(&self, way: &Way, contact: &Contact, leap: &Leap, scenery: &Scenery) -> Option<f64> {
         let span = leap.span();
         let touch = (TOUCH * self.ball.radius()).max(DIGITS * leap.places[0].abs().max_element());
@@ -185,14 +188,15 @@ impl Bouncer {
             let velocity = way.rate(time);
             let bend = way.bend + near.bend;
             let mut safe = if near.is_hidden && near.gap <= touch {
-                // It touches a neighbour. It may come over to this one.
+                // The particle touches a neighbouring triangle instead, but may reach this one later.
                 PART * span
             } else if near.gap <= touch {
                 let rate = near.normal.dot(velocity - near.velocity);
                 if rate < -contact.slight {
                     return Some(time);
                 }
-                // It touches and does not come nearer, until the ways bend together.
+                // The particle touches the part without approaching it, until the curvature of the paths closes the
+                // gap.
                 let safe = if bend > 0.0 { 2.0 * rate.max(0.0) / bend } else { f64::INFINITY };
                 safe.max(PART * span)
             } else {

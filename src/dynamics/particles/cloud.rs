@@ -1,4 +1,4 @@
-//! The particles of one source that are alive.
+//! The living particles of one source.
 
 use std::sync::Arc;
 
@@ -10,53 +10,53 @@ use super::{Course, Field, ParticleSource, Scenery};
 use crate::dynamics::contact::{Ball, Surface};
 use crate::dynamics::{BodyId, Method};
 
-/// The number of particles that are advanced side by side. Their data fit into the first-level cache.
+/// The number of particles that are advanced side by side. The data of 128 particles fit into the first-level cache.
 const LANES: usize = 128;
 
-/// A particle that is alive.
+/// A living particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Its number: how many were born before it.
+    /// The number of the particle: the number of particles born before it.
     pub number: u64,
-    /// The place of the particle, m.
+    /// The location of the particle, m.
     pub location: DVec3,
-    /// Its velocity, m/s.
+    /// The velocity of the particle, m/s.
     pub velocity: DVec3,
-    /// When it was born, s.
+    /// The time of birth, s.
     pub born: f64,
-    /// When it dies, s: it is there no more then. It may be infinite.
+    /// The time of death, s, from which the particle is gone. It may be infinite.
     pub dies: f64,
 }
 
 impl Particle {
-    /// Which part of its life is over at time `t` (s): from 0 to 1; 0 for one that lives for ever.
+    /// The age at time `t` (s), as a part of the lifetime: from 0 to 1. 0 for a particle that never dies.
     #[must_use]
     pub fn age(&self, t: f64) -> f64 {
         ((t - self.born) / (self.dies - self.born)).clamp(0.0, 1.0)
     }
 }
 
-/// The particles of one source that are alive, in the order of their births. Those that are dead take no memory.
+/// The living particles of one source, in order of birth. Dead particles are removed.
 #[derive(Clone)]
 pub struct Cloud {
     source: Arc<ParticleSource>,
-    /// The body that sends them out.
+    /// The body that carries the source. `None` if the source is fixed in the world.
     carrier: Option<BodyId>,
     time: f64,
-    /// The number of the particle that is born next.
+    /// The number of the next particle to be born.
     next: u64,
-    /// Only every n-th particle is computed.
+    /// The stride: only every n-th particle is computed.
     stride: u64,
     alive: Vec<Particle>,
     wide: Stepper,
     single: Stepper,
-    /// Moves the particles among obstacles, if obstacles stop them.
+    /// The bouncer. `None` if obstacles do not stop the particles.
     bouncer: Option<Bouncer>,
 }
 
 impl Cloud {
-    /// The cloud of a source at time `from` (s), where nothing is born yet; those born earlier are left out. Of each `stride`
-    /// particles, one is computed.
+    /// Creates the cloud of a source at time `from`, s. It contains no particles, and omits all particles born before
+    /// `from`. Only one of each `stride` particles is computed.
     #[must_use]
     pub fn new(
         source: Arc<ParticleSource>,
@@ -71,7 +71,7 @@ impl Cloud {
         Cloud { source, carrier, time: from, next, stride, alive: Vec::new(), wide, single, bouncer: None }
     }
 
-    /// The same, but what a [`Scenery`] holds stops its particles, which are balls of a radius, m, with a surface.
+    /// Lets the obstacles of a [`Scenery`] stop the particles: balls with a radius, m, and a surface.
     #[must_use]
     pub fn colliding(mut self, radius: f64, surface: Surface) -> Cloud {
         let bouncer = |ball| Bouncer::new(ball, surface, self.single.clone());
@@ -79,31 +79,33 @@ impl Cloud {
         self
     }
 
-    /// The time that is reached, s.
+    /// The current time of the cloud, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Those that are alive.
+    /// The living particles.
     #[must_use]
     pub fn particles(&self) -> &[Particle] {
         &self.alive
     }
 
-    /// From when on a cloud has to be computed to be whole at time `t`, s: the birth of the oldest that can be alive then.
+    /// The time from which a cloud must be computed to be complete at time `t`, s. It is the birth of the oldest
+    /// particle that can live at `t`.
     #[must_use]
     pub fn needed_from(source: &ParticleSource, t: f64) -> f64 {
         (t - source.longest_life).max(source.births.start)
     }
 
-    /// Advances to time `to` (s) by steps of `step` seconds from the present time on. Each particle begins at the very time of its
-    /// birth. `course` says how a body moves meanwhile; none while it is not there.
+    /// Advances to time `to` (s) in steps of `step` seconds from the current time. Each particle begins exactly at its
+    /// birth. `course` returns the motion of a body in this interval, or `None` if the body is absent.
     pub fn advance(&mut self, to: f64, step: f64, course: &dyn Fn(BodyId) -> Option<Course>) {
         self.advance_among(to, step, course, None);
     }
 
-    /// The same among obstacles, which stop the particles of a cloud that is [colliding](Cloud::colliding).
+    /// Advances like [`advance`](Cloud::advance), among obstacles, which stop the particles of a
+    /// [colliding](Cloud::colliding) cloud.
     pub fn advance_among(
         &mut self,
         to: f64,
@@ -150,7 +152,7 @@ impl Cloud {
             let spot = match &carrier {
                 None => None,
                 Some(Some(course)) => Some(course.spot(born)),
-                // An absent body sends out nothing.
+                // An absent body emits no particles.
                 Some(None) => continue,
             };
             if dies <= grid.end {
@@ -169,8 +171,8 @@ impl Cloud {
     }
 }
 
-/// Advances particles among obstacles. Those that come near none of them move as they would without any; for the others, each step is
-/// looked at.
+/// Advances particles among obstacles. Particles far from all obstacles move as without obstacles. For all others, each
+/// step is checked for contacts.
 fn advance_some(
     stepper: &mut Stepper,
     bouncer: &mut Bouncer,

@@ -1,24 +1,24 @@
-//! The path of a body between two known moments.
+//! The motion of a body between two known times.
 
 use glam::{DQuat, DVec3};
 
 use super::Spot;
 use crate::dynamics::{BodySnapshot, Kinematics, Motion};
 
-/// The way of a body from one moment to a later one: a curve of third degree that meets locations and velocities at both, and a
-/// rotation that begins with the first angular velocity and ends as the body is turned then.
+/// The motion of a body from one time to a later one. The location is a cubic polynomial that matches the locations and
+/// velocities at both times. The rotation starts with the first angular velocity, and ends at the second orientation.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
     begin: f64,
     end: f64,
     from: BodySnapshot,
     to: BodySnapshot,
-    /// What the first angular velocity leaves to turn, as axis times angle, rad.
+    /// The rotation that remains after rotation with the first angular velocity: axis times angle, rad.
     rest: DVec3,
 }
 
 impl Course {
-    /// The way from time `begin` to time `end`, s.
+    /// Creates the course from time `begin` to time `end`, s.
     #[must_use]
     pub fn new(begin: f64, from: BodySnapshot, end: f64, to: BodySnapshot) -> Course {
         let turned = DQuat::from_scaled_axis(from.angular_velocity * (end - begin)) * from.orientation;
@@ -29,13 +29,13 @@ impl Course {
         Course { begin, end, from, to, rest: rest.to_scaled_axis() }
     }
 
-    /// A body that stays as it is.
+    /// Creates the course of a body whose location, velocity and orientation are constant.
     #[must_use]
     pub fn still(body: BodySnapshot) -> Course {
         Course { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
     }
 
-    /// The same body at rest, where the course has no length.
+    /// The course with the velocities set to zero, if it has no length in time. Other courses are unchanged.
     pub(super) fn at_rest(self) -> Course {
         if self.end > self.begin {
             return self;
@@ -44,14 +44,14 @@ impl Course {
         Course::still(BodySnapshot { velocity, angular_velocity, ..self.from })
     }
 
-    /// Whether the body neither moves nor turns.
+    /// Whether the body neither moves nor rotates.
     pub(super) fn is_still(&self) -> bool {
         let Course { from, to, rest, .. } = self;
         let speeds = [from.velocity, to.velocity, from.angular_velocity, to.angular_velocity, *rest];
         from.location == to.location && speeds == [DVec3::ZERO; 5]
     }
 
-    /// The centre of mass moves no faster than this, m/s.
+    /// An upper bound for the speed of the centre of mass, m/s.
     pub(super) fn largest_speed(&self) -> f64 {
         let (span, ends) = (self.end - self.begin, [self.from.velocity, self.to.velocity].map(DVec3::length));
         ends[0].max(ends[1]) + 0.5 * span * self.largest_acceleration()
@@ -59,28 +59,28 @@ impl Course {
 
     /// The largest acceleration of the centre of mass, m/s².
     pub(super) fn largest_acceleration(&self) -> f64 {
-        // It is linear in time.
+        // The acceleration is linear in time, so its largest magnitude is at an end.
         self.at(self.begin).acceleration.length().max(self.at(self.end).acceleration.length())
     }
 
-    /// The body turns no faster than this, rad/s.
+    /// An upper bound for the angular speed, rad/s.
     pub(super) fn largest_turning(&self) -> f64 {
         let span = self.end - self.begin;
         let rest = if span > 0.0 { self.rest.length() / span } else { 0.0 };
         (self.from.angular_velocity.length() + rest).max(self.to.angular_velocity.length())
     }
 
-    /// A box around all places of the centre of mass: its lowest and its highest corner.
+    /// A box around the path of the centre of mass: its lowest and its highest corner.
     pub(super) fn places(&self) -> [DVec3; 2] {
         let Course { begin, end, from, to, .. } = self;
         let (span, way) = (end - begin, to.location - from.location);
-        // Hermite's polynomials for velocities are at most 4/27.
+        // The Hermite polynomials of the velocities are at most 4/27.
         let aside = (span * from.velocity - way).abs() + (span * to.velocity - way).abs();
         let margin = (4.0 / 27.0) * aside;
         [from.location.min(to.location) - margin, from.location.max(to.location) + margin]
     }
 
-    /// The body at time `t`, s.
+    /// The place and motion of the body at time `t`, s.
     #[must_use]
     pub fn spot(&self, t: f64) -> Spot {
         let Kinematics { location, velocity, orientation, angular_velocity, .. } = self.at(t);
@@ -103,7 +103,7 @@ impl Motion for Course {
         }
         let s = (t - begin) / span;
         let (s2, s3) = (s * s, s * s * s);
-        // Hermite's polynomials and their derivatives.
+        // The location is a sum of Hermite polynomials. The velocity and the acceleration are their derivatives.
         let (way, d0, d1) = (to.location - from.location, from.velocity * span, to.velocity * span);
         let location =
             from.location + (3.0 * s2 - 2.0 * s3) * way + (s3 - 2.0 * s2 + s) * d0 + (s3 - s2) * d1;

@@ -1,6 +1,7 @@
-//! A particle that stays in touch for a step: it slides or sticks.
+//! The motion of a particle that stays in contact for a step: it slides or sticks.
 //!
-//! All is computed in the axes of the obstacle, where it is at rest: what it does there is added as an acceleration.
+//! The computation uses the axes of the obstacle, in which the obstacle is at rest. The motion of these axes adds an
+//! acceleration.
 
 use glam::{DQuat, DVec3};
 
@@ -9,22 +10,22 @@ use super::obstacles::{Scenery, Standing};
 use super::way::Leap;
 use crate::dynamics::contact::Ball;
 
-/// A particle rests if it is slower than this part of the velocity that forces give it in a step.
+/// A particle rests if its speed is below this fraction of the velocity change by forces in a step.
 const REST: f64 = 1e-6;
-/// Two unit normals are the same if they differ by less.
+/// Two unit normals are equal if they differ by less.
 const FLAT: f64 = 1e-12;
-/// The impulses of several contacts are found by iteration, in at most so many rounds. It ends when a round changes the velocity by less than
-/// this part of what forces give it in a step.
+/// The largest number of iterations for the impulses of several contacts. The iteration ends when it changes the
+/// velocity by less than `ACCURACY`, relative to the velocity change by forces in a step.
 const ROUNDS: usize = 60;
 const ACCURACY: f64 = 1e-13;
-/// At the end of a step, the particle is put back on the surface, in at most so many rounds.
+/// The largest number of corrections that put the particle back on the surface at the end of a step.
 const PLACINGS: usize = 6;
-/// It is on the surface if the gap is smaller than this part of the radius.
+/// The particle is on the surface if the gap is below this fraction of its radius.
 const GAP: f64 = 1e-11;
 
 /// The motion of a particle in the axes of an obstacle.
 struct Frame {
-    /// The obstacle at the beginning and at the end.
+    /// The poses of the obstacle at the beginning and at the end of the step.
     standing: [Standing; 2],
     span: f64,
     place: DVec3,
@@ -47,7 +48,7 @@ impl Frame {
         Frame { standing, span: leap.span(), place, velocity, acceleration }
     }
 
-    /// The end of the step in the world.
+    /// Converts the place and velocity at the end of the step to world axes.
     fn end(&self, place: DVec3, velocity: DVec3) -> (DVec3, DVec3) {
         let Standing { pose, .. } = self.standing[1];
         let place = pose.point(place);
@@ -75,7 +76,7 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     let begin = frame.velocity.reject_from_normalized(normal);
     let push = -span * normal.dot(frame.acceleration);
     if push <= 0.0 {
-        // A rotating surface throws it off.
+        // The rotation of the surface throws the particle off.
         let velocity = frame.velocity + span * frame.acceleration;
         return frame.end(frame.place + 0.5 * span * (frame.velocity + velocity), velocity);
     }
@@ -87,7 +88,8 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     }
     let (mut gap, mut end) = scenery.seen_within(ball, &contact.target, place);
     if gap.abs() < ball.radius() && (end - normal).length() > FLAT {
-        // A curved surface: the plane in the middle of the step is better, and the curve presses or throws off.
+        // On a curved surface, use the plane at the middle of the step. The curvature presses the particle on or throws
+        // it off.
         let middle = (normal + end).normalize_or(normal);
         let turned = DQuat::from_rotation_arc(normal, middle) * begin;
         let bent = middle.dot(DQuat::from_rotation_arc(normal, end) * begin - begin);
@@ -108,8 +110,8 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     frame.end(place, velocity)
 }
 
-/// Slides along a plane: the way, and the velocity at the end. `along` is by how much the velocity would change without friction, and
-/// `most` the largest change by friction.
+/// Slides along a plane for a step. Returns the displacement and the final velocity. `along` is the velocity change
+/// without friction, and `most` the largest velocity change by friction.
 fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
     let free = begin + along;
     let speed = free.length();
@@ -121,18 +123,19 @@ fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
     if before == 0.0 {
         return (DVec3::ZERO, DVec3::ZERO);
     }
-    // It stops within the step.
+    // The particle stops within the step.
     let slowing = most - along.dot(begin) / before;
     let stop = if slowing > before { before / slowing } else { 1.0 };
     (0.5 * stop * span * begin, DVec3::ZERO)
 }
 
-/// Between several contacts. Their impulses are found one after another, round by round.
+/// The motion of a particle in contact with several parts. The impulses are found by iteration, one contact after the
+/// other.
 fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let span = frame.span;
     let acting = span * frame.acceleration.length();
     let mut velocity = frame.velocity + span * frame.acceleration;
-    // For each contact: its normal, the velocity of what it belongs to, and what it has given so far.
+    // For each contact: its normal, the velocity of its obstacle, and its impulse so far.
     let other = |it: &Contact| {
         if Scenery::is_same(&it.target, &held[0].target) {
             return DVec3::ZERO;

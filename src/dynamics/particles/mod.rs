@@ -1,8 +1,8 @@
-//! Particles: many small bodies that a source sends out, each with a life of its own.
+//! Particles: many small bodies from a source, each with its own lifetime.
 //!
-//! They are not bodies of a [`World`](super::World). Forces act on them as on bodies, by the same method and the same
-//! steps, and bodies may stop them; they do not act on bodies nor on each other. Each follows from the seed of its source and its number alone, so any of
-//! them can be computed without the others.
+//! Particles are not bodies of a [`World`](super::World). Forces act on them as on bodies, with the same integrator and
+//! the same timesteps, and bodies can stop them. They do not act on bodies or on each other. The seed of the source and
+//! the number of a particle determine its motion, so any particle can be computed without the others.
 //!
 //! | what | where |
 //! | --- | --- |

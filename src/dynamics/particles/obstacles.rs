@@ -1,4 +1,4 @@
-//! Obstacles of particles: bodies, on their way from one frame to the next.
+//! The obstacles of particles: bodies in motion between two frames.
 
 use std::sync::Arc;
 
@@ -8,13 +8,13 @@ use super::{Course, Spot};
 use crate::dynamics::contact::{Ball, Pose, Solid, Surface, Tree};
 use crate::dynamics::{BodyId, BodySnapshot, Motion, Shape};
 
-/// Up to so many parts are looked at one by one; more are in a tree.
+/// The largest number of parts that are searched one by one. More parts are put into a tree.
 const FEW: usize = 24;
 
-/// Something that stops particles.
+/// A body or the ground, as an obstacle of particles.
 #[derive(Clone, Debug)]
 pub struct Obstacle {
-    /// The body; none for what stays at `location` and belongs to no body.
+    /// The body. `None` for an obstacle that is fixed at `location`, such as the ground.
     body: Option<BodyId>,
     location: DVec3,
     solid: Solid,
@@ -22,14 +22,14 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// A body of the world. `None` for a shape that has no surface of convex parts, as a torus.
+    /// Creates the obstacle of a body. `None` for a shape without a surface of convex parts, such as a torus.
     #[must_use]
     pub fn body(body: BodyId, shape: &Shape, surface: Surface) -> Option<Obstacle> {
         let solid = Solid::of(shape)?;
         Some(Obstacle { body: Some(body), location: DVec3::ZERO, solid, surface })
     }
 
-    /// Level ground at a height, m.
+    /// Creates the obstacle of level ground at a height, m.
     #[must_use]
     pub fn ground(height: f64, surface: Surface) -> Option<Obstacle> {
         let solid = Solid::of(&Shape::Plane { normal: DVec3::Y })?;
@@ -37,28 +37,28 @@ impl Obstacle {
     }
 }
 
-/// All obstacles in one interval of time, as they move.
+/// All obstacles in one interval of time, with their motion.
 #[derive(Debug)]
 pub struct Scenery {
     obstacles: Arc<[Obstacle]>,
     placed: Vec<Placed>,
-    /// Half-spaces, which are near everything.
+    /// The half-spaces. They are infinite, so they are checked for each particle.
     endless: Vec<Target>,
-    /// All other parts. Each has a box that it does not leave within the interval. A mesh is one entry, with one box.
+    /// All other parts, each with a box around its places in the interval. A mesh is a single entry with one box.
     parts: Vec<(Target, [DVec3; 2])>,
     tree: Option<Tree>,
-    /// No part that has an end moves faster, m/s.
+    /// An upper bound for the speed of all finite parts, m/s.
     fastest: f64,
 }
 
-/// An obstacle that is there.
+/// An obstacle that is present in the interval.
 #[derive(Debug)]
 struct Placed {
     obstacle: usize,
     course: Course,
-    /// Its pose, if it does not move.
+    /// The pose of the obstacle. `None` if it moves.
     still: Option<Pose>,
-    /// Bounds of its acceleration, m/s², and of its angular speed, rad/s.
+    /// Upper bounds for the acceleration, m/s², and for the angular speed, rad/s.
     bend: f64,
     turning: f64,
 }
@@ -70,7 +70,7 @@ pub(super) struct Target {
     part: usize,
 }
 
-/// An obstacle at one moment.
+/// An obstacle at one time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
     pub(super) pose: Pose,
@@ -80,29 +80,30 @@ pub(super) struct Standing {
 /// The nearest points of a particle and a part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
-    /// Their distance, m; negative where they overlap.
+    /// The distance between the two points, m; negative if particle and part overlap.
     pub(super) gap: f64,
     /// The unit normal of the part, towards the particle.
     pub(super) normal: DVec3,
-    /// The velocity of the obstacle, where the particle's centre would be a part of it, m/s.
+    /// The velocity of the obstacle at the centre of the particle, m/s.
     pub(super) velocity: DVec3,
-    /// The gap shrinks by the motion of the obstacle no faster than this, m/s.
+    /// An upper bound for the speed at which the obstacle's motion closes the gap, m/s.
     pub(super) coming: f64,
-    /// A bound of how fast the rate of the gap changes by that motion, m/s².
+    /// An upper bound for the rate at which that speed changes, m/s².
     pub(super) bend: f64,
-    /// Whether it is a triangle of which a neighbour is nearer: then that one is touched.
+    /// Whether the part is a triangle with a nearer neighbour. The particle then touches the neighbour.
     pub(super) is_hidden: bool,
 }
 
 impl Standing {
-    /// The velocity of a place that moves along with the obstacle.
+    /// The velocity of a place that moves with the obstacle, m/s.
     pub(super) fn velocity(&self, place: DVec3) -> DVec3 {
         self.spot.velocity + self.spot.angular_velocity.cross(place - self.spot.location)
     }
 }
 
 impl Scenery {
-    /// The obstacles in an interval. `course` says how a body moves meanwhile; none while it is not there.
+    /// The obstacles in an interval. `course` returns the motion of a body in the interval, or `None` if the body is
+    /// absent.
     #[must_use]
     pub fn new(obstacles: &Arc<[Obstacle]>, course: &dyn Fn(BodyId) -> Option<Course>) -> Scenery {
         let (mut placed, mut endless, mut parts) = (Vec::new(), Vec::new(), Vec::new());
@@ -142,17 +143,17 @@ impl Scenery {
         Scenery { obstacles: obstacles.clone(), placed, endless, parts, tree, fastest }
     }
 
-    /// No obstacle carries a particle faster, m/s.
+    /// An upper bound for the speed at which an obstacle carries a particle, m/s.
     pub(super) fn fastest(&self) -> f64 {
         self.fastest
     }
 
-    /// Whether nothing is there.
+    /// Whether no obstacle is present.
     pub(super) fn is_empty(&self) -> bool {
         self.placed.is_empty()
     }
 
-    /// Whether a ball anywhere in a box may touch something.
+    /// Whether a ball in the box from `low` to `high` may touch a part between the two `times`, s.
     pub(super) fn may_stop(&self, ball: &Ball, [low, high]: [DVec3; 2], times: [f64; 2]) -> bool {
         let mut targets = Vec::new();
         self.near([low, high], ball.radius(), times, &mut targets);
@@ -164,7 +165,7 @@ impl Scenery {
         })
     }
 
-    /// Finds all parts that may come nearer to a box than `within` (m) between the times `begin` and `end` (s).
+    /// Finds all parts that may come closer to a box than `within` (m) between the times `begin` and `end` (s).
     pub(super) fn near(
         &self,
         [low, high]: [DVec3; 2],
@@ -197,7 +198,7 @@ impl Scenery {
         }
     }
 
-    /// The pose of an obstacle at time `t`, s.
+    /// The pose and motion of an obstacle at time `t`, s.
     pub(super) fn standing(&self, target: &Target, t: f64) -> Standing {
         let Placed { course, still, .. } = &self.placed[target.placed];
         match *still {
@@ -213,7 +214,7 @@ impl Scenery {
         }
     }
 
-    /// The acceleration of a place that moves along with an obstacle at time `t`, m/s².
+    /// The acceleration of a place that moves with an obstacle, at time `t` (s), m/s².
     pub(super) fn acceleration(&self, target: &Target, place: DVec3, t: f64) -> DVec3 {
         let Placed { course, still, .. } = &self.placed[target.placed];
         if still.is_some() {
@@ -224,7 +225,7 @@ impl Scenery {
         at.acceleration + turning.cross(arm) + at.angular_velocity.cross(at.angular_velocity.cross(arm))
     }
 
-    /// The nearest points of a part and a ball at a place, at time `t`, s.
+    /// The nearest points of a part and a ball at `place`, at time `t`, s.
     pub(super) fn seen(&self, ball: &Ball, target: &Target, place: DVec3, t: f64) -> Near {
         let standing = self.standing(target, t);
         let solid = self.solid(target);
@@ -238,7 +239,8 @@ impl Scenery {
             return Near { gap, normal, velocity: DVec3::ZERO, coming: 0.0, bend: 0.0, is_hidden };
         }
         let reach = solid.reach_of(target.part);
-        // A half-space has no end: what comes near is about as far away as the particle.
+        // A half-space is infinite, so its bounding radius is useless. Points near the particle have about the
+        // particle's distance.
         let reach = if reach.is_finite() { reach } else { 2.0 * (place - standing.pose.location).length() };
         let speed = placed.turning;
         let coming = normal.dot(standing.spot.velocity) + speed * reach;
@@ -246,13 +248,13 @@ impl Scenery {
         Near { gap, normal, velocity: standing.velocity(place), coming, bend, is_hidden }
     }
 
-    /// The same in the axes of the obstacle.
+    /// The gap, m, and the normal of a part for a ball at `place`, in the axes of the obstacle.
     pub(super) fn seen_within(&self, ball: &Ball, target: &Target, place: DVec3) -> (f64, DVec3) {
         let (gap, normal, _) = ball.nearest(place, self.solid(target), target.part, &Pose::IDENTITY);
         (gap, normal)
     }
 
-    /// Whether an obstacle does not move.
+    /// Whether an obstacle is at rest.
     pub(super) fn is_still(&self, target: &Target) -> bool {
         self.placed[target.placed].still.is_some()
     }
@@ -280,12 +282,12 @@ impl Placed {
         Placed { obstacle, course, still, bend, turning }
     }
 
-    /// A bound of the speed of the centre of mass, m/s.
+    /// An upper bound for the speed of the centre of mass, m/s.
     fn speed(&self) -> f64 {
         if self.still.is_some() { 0.0 } else { self.course.largest_speed() }
     }
 
-    /// No place of a solid moves farther within a time, m.
+    /// An upper bound for the displacement of any point of a solid between two times, m.
     fn way(&self, solid: &Solid, begin: f64, end: f64) -> f64 {
         if self.still.is_some() {
             return 0.0;
@@ -294,13 +296,13 @@ impl Placed {
         span * (speed + 0.5 * span * self.bend + self.turning * solid.reach())
     }
 
-    /// A box in which all stays that is at most so far from the centre of mass, m.
+    /// A box around all points within `reach` of the centre of mass, m, during the interval.
     fn around(&self, reach: f64) -> [DVec3; 2] {
         let [low, high] = self.course.places();
         [low - reach, high + reach]
     }
 
-    /// A box in which a part stays.
+    /// A box around all places of a part during the interval.
     fn box_of(&self, solid: &Solid, part: usize) -> [DVec3; 2] {
         if let Some(pose) = &self.still {
             return solid.box_of(part, pose);

@@ -1,4 +1,4 @@
-//! Origins of particles.
+//! The origins of particles: where on a source they are born.
 
 use glam::{DQuat, DVec3};
 
@@ -6,49 +6,49 @@ use super::{Triangles, surface};
 use crate::dynamics::Shape;
 use crate::random::Stream;
 
-/// The origin of particles, in the axes of the body that sends them out, from its centre of mass, or else in those of the world.
-/// Within a disc, a box or a surface, the distribution is uniform.
+/// The region in which particles are born, in the axes of the carrier from its centre of mass, or in world axes without
+/// a carrier. The distribution in a disc, a box or a surface is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
     /// A point, m.
     Point(DVec3),
     /// A flat disc.
     Disc {
-        /// Its middle, m.
+        /// The centre of the disc, m.
         centre: DVec3,
-        /// The unit vector that stands on it.
+        /// The unit normal of the disc.
         normal: DVec3,
-        /// Its radius, m.
+        /// The radius of the disc, m.
         radius: f64,
     },
-    /// A box along the axes.
+    /// A box with edges along the axes.
     Box {
-        /// Its middle, m.
+        /// The centre of the box, m.
         centre: DVec3,
-        /// Full lengths of its edges, m.
+        /// The full lengths of the edges, m.
         size: DVec3,
     },
-    /// The surface of a shape that [has one](super::has_surface).
+    /// The surface of a shape. The shape must have one: see [`has_surface`](super::has_surface).
     Surface(Shape),
     /// The triangles of a mesh.
     Triangles(Triangles),
 }
 
-/// A body that sends out particles, at one moment.
+/// The place and motion of a body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// Its centre of mass, m.
+    /// The location of the centre of mass, m.
     pub location: DVec3,
-    /// Its orientation (`world_from_body`).
+    /// The orientation of the body (`world_from_body`).
     pub orientation: DQuat,
-    /// Its velocity, m/s.
+    /// The velocity of the centre of mass, m/s.
     pub velocity: DVec3,
-    /// Its angular velocity, world axes, rad/s.
+    /// The angular velocity, world axes, rad/s.
     pub angular_velocity: DVec3,
 }
 
 impl Spot {
-    /// The place of a point of the body, and its velocity.
+    /// The place of a point of the body, m, and its velocity, m/s, both in world axes. `at` is in the body's axes.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         let arm = self.orientation * at;
@@ -57,7 +57,7 @@ impl Spot {
 }
 
 impl Origin {
-    /// A place, and the normal there.
+    /// Draws a place in the region, m. Returns the place and the normal there.
     #[must_use]
     pub fn place(&self, random: &mut Stream) -> (DVec3, DVec3) {
         match self {
@@ -77,7 +77,7 @@ impl Origin {
     }
 }
 
-/// A place in a disc about the origin: the square of its distance is uniform.
+/// Draws a point in a disc about the origin, with uniform distribution: the square of its distance is uniform.
 pub(super) fn within_disc(radius: f64, random: &mut Stream) -> (f64, f64) {
     let distance = radius * random.uniform().sqrt();
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.uniform());

@@ -1,4 +1,4 @@
-//! Initial values of particles.
+//! The sources of particles, which set their initial values.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -8,13 +8,13 @@ use glam::DVec3;
 use super::{Births, Origin, Spot};
 use crate::random::Stream;
 
-/// A number that every particle has of its own.
+/// A number that each particle draws for itself.
 pub trait Draw: Debug + Send + Sync {
-    /// The number of a particle that is born at time `t`, s. `random` is the particle's own.
+    /// The number for a particle that is born at time `t`, s. `random` is the particle's stream of random numbers.
     fn draw(&self, t: f64, random: &mut Stream) -> f64;
 }
 
-/// It is the same for all.
+/// The same number for all particles.
 impl Draw for f64 {
     fn draw(&self, _: f64, _: &mut Stream) -> f64 {
         *self
@@ -24,30 +24,30 @@ impl Draw for f64 {
 /// A source of particles.
 #[derive(Clone, Debug)]
 pub struct ParticleSource {
-    /// When they are born.
+    /// The birth times of the particles.
     pub births: Births,
     /// The lifetime of a particle, s.
     pub lifetime: Arc<dyn Draw>,
-    /// No particle lives longer, s; it may be infinite.
+    /// The largest lifetime of a particle, s. It may be infinite.
     pub longest_life: f64,
-    /// The origin of the particles.
+    /// The region in which the particles are born.
     pub origin: Origin,
-    /// The middle of the directions in which they leave, a unit vector in the axes of the body that sends them out, or of the
-    /// world where none does; none: along the normal of the surface that they come from.
+    /// The mean direction in which particles leave the source, a unit vector in the axes of the carrier, or of the
+    /// world without a carrier. `None` for the normal of the surface at the particle's origin.
     pub direction: Option<DVec3>,
-    /// The half angle of the cone of directions, rad; within it, each direction is as likely.
+    /// The half angle of the cone of directions, rad. The distribution of directions in the cone is uniform.
     pub spread: f64,
     /// The speed relative to the source, m/s.
     pub speed: Arc<dyn Draw>,
-    /// The mass of each, kg.
+    /// The mass of a particle, kg.
     pub mass: f64,
-    /// The charge of each, C.
+    /// The charge of a particle, C.
     pub charge: f64,
-    /// Their random numbers: each particle has branches of its own.
+    /// The random numbers of the source. Each particle has its own branches of this stream.
     pub random: Stream,
 }
 
-/// The branches of random numbers that a particle has.
+/// The number of branches of random numbers per particle.
 const BRANCHES: u64 = 4;
 
 impl ParticleSource {
@@ -57,7 +57,8 @@ impl ParticleSource {
         self.lifetime.draw(t, &mut self.branch(number, 0)).min(self.longest_life)
     }
 
-    /// The initial place and velocity of a particle that is born at time `t` (s). `carrier` is the body that sends it out.
+    /// The initial place and velocity of a particle that is born at time `t`, s. `carrier` is the place and motion of
+    /// the source's body.
     #[must_use]
     pub fn begin(&self, number: u64, t: f64, carrier: Option<&Spot>) -> (DVec3, DVec3) {
         let mut random = self.branch(number, 1);
@@ -79,8 +80,8 @@ impl ParticleSource {
     }
 }
 
-/// A direction within a cone about a unit vector, each of the same solid angle as likely: the cosine of the angle is uniform
-/// from cos(spread) to 1 (Archimedes' hat box).
+/// Draws a direction in a cone about a unit vector, with uniform distribution over the solid angle: the cosine of the
+/// angle is uniform from cos(spread) to 1 (Archimedes' hat-box theorem).
 fn within_cone(middle: DVec3, spread: f64, random: &mut Stream) -> DVec3 {
     let (cosine, turn) = (random.uniform(), random.uniform());
     if spread == 0.0 {

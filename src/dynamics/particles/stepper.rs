@@ -1,4 +1,4 @@
-//! Steps of particles: with the forces, the method and the time steps of bodies.
+//! Advances particles in steps, with the forces, the integrator and the timesteps of bodies.
 
 use std::sync::Arc;
 
@@ -9,24 +9,25 @@ use super::{Course, Particle};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
 
-/// Makes a force on these particles, from the bodies that it comes from.
+/// Makes a force on particles, from the indices of the particles and of the bodies that cause the force.
 type Make = dyn Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync;
 
 /// A force on particles.
 #[derive(Clone)]
 pub struct Field {
     make: Arc<Make>,
-    /// The bodies that it comes from, each as it enters the force.
+    /// The bodies that cause the force, with their masses and charges.
     sources: Vec<(BodyId, RigidBody)>,
 }
 
 impl Field {
-    /// A force that comes from no body, made for the particles that it is given.
+    /// Creates a force that no body causes. `make` gets the indices of the particles.
     pub fn new(make: impl Fn(Vec<BodyId>) -> Arc<dyn Force> + Send + Sync + 'static) -> Field {
         Field { make: Arc::new(move |particles, _| make(particles)), sources: Vec::new() }
     }
 
-    /// A force that comes from bodies. It is made for particles, with the numbers that the bodies have among them.
+    /// Creates a force that bodies cause. It gets the indices of the particles, and the indices of the bodies after
+    /// them.
     pub fn from_bodies(
         sources: Vec<(BodyId, RigidBody)>,
         make: impl Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync + 'static,
@@ -35,7 +36,7 @@ impl Field {
     }
 }
 
-/// The steps of an interval: all of the same length from `begin` on; the last one ends at `end`.
+/// The steps of an interval. All steps have the same length, except the last one, which ends at `end`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     pub(super) begin: f64,
@@ -43,17 +44,17 @@ pub(super) struct Grid {
     pub(super) step: f64,
 }
 
-/// Steps that are longer than the longest by less than this part are not made two.
+/// The relative tolerance of the step length: a step that exceeds the largest length by less is not divided.
 const ROUNDING: f64 = 1e-6;
 
 impl Grid {
-    /// The time at the end of a step, s; step 0 is the beginning.
+    /// The time at the end of a step, s. Step 0 is the beginning of the interval.
     fn time(&self, number: u32) -> f64 {
         let time = self.begin + f64::from(number) * self.step;
         if time >= self.end - ROUNDING * self.step { self.end } else { time }
     }
 
-    /// The first step that ends after time `t`, s.
+    /// The number of the first step that ends after time `t`, s.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -76,14 +77,14 @@ pub(super) struct Stepper {
     state: State,
     solver: Solver,
     integrator: Box<dyn Integrator>,
-    /// The bodies that forces come from, which stand behind the particles.
+    /// The bodies that cause forces. In the state, they come after the particles.
     sources: Vec<BodyId>,
-    /// Places and velocities at the beginning of a step, where somebody asks for them.
+    /// The places and velocities at the beginning of a step. Empty if no caller needs them.
     before: Vec<(DVec3, DVec3)>,
 }
 
 impl Stepper {
-    /// One for particles of a mass (kg) and a charge (C).
+    /// Creates a stepper for particles with a mass (kg) and a charge (C).
     pub(super) fn new(
         lanes: usize,
         (mass, charge): (f64, f64),
@@ -91,7 +92,7 @@ impl Stepper {
         method: &Method,
     ) -> Stepper {
         let (mut model, mut state) = (Model::default(), State::default());
-        // It does not turn, so its size does not matter.
+        // A particle does not rotate, so the radius does not matter.
         let particle = RigidBody::new(&Shape::Sphere { radius: 1.0 }, mass).with_charge(charge);
         (0..lanes).for_each(|_| model.push(&particle, &mut state));
         let particles: Vec<BodyId> = (0..lanes).map(BodyId::new).collect();
@@ -108,12 +109,12 @@ impl Stepper {
         Stepper { lanes, model, state, solver, integrator, sources, before: Vec::new() }
     }
 
-    /// The number of particles that it advances side by side.
+    /// The number of particles that are advanced side by side.
     pub(super) fn lanes(&self) -> usize {
         self.lanes
     }
 
-    /// Says how the bodies move that forces come from. One that is not there has none, and stays away.
+    /// Sets the motion of the bodies that cause forces. An absent body causes no force.
     pub(super) fn follow(&mut self, course: &dyn Fn(BodyId) -> Option<Course>) {
         for (place, &body) in self.sources.iter().enumerate() {
             let number = self.lanes + place;
@@ -125,7 +126,7 @@ impl Stepper {
         }
     }
 
-    /// Advances at most as many particles as there are lanes, from time `t` (s) to the end of the grid.
+    /// Advances particles from time `t` (s) to the end of the grid. There are at most as many particles as lanes.
     pub(super) fn advance(&mut self, particles: &mut [Particle], t: f64, grid: &Grid) {
         self.enter(particles, t);
         let (mut now, mut number) = (t, grid.first_after(t));
@@ -137,7 +138,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// The same, but `look` sees each step of each particle, by its place among them.
+    /// Advances particles like `advance`. `look` gets each step of each particle, with the particle's index.
     pub(super) fn advance_seen(
         &mut self,
         particles: &mut [Particle],
@@ -157,8 +158,8 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// The same, but `change` gives the end of each step of each particle. Each step begins anew, so that no particle depends on
-    /// what happens to another.
+    /// Advances particles like `advance`. `change` returns the end of each step of each particle. The integrator starts
+    /// anew at each step, so that no particle depends on an event of another particle.
     pub(super) fn advance_changed(
         &mut self,
         particles: &mut [Particle],
@@ -182,7 +183,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Makes one step of a single particle: from a place and a velocity to a place and a velocity.
+    /// Makes one step of a single particle. Takes and returns its place and velocity.
     pub(super) fn leap(&mut self, (place, velocity): (DVec3, DVec3), times: [f64; 2]) -> (DVec3, DVec3) {
         (self.state.location[0], self.state.velocity[0]) = (place, velocity);
         self.integrator.discontinuity();
@@ -217,7 +218,7 @@ impl Stepper {
         self.rest();
     }
 
-    /// Notes where the first lanes are at the beginning of a step.
+    /// Saves the places and velocities of the first lanes at the beginning of a step.
     fn note(&mut self, lanes: usize) {
         self.before.clear();
         let state = &self.state;
@@ -234,7 +235,7 @@ impl Stepper {
         }
     }
 
-    /// Stops what is left in lanes that the next particles may not fill: it would fly on, and become non-finite.
+    /// Stops all lanes. In a lane without a new particle, the old particle would fly on and become non-finite.
     fn rest(&mut self) {
         self.state.velocity[..self.lanes].fill(DVec3::ZERO);
     }

@@ -1,4 +1,4 @@
-//! Places on the surfaces of shapes, each as likely as its area is large.
+//! Draws points on the surfaces of shapes, with uniform distribution over the area.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,7 +8,8 @@ use super::origin::within_disc;
 use crate::dynamics::{Shape, cone_base};
 use crate::random::Stream;
 
-/// Whether a shape has a surface in closed form, from which particles can come. That of a mesh is its [triangles](super::Triangles).
+/// Whether the surface of a shape has a closed form, so that particles can be born there. For a mesh, use its
+/// [triangles](super::Triangles).
 #[must_use]
 pub fn has_surface(shape: &Shape) -> bool {
     matches!(
@@ -22,7 +23,8 @@ pub fn has_surface(shape: &Shape) -> bool {
     )
 }
 
-/// A place on the surface of a shape, in its own axes, and the normal there; the origin where it has none.
+/// Draws a point on the surface of a shape, in the axes of the shape. Returns the point and the normal there, or the
+/// origin for a shape without a surface.
 pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
     match *shape {
         Shape::Sphere { radius } => {
@@ -40,7 +42,8 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
         }
         Shape::Capsule { radius, height } => {
             let middle = height - 2.0 * radius;
-            // By Archimedes, a ball has the side area of the cylinder around it: 2πr per height, as the middle part has.
+            // By Archimedes' theorem, the two half balls have the lateral area of a cylinder, 2πr per unit of height,
+            // as the wall has.
             if random.uniform() * height < middle {
                 let wall = Frustum {
                     base: -middle / 2.0,
@@ -60,7 +63,7 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
     }
 }
 
-/// By Archimedes, the height on a sphere is uniform.
+/// Draws a point on the unit sphere. By Archimedes' theorem, its height is uniform.
 fn on_unit_sphere(random: &mut Stream) -> DVec3 {
     let y = 2.0 * random.uniform() - 1.0;
     let (sin, cos) = libm::sincos(TAU * random.uniform());
@@ -84,7 +87,7 @@ fn on_box(size: DVec3, random: &mut Stream) -> (DVec3, DVec3) {
     (place, normal)
 }
 
-/// A cylinder or a cone about the y axis, with its lower and its upper radius, with or without the discs at its ends.
+/// A cylinder or frustum about the y axis, with a lower and an upper radius, with or without the discs at its ends.
 struct Frustum {
     base: f64,
     height: f64,
@@ -108,7 +111,8 @@ fn on_frustum(
         let (y, normal) = if is_low { (base, -DVec3::Y) } else { (base + height, DVec3::Y) };
         return (DVec3::new(x, y, z), normal);
     }
-    // The area up to a part s of the height is as s low + s² (high − low)/2: its inverse gives the part.
+    // The area up to a part s of the height is proportional to s low + s² (high − low)/2. The inverse of this function
+    // gives s.
     let part = random.uniform();
     let (square, whole) = (low * low, part * (low * low - high * high));
     let radius = (square - whole).max(0.0).sqrt();
@@ -118,7 +122,8 @@ fn on_frustum(
     (DVec3::new(radius * cos, base + up * height, radius * sin), normal)
 }
 
-/// The area along the tube is as R + r cos: places are drawn until one is within it.
+/// Draws a point on a torus. The density of the area along the tube is proportional to R + r cos, so points are drawn
+/// until one is accepted.
 fn on_torus(radius: f64, tube_radius: f64, random: &mut Stream) -> (DVec3, DVec3) {
     let (sin, cos) = loop {
         let (sin, cos) = libm::sincos(TAU * random.uniform());

@@ -1,11 +1,11 @@
-//! The motion of a particle within one step.
+//! The path of a particle within one step.
 
 use glam::DVec3;
 
-/// Values below this part of the coordinates are rounding errors.
+/// Values below this fraction of the coordinates are rounding errors.
 const ROUNDING: f64 = 2e-15;
 
-/// A particle at the two ends of a step, or of a part of one.
+/// The state of a particle at the two ends of a step, or of a part of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leap {
     /// The two times, s.
@@ -16,12 +16,12 @@ pub(super) struct Leap {
     pub(super) velocities: [DVec3; 2],
 }
 
-/// The way between the two ends: polynomials in the time since the beginning.
+/// The path between the two ends: polynomials of the time since the beginning of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     place: [DVec3; 4],
     velocity: [DVec3; 3],
-    /// The second derivative of the place is no larger, m/s².
+    /// An upper bound for the second derivative of the place, m/s².
     pub(super) bend: f64,
 }
 
@@ -30,25 +30,26 @@ impl Leap {
         self.times[1] - self.times[0]
     }
 
-    /// The mean acceleration, m/s².
+    /// The mean acceleration in the step, m/s².
     pub(super) fn acceleration(&self) -> DVec3 {
         (self.velocities[1] - self.velocities[0]) / self.span()
     }
 
-    /// A box around the way: its lowest and its highest corner.
+    /// A box around the path: its lowest and its highest corner.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
         let [from, to] = self.places;
         let way = to - from;
         let aside = |velocity: DVec3| (self.span() * velocity - way).abs();
-        // Hermite's polynomials for velocities are at most 4/27, and s (1 − s) is at most 1/4.
+        // The Hermite polynomials of the velocities are at most 4/27, and s (1 − s) is at most 1/4.
         let margin = 0.25 * aside(self.velocities[0]) + 0.25 * aside(self.velocities[1]);
         [from.min(to) - margin, from.max(to) + margin]
     }
 
-    /// The way: a parabola where the step is that of a steady acceleration, by a method from order 2 up or by Euler–Cromer;
-    /// else a cubic polynomial through places and velocities.
+    /// The path: a parabola for a step with constant acceleration, by a method of order 2 or higher or by Euler–Cromer;
+    /// else the cubic polynomial through the places and velocities.
     ///
-    /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So its way is x + v t + a t², while its velocity is v + a t.
+    /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So the path is x + v t + a t², although the
+    /// velocity is v + a t.
     pub(super) fn way(&self) -> Way {
         let (h, a) = (self.span(), self.acceleration());
         let ([x, y], [v, w]) = (self.places, self.velocities);
@@ -73,19 +74,20 @@ impl Leap {
 }
 
 impl Way {
-    /// The place of the particle after a time, s.
+    /// The place of the particle at time `t` after the beginning, s.
     pub(super) fn place(&self, t: f64) -> DVec3 {
         let [a, b, c, d] = self.place;
         a + t * (b + t * (c + t * d))
     }
 
-    /// The rate at which its place changes after a time, m/s.
+    /// The derivative of the place at time `t` after the beginning, m/s.
     pub(super) fn rate(&self, t: f64) -> DVec3 {
         let [_, b, c, d] = self.place;
         b + t * (2.0 * c + t * (3.0 * d))
     }
 
-    /// Its velocity after a time, m/s. By Euler–Cromer, that is not quite how fast its place changes.
+    /// The velocity at time `t` after the beginning, m/s. By Euler–Cromer, it differs slightly from the derivative of
+    /// the place.
     pub(super) fn velocity(&self, t: f64) -> DVec3 {
         let [a, b, c] = self.velocity;
         a + t * (b + t * c)
