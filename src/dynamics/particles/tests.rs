@@ -11,7 +11,7 @@ use crate::dynamics::{
 use crate::random::Stream;
 
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
-/// The time between frames, and the steps that it has, s.
+/// The interval between frames, s, and the timestep, s.
 const FRAME: f64 = 0.04;
 const STEP: f64 = 0.004;
 
@@ -38,7 +38,7 @@ fn drag() -> Field {
     Field::new(|bodies| Arc::new(Drag { bodies, linear: 0.1, quadratic: 0.2, wind: DVec3::X }))
 }
 
-/// The attraction of three bodies that stay where they are.
+/// The attraction of three bodies at rest.
 fn three_suns() -> Field {
     let suns = (0..3).map(|i| (BodyId::new(i), RigidBody::new(&Shape::Sphere { radius: 1.0 }, 10.0)));
     Field::from_bodies(suns.collect(), |bodies, against| {
@@ -57,7 +57,7 @@ fn still(body: BodyId) -> Option<Course> {
     Some(Course::still(BodySnapshot { id: body.index(), location: DVec3::X * x, ..BodySnapshot::default() }))
 }
 
-/// A cloud that has been seen at frames from one time to another.
+/// Creates a cloud and advances it from frame to frame.
 #[allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 fn cloud(
     source: &ParticleSource,
@@ -77,8 +77,8 @@ fn cloud(
     cloud
 }
 
-/// Each is born between two steps, at its own time. Under a constant force, methods from order 2 up are exact; Euler–Cromer is off by
-/// g t h/2, where h is the step, and by as much for the first, shorter step.
+/// Each particle is born at its own time between two steps. Under a constant force, methods of order 2 or higher are
+/// exact. Euler–Cromer has an error of g t h/2, where h is the step, and as much again for the first, shorter step.
 #[test]
 fn every_particle_flies_along_its_own_parabola() {
     let source = source(Births::rate(333.0, 0.0, f64::INFINITY), 2.0);
@@ -94,7 +94,7 @@ fn every_particle_flies_along_its_own_parabola() {
     }
 }
 
-/// Particles are advanced as bodies are.
+/// Particles and bodies move by the same methods.
 #[test]
 fn a_particle_moves_as_a_body_does() {
     for method in METHODS {
@@ -109,15 +109,16 @@ fn a_particle_moves_as_a_body_does() {
         world.add_force(UniformGravity { acceleration: GRAVITY });
         world.add_force(Drag { bodies: vec![ball], linear: 0.1, quadratic: 0.2, wind: DVec3::X });
         (1..=25).for_each(|frame| world.advance_to(f64::from(frame) * FRAME));
-        // Velocity Verlet keeps the loads of a predicted velocity for the next step, which particles find anew at each frame:
-        // that velocity is off by h² times the change of the acceleration, some 10 m/s³.
+        // Velocity Verlet predicts a velocity and keeps its loads for the next step. Particles compute these loads anew
+        // at each frame. The predicted velocity is off by h² times the rate of change of the acceleration, about 10
+        // m/s³.
         let tolerance = if method.name == "velocity-verlet" { 10.0 * STEP * STEP } else { 1e-12 };
         let [particle] = cloud.particles() else { panic!("there is one") };
         assert!(particle.location.abs_diff_eq(world.location(ball), tolerance), "{}", method.name);
     }
 }
 
-/// At every time, those are alive that were born within the last lifetime.
+/// At each time, the living particles are those born within the last lifetime.
 #[test]
 fn so_many_are_alive_as_are_born_in_a_lifetime() {
     let source = source(Births::rate(100.0, 0.005, 3.0), 0.5);
@@ -128,7 +129,7 @@ fn so_many_are_alive_as_are_born_in_a_lifetime() {
     assert!(late.particles().iter().all(|it| it.born > 1.5 - 1e-12 && it.born <= 2.0 && it.dies > 2.0));
 }
 
-/// Two thousand lifetimes later, there are no more than at first.
+/// After two thousand lifetimes, the cloud uses no more memory than at first.
 #[test]
 fn the_dead_take_no_memory() {
     let source = source(Births::rate(1000.0, 0.0, f64::INFINITY), 0.1);
@@ -141,7 +142,7 @@ fn the_dead_take_no_memory() {
     assert!((100..=101).contains(&most), "{most}");
 }
 
-/// With all kinds of forces, on any number of neighbours.
+/// The result holds for all kinds of forces and any number of neighbours.
 #[test]
 fn whoever_begins_later_gets_the_same_bits() {
     let mut source = source(Births::rate(1234.5, 0.0, f64::INFINITY), 0.5);
@@ -166,7 +167,7 @@ fn some_of_them_are_the_same_as_among_all() {
     assert_eq!(some.particles(), expected);
 }
 
-/// A moment between two frames is one more end of an interval, on the same steps.
+/// A time between two frames ends an additional interval, but the steps stay the same.
 #[test]
 fn births_between_frames_are_seen_at_once() {
     let source = source(Births::rate(1000.0, 0.0, f64::INFINITY), 0.5);
@@ -177,7 +178,8 @@ fn births_between_frames_are_seen_at_once() {
     assert!((last.location.y - 2.0 - 5.0 * 0.0005).abs() < 1e-5);
 }
 
-/// The cosine of the angle is uniform from cos 30° to 1. Its mean over N draws has the deviation (1 − cos 30°)/√(12 N).
+/// The cosine of the angle is uniform from cos 30° to 1. Its mean over N draws has the standard deviation (1 − cos
+/// 30°)/√(12 N).
 #[test]
 fn directions_fill_the_cone_evenly() {
     const COUNT: u64 = 20_000;
@@ -196,11 +198,11 @@ fn directions_fill_the_cone_evenly() {
     }
     let count = COUNT as f64;
     assert!((sum / count - (1.0 + edge) / 2.0).abs() < 4.0 * (1.0 - edge) / (12.0 * count).sqrt());
-    // sin² has a mean below ¼, of which each of two directions across has half.
+    // The mean of sin² is below ¼. Each of the two directions across has half of it.
     assert!((aside / count).length() < 4.0 * 0.5 / count.sqrt());
 }
 
-/// A share p of N places has the deviation √(p (1 − p)/N), at most 1/(2√N).
+/// A fraction p of N points has the standard deviation √(p (1 − p)/N), at most 1/(2√N).
 #[test]
 fn places_on_surfaces_are_as_likely_as_their_area() {
     const COUNT: u32 = 20_000;
@@ -219,20 +221,20 @@ fn places_on_surfaces_are_as_likely_as_their_area() {
     let across = |place: DVec3| (place.x * place.x + place.z * place.z).sqrt();
     is(&Shape::Sphere { radius: 2.0 }, 0.25, &|place| place.y > 1.0);
     is(&Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) }, 3.0 / 22.0, &|place| place.y > 1.0 - 1e-12);
-    // Walls 2πrh, ends 2πr²: h/(h + r).
+    // The wall has the area 2πrh, the ends 2πr². The wall's fraction is h/(h + r).
     is(&Shape::Cylinder { radius: 1.0, height: 3.0 }, 0.75, &|place| place.y.abs() < 1.5 - 1e-9);
-    // The balls at the ends have 4πr² of 2πrh.
+    // The half balls have the area 4πr² of a total of 2πrh.
     is(&Shape::Capsule { radius: 1.0, height: 6.0 }, 1.0 / 3.0, &|place| place.y.abs() > 2.0);
-    // A wall of slant 5 has 15π, the base 9π; below half the height are three quarters of the wall.
+    // The wall, of slant height 5, has the area 15π, the base 9π. Three quarters of the wall are below half the height.
     let cone = Shape::Cone { radius: 3.0, top_radius: 0.0, height: 4.0 };
     is(&cone, 9.0 / 24.0, &|place| place.y < -1.0 + 1e-9);
     is(&cone, 9.0 / 24.0 + 0.75 * 15.0 / 24.0, &|place| place.y < 1.0);
-    // Outside of the middle circle is the share 1/2 + r/(πR).
+    // Outside the middle circle, the fraction of the area is 1/2 + r/(πR).
     is(&Shape::Torus { radius: 3.0, tube_radius: 1.0 }, 0.5 + 1.0 / (3.0 * PI), &|place| across(place) > 3.0);
 }
 
-/// The larger of two triangles, 2 m² and 6 m², gets three quarters of the points. So does the half of a triangle that is farther
-/// from a corner.
+/// Of two triangles of 2 m² and 6 m², the larger gets three quarters of the points. In a triangle, the half that is
+/// farther from a corner also gets three quarters.
 #[test]
 fn places_on_triangles_are_as_likely_as_their_area() {
     const COUNT: u32 = 20_000;
@@ -273,15 +275,15 @@ fn places_lie_on_their_surfaces_and_normals_point_outwards() {
         for _ in 0..500 {
             let (place, normal) = surface::place(&shape, &mut random);
             assert!((normal.length() - 1.0).abs() < 1e-12);
-            // No point of a convex shape lies farther along the normal.
+            // No point of a convex shape is farther along the normal than the point itself.
             let farthest = shape.support(DQuat::IDENTITY, normal).unwrap();
             assert!((place.dot(normal) - farthest).abs() < 1e-9, "{shape:?} {place} {normal}");
         }
     }
 }
 
-/// A wheel that turns by 500 rad/s, 20 rad a frame: places on its rim are on the circle at any time, and what leaves it has
-/// its speed.
+/// A wheel rotates at 500 rad/s, 20 rad per frame. Points of its rim stay on the circle at all times, and particles
+/// leave the rim with its speed.
 #[test]
 fn what_a_wheel_throws_has_the_speed_of_its_rim() {
     let turned = |t: f64| BodySnapshot {
@@ -302,7 +304,7 @@ fn what_a_wheel_throws_has_the_speed_of_its_rim() {
     assert!((velocity.length() - 500.0).abs() < 1e-8);
 }
 
-/// Between two frames, a body under a constant force is on its parabola.
+/// Between two frames, the course of a body under a constant force is the exact parabola.
 #[test]
 fn a_course_is_exact_under_a_constant_force() {
     let at = |t: f64| BodySnapshot {

@@ -68,7 +68,7 @@ impl Shape {
 }
 
 /// The part of a ball below a plane at height h above its centre: a cap of height R + h. Its volume is π (R + h)² (2R −
-/// h)/3, and its integral of the height is −π (R² − h²)²/4.
+/// h)/3. Its integral of the height is −π (R² − h²)²/4.
 fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     let h = height.clamp(-radius, radius);
     let pi = std::f64::consts::PI;
