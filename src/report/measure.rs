@@ -20,7 +20,7 @@ pub(super) struct Measured {
 /// The distance between a body and the same body in another run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Distance {
-    /// Between the centres, m.
+    /// The distance between the two centres, m.
     pub(super) place: f64,
     /// The angle between the two orientations, rad.
     pub(super) angle: f64,

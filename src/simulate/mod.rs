@@ -162,7 +162,7 @@ impl std::fmt::Display for Undefined {
 
 impl std::error::Error for Undefined {}
 
-/// The error of an adaptive method that found no time step short enough.
+/// The error of an adaptive method that found no timestep short enough.
 #[derive(Clone, Debug)]
 pub struct Stalled {
     /// The name of the body whose motion changes too fast.

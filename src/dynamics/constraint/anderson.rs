@@ -21,7 +21,7 @@ pub(super) struct Anderson {
     last: Sweep,
     /// The square of the length of the last change.
     length: f64,
-    /// Whether there is no last sweep yet.
+    /// Whether no sweep has been made yet.
     is_new: bool,
     /// The difference between each recent sweep and the one before, the oldest first.
     steps: Vec<Sweep>,

@@ -3,7 +3,7 @@
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// Where the cores of two parts are nearest. `None`: nobody knows.
+/// Always `None`: there is no first guess at the points where the cores of two parts are nearest.
 pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<Nearest> {
     None
 }

@@ -338,7 +338,7 @@ fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
-/// The features of a part that extend as far along a normal as its nearest place `at`, within `depth`.
+/// The indices of the features of a part that reach along `normal` at least as far as the point `at`, less `depth` (m).
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
     let lowest = at.dot(normal) - depth;

@@ -12,7 +12,7 @@ const TRIALS: usize = 120;
 /// Times that differ by less than this fraction of a step count as equal.
 const INSTANT: f64 = 1e-13;
 
-/// The number of trials until two bodies touch; each squares the error.
+/// The number of iterations to find the time at which two bodies touch. Each one squares the error of that time.
 const TOUCHES: usize = 12;
 
 impl World {

@@ -7,7 +7,7 @@ use glam::DAffine3;
 use super::document::{Accessor, Attributes, BufferView, FLOAT, UNSIGNED_INT};
 use crate::surface::{Detail, Form, Motif, Triangles};
 
-/// The views of the buffer by number, in their order.
+/// The indices of the glTF buffer views, in the order in which the document lists them.
 const VERTICES: u32 = 0;
 const INDICES: u32 = 1;
 const KEYS: u32 = 2;

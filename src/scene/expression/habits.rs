@@ -2,7 +2,7 @@
 
 use super::error::{ExpressionError, syntax};
 
-/// The error for a symbol that no formula contains. `rest` begins with the symbol; `start` is its place in the formula.
+/// The error for a symbol that formulas must not contain. `rest` begins with the symbol; `start` is its place in the formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     const SYMBOLS: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
