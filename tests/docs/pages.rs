@@ -34,6 +34,14 @@ fn every_folder_says_what_may_be_touched() {
     assert_eq!(rows, all.len(), "a row for a folder that is not there");
 }
 
+#[test]
+fn the_workflow_tests_the_oldest_rust_that_the_manifest_allows() {
+    let read = |name: &str| fs::read_to_string(support::root().join(name)).unwrap();
+    let manifest = read("Cargo.toml");
+    let line = manifest.lines().find_map(|line| line.strip_prefix("rust-version = ")).unwrap();
+    assert!(read(".github/workflows/ci.yml").contains(&format!("rust: {line}\n")), "not tested: {line}");
+}
+
 /// The names that GitHub gives to the headings of a page, for links.
 fn headings(page: &str) -> BTreeSet<String> {
     let is_kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
