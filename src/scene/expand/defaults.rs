@@ -1,4 +1,4 @@
-//! Applies `[defaults.body]`, `[defaults.material]` and the like: fills in missing keys.
+//! Fills in the missing keys of bodies, materials, lights and forces from the scene's `[defaults]` table.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,7 @@ use crate::scene::grammar::{Kind, SCENE};
 use crate::scene::source::{Node, Table, Value};
 
 impl Expander<'_> {
-    /// Fills in the missing keys of all bodies, materials and other named things from the defaults.
+    /// Fills in the missing keys of every body, material, light, force and so on from the scene's `[defaults]` table.
     pub(super) fn defaults(&mut self, root: &mut Table) {
         let Some(Value::Table(defaults)) = root.get("defaults").map(|entry| &entry.node.value) else {
             return;
@@ -31,7 +31,7 @@ impl Expander<'_> {
     }
 }
 
-/// Collects the places of all keys and values below a node.
+/// Collects the source spans of all keys and values below a node.
 fn places(node: &Node, into: &mut HashSet<Span>) {
     into.insert(node.span);
     match &node.value {
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(starts(&|start| start.mass), [3.0, 5.0, 3.0]);
         assert_eq!(starts(&|start| start.velocity.x), [1.0, 1.0, 0.0]);
         assert!(scene.bodies.iter().all(|body| body.shape == Shape::Sphere { radius: 2.0 }));
-        // Inner tables are completed key by key.
+        // Missing keys of nested tables such as `look` are filled in one by one.
         assert_eq!((scene.bodies[1].look.scale, scene.bodies[1].look.sdl_before.is_some()), (2.0, true));
     }
 
@@ -119,7 +119,7 @@ mod tests {
         );
         let masses: Vec<f64> = scene.bodies.iter().map(|body| body.start.mass).collect();
         assert!(masses[0] != masses[1] && masses[2] != masses[3], "{masses:?}");
-        // The random numbers are the same as without defaults.
+        // A body draws the same random numbers for a formula from `[defaults]` as for a formula of its own.
         let alone = Scene::parse("[body.b]\nshape.sphere.radius = 0.5\nmass = 'uniform(1, 2)'").unwrap();
         assert_eq!(alone.bodies[0].start.mass, masses[1]);
     }

@@ -1,4 +1,4 @@
-//! The geometry that placing copies needs before the bodies are read: size and orientation.
+//! The size and orientation of a body, which the patterns of `repeat` need before bodies are read.
 
 use glam::DQuat;
 
@@ -7,14 +7,14 @@ use crate::scene::source::Table;
 
 /// The size and orientation of a body.
 pub(in crate::scene) struct Geometry {
-    /// The radius, m, of a ball around the body's centre that contains the body. `None` for an endless body.
+    /// The radius, m, of a sphere around the body's center that contains the body. `None` for an unbounded body such as a plane.
     pub(in crate::scene) radius: Option<f64>,
-    /// The orientation that the body's own keys give.
+    /// The orientation given by the body's own keys, before a pattern of copies turns the body further.
     pub(in crate::scene) orientation: DQuat,
 }
 
-/// Reads the geometry of bodies before they are checked.
+/// Reads the size and orientation of a body directly from its table, before the table is checked.
 pub(in crate::scene) trait Geometer {
-    /// Reads the geometry of a body from the body's table. The later check reports mistakes.
+    /// Returns the size and orientation of the body that `table` describes. Ignores errors, because the later check reports them.
     fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry;
 }

@@ -1,4 +1,4 @@
-//! The copies of each repeated body, and the names for several of them.
+//! The copies of repeated bodies, forces and joints, and names such as `brick[*,0]` that mean several copies.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -9,27 +9,26 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
-/// The maximum number of names in all lists of bodies together. A name for several bodies counts once for each of
-/// them.
+/// The maximum total number of body names in all lists of the scene. A name for several bodies counts once for each of these bodies.
 const MAX_NAMES: usize = 2_000_000;
 
-/// The repeated bodies, forces and joints, by name.
+/// The bodies, forces and joints that the scene repeats, by name.
 #[derive(Default)]
 pub(in crate::scene) struct Groups {
     bodies: HashMap<String, Group>,
-    /// The names of repeated forces and joints. A body may have the same name.
+    /// The names of repeated forces and joints. They are stored apart from bodies, because a body and a force may share a name.
     links: HashSet<String>,
-    /// The number of copies of each joint.
+    /// The number of copies of each repeated joint.
     joints: HashMap<String, [usize; 1]>,
 }
 
-/// The copies of one body.
+/// The copies of one repeated body.
 pub(super) struct Group {
-    /// The number of copies in each direction.
+    /// The number of copies along each direction of the pattern, one to three numbers.
     pub(super) counts: Vec<usize>,
-    /// The names of the copies, in the order of their indices.
+    /// The names of the copies; the last index varies fastest.
     pub(super) names: Vec<Arc<str>>,
-    /// Whether the counts are known. If a count is wrong, any index may be valid.
+    /// True if the number of copies is known. If the scene gives it wrongly, every index is accepted, to avoid follow-up errors.
     pub(super) is_known: bool,
 }
 
@@ -42,7 +41,7 @@ impl Groups {
         self.links.insert(name.to_owned());
     }
 
-    /// The name of the repeated force or joint that a copy belongs to. `None` if `name` is not that of a copy.
+    /// Returns the name of the repeated force or joint that the copy `name` belongs to. `None` if `name` is no name of a copy.
     pub(in crate::scene) fn original_link<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
         self.links.contains(original).then_some(original)
@@ -52,7 +51,7 @@ impl Groups {
         self.joints.insert(name.to_owned(), [count]);
     }
 
-    /// The number of copies of a body or a joint in each direction. `None` if it is not repeated.
+    /// Returns the number of copies of a body or joint along each direction. `None` if the body or joint is not repeated.
     pub(super) fn counts(&self, of: Collection, original: &str) -> Option<&[usize]> {
         match of {
             Collection::Body | Collection::Target => {
@@ -63,19 +62,19 @@ impl Groups {
         }
     }
 
-    /// The name of the repeated body that a copy belongs to: `brick` for `brick[3,0]`.
+    /// Returns the name of the repeated body that a copy belongs to: `brick` for `brick[3,0]`. `None` if no repeated body has that name.
     pub(in crate::scene) fn original<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
         self.bodies.contains_key(original).then_some(original)
     }
 
-    /// Whether the name may be that of a copy of a body whose counts are wrong.
+    /// Returns true if `name` belongs to a repeated body with an unknown number of copies, so that the named copy may exist.
     pub(in crate::scene) fn may_hold(&self, name: &str) -> bool {
         let original = split(name).map_or(name, |(original, _)| original);
         self.bodies.get(original).is_some_and(|group| !group.is_known)
     }
 
-    /// The names of the first and the last copy of the repeated body or joint that a name belongs to.
+    /// Returns the names of the first and the last copy of a repeated body or joint. `name` is its own name or that of any copy.
     pub(in crate::scene) fn ends(&self, of: Collection, name: &str) -> Option<[String; 2]> {
         let original = split(name).map_or(name, |(original, _)| original);
         let counts = self.counts(of, original)?;
@@ -83,12 +82,12 @@ impl Groups {
         Some([copy_name(original, &vec![0; counts.len()]), copy_name(original, &last)])
     }
 
-    /// Whether a name means several bodies.
+    /// Returns true if a list item names several bodies, such as `brick` or `brick[*,0]`.
     pub(super) fn means_several(&self, item: &Node) -> bool {
         body_of(item).is_some_and(|name| self.several(name).is_some())
     }
 
-    /// The names of the copies that a name means. `None` if the name means a single body.
+    /// Returns the names of the copies that `name` means, such as `brick` or `brick[*,0]`. `None` if it means a single body.
     fn several<'a>(&'a self, name: &str) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
         if let Some(Group { names, is_known: true, .. }) = self.bodies.get(name) {
             return Some(Box::new(names.iter()));
@@ -114,7 +113,7 @@ impl Groups {
 }
 
 impl Expander<'_> {
-    /// Replaces each name in a list that means several bodies by the names of the copies: `brick`, `brick[*,0]`.
+    /// Replaces each list item that means several bodies (`brick`, `brick[*,0]`) by one item for each copy.
     pub(super) fn spread(&mut self, list: &mut Node) {
         let Value::Array(items) = &list.value else { return };
         if self.groups.bodies.is_empty() || !items.iter().any(|item| self.groups.means_several(item)) {
@@ -144,7 +143,7 @@ impl Expander<'_> {
     }
 }
 
-/// The name of the body in an item of a list: the item itself, or the `body` of a table.
+/// Returns the name of the body in a list item. The item is the name itself or a table with the key `body`.
 pub(super) fn body_of(item: &Node) -> Option<&str> {
     match item.as_table() {
         Some(table) => table.get("body")?.node.as_str(),
@@ -152,7 +151,7 @@ pub(super) fn body_of(item: &Node) -> Option<&str> {
     }
 }
 
-/// The same item with the name of another body.
+/// Returns a copy of a list item in which the name of the body is replaced by `name`.
 fn of_body(item: &Node, name: &Arc<str>) -> Node {
     let text = Value::String(name.clone());
     let mut item = item.clone();
@@ -167,7 +166,7 @@ fn of_body(item: &Node, name: &Arc<str>) -> Node {
     item
 }
 
-/// Splits the name of a copy: `brick[3,0]` → `brick`, `3,0`.
+/// Splits the name of a copy into the name of the repeated body and the indices: `brick[3,0]` → `brick`, `3,0`.
 pub(super) fn split(name: &str) -> Option<(&str, &str)> {
     name.strip_suffix(']')?.rsplit_once('[')
 }

@@ -1,4 +1,4 @@
-//! Corrects common mistakes in formulas: numbers with units, and locations of bodies.
+//! Detects common mistakes in formulas, such as a unit behind a number or a reference to a body's location, and suggests corrections.
 
 use std::ops::Range;
 
@@ -8,16 +8,16 @@ use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Table, Value};
 use crate::scene::units;
 
-/// A formula that uses the location of a body.
+/// A formula that uses the location of a body, which is an error.
 pub(super) struct OfBody {
     text: String,
     span: Span,
-    /// Whether a formula of the time is allowed here.
+    /// True if the formula may depend on the time `t`.
     is_timed: bool,
 }
 
 impl Expander<'_> {
-    /// Whether a text is a number with a unit, which is an error. Reports the error.
+    /// Returns true, and reports an error, if the text is a number with a unit, such as `5 cm`.
     pub(super) fn has_unit(&mut self, text: &str, span: Span) -> bool {
         let Some((number, unit)) = units::quantity(text) else { return false };
         if !self.told.insert(span) {
@@ -42,7 +42,7 @@ impl Expander<'_> {
         true
     }
 
-    /// Warns of angles that are probably in the wrong unit.
+    /// Warns if a formula probably uses degrees in place of radians, or the reverse.
     pub(super) fn look_at_angles(&mut self, formula: &Formula, span: Span) {
         let text = formula.text();
         let (range, message, label, mended) =
@@ -66,8 +66,8 @@ impl Expander<'_> {
         self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
     }
 
-    /// Recognizes a formula of the time for the initial pose of a body. Returns the place of the key and the key of a
-    /// motion that was probably meant.
+    /// Recognizes that a body's initial `location` or `orientation` uses the time `t`. Returns the source span of that key, and the key of
+    /// a motion that was probably meant.
     pub(super) fn motion_meant(&self, name: &str, span: Span) -> Option<(Span, &'static str)> {
         let path = self.path.strip_prefix("body.").filter(|_| name == "t")?;
         let (key, motion) =
@@ -85,8 +85,8 @@ impl Expander<'_> {
         (is_key && text[at.end..span.start].trim_start().starts_with('=')).then_some((at, motion))
     }
 
-    /// Whether a formula uses the location of a body, which is an error. The error is reported when the locations of
-    /// all bodies are known.
+    /// Returns true if a formula uses the location of a body, which is an error. Stores the formula; the error is reported after all
+    /// bodies are expanded, because its suggestion contains their locations.
     pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
         let asks = text.contains('.') && members(text).next().is_some();
         if asks && self.told.insert(span) {
@@ -95,7 +95,8 @@ impl Expander<'_> {
         asks
     }
 
-    /// Reports the formulas that use locations of bodies, and replaces them by the bodies' initial coordinates.
+    /// Reports all formulas that use locations of bodies. Suggests to write the initial coordinate, or the formula of the body's motion,
+    /// in place of each reference.
     pub(super) fn report_of_bodies(&mut self, root: &Table) {
         let bodies = root.get("body").and_then(|entry| entry.node.as_table());
         for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {
@@ -135,7 +136,7 @@ impl Expander<'_> {
     }
 }
 
-/// Corrects a decimal comma: `0,5` → `0.5`.
+/// Replaces a decimal comma by a decimal point: `0,5` → `0.5`. `None` if the text is no number with a comma.
 pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
     let (whole, part) = text.trim().split_once(',')?;
     let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -143,7 +144,7 @@ pub(super) fn without_decimal_comma(text: &str) -> Option<String> {
         .then(|| format!("{whole}.{part}"))
 }
 
-/// The text of a body's coordinate for a formula, and whether the text is a formula of the time.
+/// Returns a body's coordinate as the text of a formula, and true if that text depends on the time. `member` is the axis: `x`, `y` or `z`.
 fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
     let axis = ["x", "y", "z"].iter().position(|axis| *axis == member)?;
     let inner = |table: &Table, key: &str| table.get(key).and_then(|entry| entry.node.as_table()).cloned();
@@ -164,7 +165,8 @@ fn coordinate(body: &Table, member: &str) -> Option<(String, bool)> {
     }
 }
 
-/// The references to a property of a body in a formula, such as `ball.x`: their range, the body and the property.
+/// Finds the references to a property of a body in a formula, such as `ball.x`. Each item is the byte range, the body's name and the
+/// property.
 fn members(text: &str) -> impl Iterator<Item = (Range<usize>, &str, &str)> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '[' | ']');
     text.match_indices('.').filter_map(move |(at, _)| {

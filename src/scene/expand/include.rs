@@ -1,7 +1,7 @@
-//! `include`: fills in values from other scene files.
+//! The key `include`: fills in values from other scene files.
 //!
-//! A file's own values override those of the files that it includes. Two included files must not give the same key,
-//! unless the including file gives it, too. A file that is included several times is read once.
+//! A file's own values override those of the files that it includes. It is an error if two included files give the same key and the
+//! including file does not. A file that is included several times is read once.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -14,8 +14,8 @@ use crate::scene::source::{self, Entry, Node, Table, Value};
 /// The maximum depth of nested includes.
 const MAX_DEPTH: usize = 50;
 
-/// Fills in values from all included files. `path` is the path of the scene's file, if it has one. Returns the texts
-/// of the included files.
+/// Fills in values from all included files. `path` is the path of the scene's file, or `None` for a scene that is not in a file. Returns
+/// the texts of the included files.
 pub(in crate::scene) fn include(
     root: &mut Table,
     path: Option<&Path>,
@@ -39,23 +39,23 @@ pub(in crate::scene) fn include(
     includer.texts
 }
 
-/// The folder for relative names in a file.
+/// Returns the folder of a scene file, to which the names of its included files are relative.
 fn folder_of(path: &Path) -> PathBuf {
     let folder = path.parent().unwrap_or(path);
     if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.to_owned() }
 }
 
-/// The names in a list. `None` if the value is not a list of names.
+/// Returns the file names in the value of `include`, with their source spans. `None` if the value is not a list of strings.
 fn names(node: &Node) -> Option<Vec<(String, Span)>> {
     let Value::Array(items) = &node.value else { return None };
     items.iter().map(|item| Some((item.as_str()?.to_owned(), item.span))).collect()
 }
 
 struct Includer<'a> {
-    /// The folder of the scene. Without `--trust`, included files must be inside.
+    /// The canonical folder of the scene. Without `--trust`, all included files must be inside this folder.
     scene: Option<PathBuf>,
     trust: bool,
-    /// The files that include each other, from the scene's file to the present file.
+    /// The chain of nested includes: the scene's file first, the file that is being read last.
     way: Vec<PathBuf>,
     done: HashSet<PathBuf>,
     texts: Vec<String>,
@@ -64,7 +64,7 @@ struct Includer<'a> {
 }
 
 impl Includer<'_> {
-    /// Fills in the values of a table from the named files.
+    /// Reads the files named in `items` and fills in the missing keys of `own` from them. `folder` is the folder of the including file.
     fn files(&mut self, own: &mut Table, items: &[(String, Span)], folder: Option<&Path>) {
         let mut all = Table::default();
         for (name, span) in items {
@@ -81,7 +81,7 @@ impl Includer<'_> {
         merge(own, &all, &SCENE);
     }
 
-    /// Reads a file and all files that it includes. `None` if the file has been included before.
+    /// Reads a file and all files that it includes. Returns `None` if the file has been included before.
     fn file(&mut self, name: &str, span: Span, folder: Option<&Path>) -> Result<Option<Table>, Diagnostic> {
         let cannot = |message: String| Diagnostic::error(Code::CannotInclude, message).at(span, "");
         let Some(folder) = folder else {
@@ -150,7 +150,7 @@ impl Includer<'_> {
         table
     }
 
-    /// The error for a file that includes itself through other files.
+    /// Returns the error for a file that includes itself, directly or through other files.
     fn cycle(&self, first: usize, span: Span) -> Diagnostic {
         let name = |path: &PathBuf| {
             let name = path.file_name().map(std::ffi::OsStr::to_string_lossy).unwrap_or_default();
@@ -167,7 +167,7 @@ impl Includer<'_> {
         Diagnostic::error(Code::CyclicInclude, message).at(span, "this leads back")
     }
 
-    /// Reports keys to which two included files give different values, unless the including file gives the key, too.
+    /// Reports keys that two included files both give, unless the including file gives the key, too.
     fn conflicts(&mut self, first: &Table, second: &Table, own: &Table, spec: &'static TableSpec) {
         for entry in &first.entries {
             let name = &*entry.name.text;
@@ -246,7 +246,7 @@ impl Includer<'_> {
     }
 }
 
-/// The entries of a table, by name.
+/// Indexes the entries of a table by name.
 fn by_name(table: &Table) -> HashMap<&str, &Entry> {
     table.entries.iter().map(|entry| (&*entry.name.text, entry)).collect()
 }

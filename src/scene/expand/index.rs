@@ -1,4 +1,4 @@
-//! Evaluates the indices in the names of copies: `bob[i]`, `link[i+1]`, `brick[i,n-1]`.
+//! Evaluates the indices in the names of copies, such as `bob[i]`, `link[i+1]` or `brick[i,n-1]`.
 
 use std::ops::Range;
 
@@ -9,13 +9,14 @@ use crate::scene::expression::Formula;
 use crate::scene::grammar::Collection;
 use crate::scene::source::{Node, Value};
 
-/// Whether a name is that of a copy with a formula as an index.
+/// Returns true if the name is that of a copy and at least one index is a formula: `bob[i]`, but not `bob[3]` or `bob[*]`.
 pub(super) fn is_formula(name: &str) -> bool {
     let is_plain = |part: &str| part == "*" || part.parse::<usize>().is_ok();
     split(name).is_some_and(|(_, inside)| parts(inside).any(|range| !is_plain(inside[range].trim())))
 }
 
-/// The name of the repeated thing and the formulas of its indices. `None` if no index depends on `i`.
+/// Returns the name of the repeated body or joint and the formulas of its indices: `link` and `i+1` for `link[i+1]`. `None` if no index
+/// depends on `i`.
 pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
     let (original, inside) = split(name)?;
     let formulas: Vec<Formula> =
@@ -24,7 +25,7 @@ pub(super) fn of_i(name: &str) -> Option<(&str, Vec<Formula>)> {
     is_of_i.then_some((original, formulas))
 }
 
-/// The ranges of the indices in a list such as `mod(i, 3), j`. Commas within parentheses do not separate.
+/// Returns the byte ranges of the indices in a list such as `mod(i, 3), j`. A comma within parentheses does not separate two indices.
 fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
     let (mut depth, mut start) = (0usize, 0);
     let mut ends = inside.char_indices().chain([(inside.len(), ',')]);
@@ -46,7 +47,8 @@ fn parts(inside: &str) -> impl Iterator<Item = Range<usize>> {
 }
 
 impl Expander<'_> {
-    /// Replaces the formulas in the name of a copy by their values. The validation checks that the copy exists.
+    /// Replaces the index formulas in the name of a copy by their values: `bob[i+1]` → `bob[4]`. The validation later checks that the copy
+    /// exists.
     pub(super) fn index(&mut self, node: &mut Node, of: Collection) {
         let Value::String(name) = &node.value else { return };
         let name = name.clone();
@@ -65,7 +67,7 @@ impl Expander<'_> {
             let start = original.len() + 1 + range.start + part.len() - part.trim_start().len();
             let place = place::in_string(self.raw(node.span), &name, &(start..start + text.len()), node.span);
             if place == node.span {
-                // Several indices may share this place, so it identifies none of their formulas.
+                // Several index formulas may share the span of the whole name, so no cached formula of that span can be reused.
                 self.formulas.remove(&place);
             }
             let Some(value) = self.evaluate(text, place) else {

@@ -1,4 +1,4 @@
-//! Copies forces and joints that have a `repeat` or ends whose names contain `i`.
+//! Copies forces and joints that have a `repeat`, or that connect bodies whose names contain the index `i`.
 //!
 //! `between = ["hook[i]", "bob[i]"]` makes a copy for each `i` for which both bodies exist.
 
@@ -14,7 +14,7 @@ use crate::scene::grammar::{Collection, Kind, MAX_COPIES, SCENE, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
 
 impl Expander<'_> {
-    /// Replaces each repeated force and joint by its copies.
+    /// Replaces each repeated force and each repeated joint by its copies.
     pub(super) fn repeat_links(&mut self, root: &mut Table) {
         for (key, what) in [("force", "forces"), ("joint", "joints")] {
             let Some(Kind::Named(spec)) = SCENE.key(key).map(|key| &key.kind) else { continue };
@@ -26,7 +26,7 @@ impl Expander<'_> {
             }
             let entries: Vec<Entry> = std::mem::take(&mut tables.entries).into_iter().collect();
             let mut copies: Vec<Vec<Entry>> = entries.iter().map(|_| Vec::new()).collect();
-            // Gears couple copies of other joints, so copy them last.
+            // A gear couples copies of other joints, so the other joints are copied first.
             let (gears, others): (Vec<_>, Vec<_>) =
                 entries.into_iter().zip(&mut copies).partition(|(entry, _)| is_gear(entry));
             for (entry, copies) in others.into_iter().chain(gears) {
@@ -59,7 +59,7 @@ impl Expander<'_> {
                 (self.count_of_ends(&ends), span, span)
             }
         };
-        // If the count is wrong, make one copy to find its other errors.
+        // If the number of copies is wrong, make one copy to find the other errors in the table.
         let count = count.filter(|count| self.is_affordable(&[*count], what, &name, because)).unwrap_or(1);
         self.collisions(&[count], &name, letter);
         let (scope, before, first) = (self.scope.clone(), self.work, all.len());
@@ -84,7 +84,7 @@ impl Expander<'_> {
         if what == "joints" {
             self.groups.add_joint(&name, count);
         }
-        // The first copy keeps its `repeat` for the validation.
+        // The first copy keeps its `repeat` key, which the validation checks later.
         if let (Some(Entry { node: Node { value: Value::Table(table), .. }, .. }), Some(repeat)) =
             (all.get_mut(first), repeat)
         {
@@ -92,8 +92,8 @@ impl Expander<'_> {
         }
     }
 
-    /// The number of values of `i`, from 0 on, for which all named bodies exist. Returns `None` after reporting that
-    /// the bodies of a pair have different numbers of copies.
+    /// Counts the values of `i`, from 0 upward, for which all bodies and joints named in `ends` exist. Returns `None` after reporting that
+    /// two bodies of a pair have different numbers of copies.
     fn count_of_ends(&mut self, ends: &[(&Node, Collection)]) -> Option<usize> {
         let ends: Vec<(&Node, Collection, &str, Vec<Formula>)> = ends
             .iter()
@@ -120,11 +120,11 @@ impl Expander<'_> {
             !ends.iter().all(|(_, of, original, formulas)| self.has_copy(*of, original, formulas))
         });
         self.scope = scope;
-        // If no copy exists, the first copy gets the error.
+        // If not even the copy for `i = 0` has all its bodies, that copy is made, and the validation reports its missing body.
         count.map(|count| count.max(1))
     }
 
-    /// Whether a copy with these indices exists.
+    /// Returns true if the repeated body or joint `original` has a copy with the indices that the formulas give for the current `i`.
     fn has_copy(&self, of: Collection, original: &str, formulas: &[Formula]) -> bool {
         let Some(counts) = self.groups.counts(of, original) else { return false };
         let is_in_range = |(formula, count): (&Formula, &usize)| {
@@ -135,7 +135,7 @@ impl Expander<'_> {
         formulas.len() == counts.len() && formulas.iter().zip(counts).all(is_in_range)
     }
 
-    /// Reports two bodies with different numbers of copies. Each comes with the place of its name.
+    /// Reports two bodies with different numbers of copies. Each argument is the span of a name, the name, and the number of copies.
     fn uneven(&mut self, (here, one, many): (Span, &str, usize), (there, other, more): (Span, &str, usize)) {
         let message =
             format!("pairs take as many of each: `{one}` has {many} copies, and `{other}` has {more}");
@@ -144,7 +144,7 @@ impl Expander<'_> {
         self.diagnostics.push(error.at(here, format!("{many} copies")).help(help));
     }
 
-    /// Reports an end of a joint that names several bodies.
+    /// Reports an error if an end of a joint names several bodies, and suggests one joint for each `i`.
     pub(super) fn are_single(&mut self, list: &mut Node) {
         let Value::Array(items) = &list.value else { return };
         let is_several = |item: &&Node| self.groups.means_several(item);
@@ -168,7 +168,7 @@ impl Expander<'_> {
     }
 }
 
-/// Rewrites a name of several bodies as the name of one body for each `i`: `bob` and `bob[*]` → `bob[i]`.
+/// Rewrites a name of several bodies as the name of the copy with index `i`: `bob` and `bob[*]` → `bob[i]`.
 fn by_index(name: &str) -> String {
     match split(name) {
         Some((original, inside)) => format!("{original}[{}]", inside.replacen('*', "i", 1)),
@@ -176,7 +176,7 @@ fn by_index(name: &str) -> String {
     }
 }
 
-/// Whether a force or a joint is repeated.
+/// Returns true if a force or a joint has to be copied: it has a `repeat`, or it names bodies by `i`.
 fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     let Some(table) = entry.node.as_table() else { return false };
     let mut ends = Vec::new();
@@ -184,12 +184,12 @@ fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     table.get("repeat").is_some() || !ends.is_empty()
 }
 
-/// Whether a force or a joint is a gear, which couples other joints.
+/// Returns true if the entry is a gear, a joint that couples two other joints.
 fn is_gear(entry: &Entry) -> bool {
     entry.node.as_table().is_some_and(|table| table.get("gear").is_some())
 }
 
-/// Finds the names of bodies and joints in a table that depend on `i`.
+/// Finds all names of bodies and joints in a table that depend on the index `i`, such as `bob[i]`. Appends them to `found`.
 fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<(&'t Node, Collection)>) {
     fn look<'t>(node: &'t Node, kind: &'static Kind, found: &mut Vec<(&'t Node, Collection)>) {
         match (kind, &node.value) {
@@ -215,7 +215,7 @@ fn ends_of_i<'t>(table: &'t Table, spec: &'static TableSpec, found: &mut Vec<(&'
     }
 }
 
-/// The number of copies. `None` if the number is wrong, which the validation reports.
+/// Returns the number of copies that `repeat` gives. `None` if the value is no valid number, which the validation reports.
 fn count_of(repeat: &Node) -> Option<usize> {
     match repeat.value {
         Value::Integer(count @ 1..=MAX_COPIES) => usize::try_from(count).ok(),

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::scene::grammar::{Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Merges two tables for the same thing. Values of `own` override those of `base`. They also exclude values that
-/// cannot stand beside them: `shape.box` in `own` drops `shape.sphere` of `base`.
+/// Fills in the missing keys of `own` from `base`, a table of the same kind. If `own` has a key that excludes a key of `base`, the latter
+/// is dropped: `shape.box` in `own` drops `shape.sphere` of `base`.
 ///
 /// Entries of `base` come first, in their order.
 pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
@@ -20,7 +20,7 @@ pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {
     });
 }
 
-/// Whether a key of the base table is excluded by another key of the table's own.
+/// Returns true if `own` lacks the key `name`, but has another key that excludes it, such as `shape.box` for `shape.sphere`.
 pub(super) fn is_replaced(name: &str, own: &Table, spec: &'static TableSpec) -> bool {
     let groups = match &spec.rule {
         Rule::Any => &[][..],
@@ -52,7 +52,8 @@ fn merge_values(own: &mut Node, base: &Node, kind: &'static Kind) {
     }
 }
 
-/// Appends the entries of a table to those of `base`. `both` merges the values of a key that is in both.
+/// Puts the entries of `base` before those of `own`. Where both tables have a key, keeps the entry of `own`, and `both` merges the two
+/// values.
 fn merge_entries(own: &mut Table, base: Vec<Entry>, both: impl Fn(&str, &mut Node, &Node)) {
     let mut numbers: std::collections::HashMap<Arc<str>, usize> =
         own.entries.iter().enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect();

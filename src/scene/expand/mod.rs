@@ -1,8 +1,7 @@
-//! Replaces the formulas in a tree by their values.
+//! Replaces the formulas in a scene's tree by their values.
 //!
-//! A string in the place of a number is a formula, according to the grammar. Its value keeps the place of the string
-//! in the text, so later code handles numbers only. A formula with an error is reported and becomes
-//! [`Value::Invalid`].
+//! Where the grammar expects a number, a string is a formula. The computed value keeps the source span of the string, so later code
+//! handles numbers only. A formula with an error is reported and becomes [`Value::Invalid`].
 
 mod defaults;
 mod geometry;
@@ -36,7 +35,7 @@ use super::timed::{Formulas, TimeFormula};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::random::Stream;
 
-/// Fills in defaults, replaces repeated things by their copies, and replaces every formula by its value.
+/// Fills in `[defaults]`, replaces repeated bodies, forces and joints by their copies, and replaces every formula by its value.
 pub(super) fn expand(
     root: &mut Table,
     geometer: &mut dyn Geometer,
@@ -67,7 +66,7 @@ pub(super) fn expand(
         diagnostics,
     };
     if let Some(entry) = root.get_mut("seed") {
-        // Read the seed before the variables, because variables may be random.
+        // Variables may be random, so the seed is read before them.
         expander.integer(&mut entry.node);
         if let Value::Integer(seed) = entry.node.value {
             expander.seed = seed.unsigned_abs();
@@ -89,52 +88,53 @@ pub(super) fn expand(
     Expansion { groups: expander.groups, of_defaults: expander.of_defaults }
 }
 
-/// Facts about an expanded scene besides its values.
+/// Results of the expansion that the expanded tree itself does not hold.
 #[derive(Default)]
 pub(super) struct Expansion {
-    /// The copies of repeated things.
+    /// The copies of repeated bodies, forces and joints.
     pub(super) groups: Groups,
-    /// The places of the keys and values of `[defaults]`.
+    /// The source spans of all keys and values in `[defaults]`.
     pub(super) of_defaults: HashSet<Span>,
 }
 
-/// The state of the expansion.
+/// The state of the expansion of a scene.
 struct Expander<'a> {
-    /// Reads the size and orientation of bodies.
+    /// Reads the size and orientation of bodies before they are checked.
     geometer: &'a mut dyn Geometer,
     sources: &'a Sources,
     scope: Scope,
-    /// The formulas of the body that is being copied, by their places. Each is parsed once.
+    /// The parsed formulas of the body, force or joint that is being copied, by source span. All copies share them.
     formulas: HashMap<Span, Arc<Formula>>,
-    /// The formulas of the time that have been parsed.
+    /// The parsed formulas that depend on the time.
     timed_formulas: Formulas,
-    /// The work done for formulas so far, in the units of [`repeat::work_of_value`].
+    /// The cost of the formulas so far, in the units of [`repeat::work_of_value`]. It limits how many copies are made.
     work: u64,
-    /// The variables without a value. Their errors have been reported.
+    /// The variables whose value is unknown because of an error, which has been reported.
     broken: HashSet<String>,
-    /// The seed of the random numbers. The path of a value gives each value its own random numbers.
+    /// The seed of the random numbers of the scene. Each formula has its own random stream, derived from the seed and from the path of its
+    /// key.
     seed: u64,
-    /// The path of the present value: `body.ball.location[1]`.
+    /// The path of the value that is being expanded, such as `body.ball.location[1]`.
     path: String,
-    /// The name of the present copy. `None` outside of copies.
+    /// The name of the copy that is being expanded, such as `brick[3,0]`. `None` outside of copies.
     copy: Option<Arc<str>>,
-    /// The number of copies so far.
+    /// The number of copies made so far.
     copies: usize,
-    /// The number of names of copies in lists so far.
+    /// The number of list items made so far from names that mean several bodies.
     names: usize,
     groups: Groups,
     of_defaults: HashSet<Span>,
-    /// Whether the present values are defaults. Their formulas are evaluated only where a thing uses the default.
+    /// True within `[defaults]`. A default formula is evaluated only in the bodies, forces and so on that use it.
     is_default: bool,
-    /// The places that name the variables.
+    /// The source span of each variable's name.
     variable_spans: HashMap<String, Span>,
-    /// The formulas whose errors have been reported. All copies share one formula.
+    /// The source spans whose errors have been reported. All copies of a body share the span of a formula, so its error is reported once.
     told: HashSet<Span>,
-    /// The unit of the present key. Empty for a key without a unit.
+    /// The unit of the key that is being expanded. Empty for a key without a unit.
     unit: &'static str,
-    /// The formulas with a warning about the unit of an angle.
+    /// The source spans of formulas that have been warned about because of the unit of an angle.
     warned: HashSet<Span>,
-    /// The formulas that use the locations of bodies.
+    /// The formulas that use the locations of bodies. Their errors are reported at the end of the expansion.
     of_bodies: Vec<habits::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -155,7 +155,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Calls `work` with `key` added to the path.
+    /// Calls `work` while `key` is appended to the current path.
     fn below<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
         let length = self.path.len();
         if length > 0 {
@@ -165,7 +165,7 @@ impl Expander<'_> {
         if is_plain {
             self.path.push_str(key);
         } else {
-            // Quote a name with a dot, because the dot does not lead to an inner table.
+            // Other names are quoted: a dot in a name does not lead to an inner table.
             let _ = write!(self.path, "{key:?}");
         }
         let done = work(self);
@@ -187,7 +187,7 @@ impl Expander<'_> {
             (Kind::Colors, Value::Array(items)) if items.iter().any(is_list) => {
                 self.items(node, |this, item| this.value(item, &Kind::Color));
             }
-            // Strings in a list of colors are names of colors.
+            // In a list of colors, strings are names of colors, not formulas.
             (Kind::Colors, Value::Array(items)) if items.iter().all(|item| item.as_str().is_some()) => {}
             (Kind::Numbers(..) | Kind::Direction(_) | Kind::Color | Kind::Colors, Value::Array(_)) => {
                 self.items(node, Expander::number);
@@ -226,7 +226,8 @@ impl Expander<'_> {
         }
     }
 
-    /// Visits the items of a list. If one item is invalid, which has been reported, the whole list is.
+    /// Expands each item of a list by `look`. If an item becomes invalid after a reported error, the whole list becomes
+    /// [`Value::Invalid`].
     fn items(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
         let Value::Array(items) = &mut node.value else { return };
         let mut is_whole = true;
@@ -242,7 +243,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Replaces a formula by its value. Leaves values other than strings unchanged.
+    /// Replaces a formula (a string) by its value. Leaves values of other types unchanged.
     fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         if self.is_hopeless(node.span)
@@ -260,12 +261,12 @@ impl Expander<'_> {
         node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
     }
 
-    /// Whether an error in the formula has been reported for another copy. If so, the formula is not evaluated again.
+    /// Returns true if another copy has reported an error in this formula. The formula is then not evaluated again.
     fn is_hopeless(&self, span: Span) -> bool {
         self.copy.is_some() && self.told.contains(&span)
     }
 
-    /// Like [`Expander::number`], but keeps a formula of the time as a program.
+    /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula that depends on the time as a compiled program.
     fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         if self.is_hopeless(node.span)
@@ -303,8 +304,8 @@ impl Expander<'_> {
         Some(read)
     }
 
-    /// Like [`Expander::number`], but keeps a formula with random numbers as a program, because each particle draws
-    /// its own.
+    /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula with random numbers or the time as a compiled
+    /// program. Each particle then evaluates the program with its own random numbers.
     fn drawn_later(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
@@ -332,9 +333,9 @@ impl Expander<'_> {
         node.value = drawn.map_or(Value::Invalid, Value::Drawn);
     }
 
-    /// Like [`Expander::number`], but requires a whole number.
+    /// Replaces a formula by its value, as [`Expander::number`] does, and reports an error if that value is not a whole number.
     fn integer(&mut self, node: &mut Node) {
-        /// The largest number up to which an `f64` represents all whole numbers.
+        /// The largest number (2⁵³) up to which an `f64` represents all whole numbers.
         const LARGEST: f64 = 9_007_199_254_740_992.0;
         if !matches!(node.value, Value::String(_)) {
             return;
@@ -355,7 +356,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports errors of a formula that do not depend on the indices of a copy.
+    /// Reports those errors in a formula of `[defaults]` that occur for every copy, such as unknown names. Evaluates nothing.
     fn look_over(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
         INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
@@ -364,14 +365,14 @@ impl Expander<'_> {
         }
     }
 
-    /// The value of the formula at a place. `None` after reporting an error.
+    /// Evaluates the formula `text` at the source span `span`. Returns `None` after reporting an error.
     fn evaluate(&mut self, text: &str, span: Span) -> Option<f64> {
         let formula = self.parsed(text, span)?;
         self.look_at_angles(&formula, span);
         self.value_of(&formula, span)
     }
 
-    /// The formula at a place, which all copies of a body share. `None` after reporting an error.
+    /// Parses the formula at a source span, or returns it from the cache that all copies share. Returns `None` after reporting an error.
     fn parsed(&mut self, text: &str, span: Span) -> Option<Arc<Formula>> {
         if let Some(known) = self.formulas.get(&span) {
             return Some(known.clone());
@@ -383,7 +384,7 @@ impl Expander<'_> {
         Some(formula)
     }
 
-    /// The value of a parsed formula. `None` after reporting an error.
+    /// Evaluates a parsed formula. Returns `None` if an error has been reported, here or for a variable in the formula.
     fn value_of(&mut self, formula: &Formula, span: Span) -> Option<f64> {
         if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
             return None;
@@ -398,7 +399,7 @@ impl Expander<'_> {
         self.keep(value, formula.text(), span)
     }
 
-    /// Draws the random numbers of a formula. Each place has its own, independent random numbers.
+    /// Draws the random numbers of a formula, in the order of their use. Each path of a key has its own, independent random stream.
     fn drawn(&self, resolved: &Resolved) -> Vec<f64> {
         if resolved.draws().is_empty() {
             return Vec::new();
@@ -411,17 +412,18 @@ impl Expander<'_> {
         resolved.draws().iter().map(draw).collect()
     }
 
-    /// The stream of random numbers for the present path, followed by `below`.
+    /// Returns the random stream for the path of the current value, with `below` appended to the path.
     fn stream(&self, below: &str) -> Stream {
         Stream::new(self.seed, &format!("{}{below}", self.path))
     }
 
-    /// The name of the present copy, for the end of a message. Empty outside of copies.
+    /// Returns the name of the current copy as the end of an error message. Empty outside of copies.
     fn in_copy(&self) -> String {
         self.copy.as_ref().map_or_else(String::new, |name| format!(", in `{name}`"))
     }
 
-    /// Reports the errors of a formula at their places in the scene.
+    /// Returns the value of `found`, or reports its errors at their positions in the scene's text and returns `None`. `text` is the
+    /// formula and `span` is its source span.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, text: &str, span: Span) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -452,13 +454,13 @@ impl Expander<'_> {
         None
     }
 
-    /// The text of the scene at a place.
+    /// Returns the source text of a span, as it is written in the scene.
     fn raw(&self, span: Span) -> &str {
         self.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
     }
 }
 
-/// Whether the expansion has to change anything in a table.
+/// Returns true if a table contains formulas or names of several bodies, which the expansion has to replace.
 fn has_work(table: &Table, spec: &TableSpec) -> bool {
     let is_open =
         |entry: &Entry| spec.key(&entry.name.text).is_some_and(|key| !is_settled(&entry.node, &key.kind));
@@ -469,7 +471,8 @@ fn is_list(node: &Node) -> bool {
     matches!(node.value, Value::Array(_))
 }
 
-/// Whether a value contains neither formulas nor names of several bodies. Copies of a body share such values.
+/// Returns true if a value contains neither formulas nor names of several bodies. All copies of a body share one instance of each of these
+/// values.
 fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {

@@ -1,4 +1,4 @@
-//! Reads formulas of a body's quantities, such as those of a force.
+//! Reads formulas that depend on a body's current quantities, such as its velocity. They give, for example, a force.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use crate::scene::law::BodyFormula;
 use crate::scene::source::{Node, Value};
 
 impl Expander<'_> {
-    /// Like `number`, but keeps a formula of a body's quantities, which the run evaluates. Leaves values other than
-    /// strings unchanged.
+    /// Parses a formula of a body's quantities and keeps it, because the simulation evaluates it at every step. `names` are the quantities
+    /// that the formula may use. Leaves values other than strings unchanged.
     pub(super) fn of_body(&mut self, node: &mut Node, names: &'static [&'static str]) {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
@@ -34,8 +34,7 @@ impl Expander<'_> {
         node.value = Value::OfBody(Arc::new(BodyFormula::new(text, span, resolved)));
     }
 
-    /// Whether a formula uses a name that means both a quantity of the body and a variable of the scene. Reports such
-    /// a name.
+    /// Returns true, and reports an error, if a formula uses a name that is both a quantity of the body and a variable of the scene.
     fn is_ambiguous(&mut self, formula: &Formula, node: &Node, names: &[&str]) -> bool {
         let mut both = formula.names().filter(|(name, _)| names.contains(name));
         let Some((name, range)) = both.find(|(name, _)| self.scope.value(name).is_some()) else {

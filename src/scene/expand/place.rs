@@ -1,13 +1,13 @@
-//! Converts places in a formula to places in the text of the scene.
+//! Converts byte ranges within a formula to spans in the text of the scene.
 
 use std::ops::Range;
 
 use crate::diagnostic::Span;
 
-/// The place in the scene of a range of a string. `raw` is the string as written, with its quotes, and `text` is its
-/// value.
+/// Returns the span, in the text of the scene, of a byte range within a string. `raw` is the string as written, with its quotes, and
+/// `text` is its value.
 ///
-/// If the string has escapes, its bytes differ from the written text, and the place is the whole string.
+/// If the string has escapes, the offsets in `raw` and `text` differ, and the result is `whole`, the span of the entire string.
 pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
     match offset(raw, text) {
         Some(offset) if !range.is_empty() => {
@@ -18,9 +18,9 @@ pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span
     }
 }
 
-/// The offset of the string's value in the written text. `None` if the string has escapes.
+/// Returns the offset of the string's value within the written text, in bytes. `None` if the string has escapes.
 fn offset(raw: &str, text: &str) -> Option<usize> {
-    // An argument of `--set` needs no quotes. A string of several lines may begin on the line after the quotes.
+    // An argument of `--set` needs no quotes. TOML drops a line break directly after triple quotes.
     ["", "\"", "'", "\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''"].into_iter().find_map(
         |open| {
             let close = open.trim_end();

@@ -1,4 +1,4 @@
-//! Tests scenes with formulas.
+//! Tests formulas in scenes.
 
 use glam::DVec3;
 

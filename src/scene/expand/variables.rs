@@ -1,4 +1,4 @@
-//! `[variables]`: named numbers, in any order.
+//! Evaluates `[variables]`: named numbers that may refer to each other in any order.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -8,13 +8,13 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expression::{Formula, Scope};
 use crate::scene::source::{Table, Value};
 
-/// A variable that is given by a formula.
+/// A variable whose value is a formula.
 struct Variable {
     name: String,
-    /// The place of the variable's value.
+    /// The source span of the variable's value.
     span: Span,
     formula: Formula,
-    /// The variables in the formula: their indices, and their ranges in the text.
+    /// The other variables that the formula uses. Each item is the variable's index and the byte range of its name in the formula.
     needs: Vec<(usize, Range<usize>)>,
     state: State,
 }
@@ -23,13 +23,13 @@ struct Variable {
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Untouched,
-    /// The variables in its formula are being evaluated.
+    /// The variables that the formula uses are being evaluated. Reaching a variable in this state means a cycle.
     Begun,
     Done,
 }
 
 impl Expander<'_> {
-    /// Evaluates the variables, adds them to the scope of all formulas, and writes their values into the table.
+    /// Evaluates all variables, makes them available to formulas, and writes their values into the table.
     pub(super) fn variables(&mut self, table: &mut Table) {
         let mut variables = self.read(table);
         self.connect(&mut variables);
@@ -44,7 +44,8 @@ impl Expander<'_> {
         }
     }
 
-    /// Adds the names of all variables and the values of plain numbers to the scope. Returns the formulas.
+    /// Adds the names of all variables, and the values of those that are plain numbers, to the scope of formulas. Returns the variables
+    /// that are formulas.
     fn read(&mut self, table: &Table) -> Vec<Variable> {
         let mut variables = Vec::new();
         for entry in &table.entries {
@@ -63,12 +64,13 @@ impl Expander<'_> {
                     Some(formula) => {
                         let (needs, state) = (Vec::new(), State::Untouched);
                         variables.push(Variable { name: name.clone(), span, formula, needs, state });
-                        // Add the name before the value is known, so that no similar name is suggested in its place.
+                        // The name is added now with the value NaN. Otherwise a formula that uses it would get the suggestion of a similar
+                        // name.
                         Some(f64::NAN)
                     }
                     None => None,
                 },
-                // The validation reports other mistakes in a number.
+                // The validation reports other errors in a variable's value.
                 _ => entry.node.as_number().filter(|number| number.is_finite()),
             };
             if value.is_none() {
@@ -88,9 +90,10 @@ impl Expander<'_> {
         }
     }
 
-    /// Evaluates a variable after the variables in its formula. Chains may be long, so the code does not recurse.
+    /// Evaluates a variable after all variables that its formula uses. Chains of variables may be long, so an explicit stack replaces
+    /// recursion.
     fn visit(&mut self, start: usize, variables: &mut [Variable]) {
-        // Each variable with the number of its `needs` that have been visited.
+        // The stack of variables. Each item is a variable's index and the number of its `needs` visited so far.
         let mut way = vec![(start, 0)];
         while let Some((current, seen)) = way.last_mut() {
             let variable = &mut variables[*current];
@@ -128,14 +131,14 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports that the variables of `way` from `first` to the end depend on each other.
+    /// Reports a cycle of variables that depend on each other: those on the stack `way` from `first` to the end.
     fn cycle(&mut self, way: &[(usize, usize)], first: usize, variables: &[Variable]) {
-        /// The maximum number of variables shown of a cycle.
+        /// The maximum number of a cycle's variables shown in the message.
         const SHOWN: usize = 6;
         let begin = way.iter().position(|(variable, _)| *variable == first).unwrap_or(0);
         let cycle = &way[begin..];
         if cycle.iter().any(|(variable, _)| self.broken.contains(&variables[*variable].name)) {
-            // Another cycle through the same variables is probably the same mistake.
+            // Another cycle through one of these variables is probably the same mistake, so only the first is reported.
             return;
         }
         let name = |variable: usize| format!("`{}`", variables[variable].name);

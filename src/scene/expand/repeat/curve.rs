@@ -1,4 +1,4 @@
-//! Places copies at equal distances along a curve.
+//! Places copies of a body at equal distances along a curve.
 
 use glam::{DQuat, DVec3};
 
@@ -10,21 +10,22 @@ use crate::scene::expression::{Formula, Program, Scope};
 use crate::scene::source::{Node, Value};
 use crate::scene::view::View;
 
-/// The places of the copies along a curve, at equal arc lengths.
+/// The offsets and rotations of copies that are placed along a curve at equal arc lengths.
 pub(super) struct Curve {
     places: Vec<Place>,
 }
 
 /// The shape of a curve.
 enum Path {
-    /// x, y and z as formulas of the parameter `u`.
+    /// The coordinates x, y and z as formulas of the parameter `u`, which runs from 0 to 1.
     Formulas(Box<[Program; 3]>),
     /// A smooth curve through points: a Catmull–Rom spline.
     Points { points: Vec<DVec3>, closed: bool },
 }
 
 impl Expander<'_> {
-    /// Reads a curve and places the copies. `at` is the list of formulas, if there is one.
+    /// Reads the curve of a `repeat` and places its copies. `at` is the list of three coordinate formulas, or `None` for a curve given by
+    /// points.
     pub(super) fn curve(&mut self, view: &View<'_>, at: Option<&Node>) -> Option<Curve> {
         let count = usize::try_from(view.integer("count")?).ok()?;
         let closed = view.boolean("closed")?;
@@ -55,7 +56,7 @@ impl Expander<'_> {
         Some(Curve { places: (0..count).map(place).collect() })
     }
 
-    /// Compiles the formulas of `u`.
+    /// Compiles the three coordinate formulas of a curve, which depend on the parameter `u`.
     fn formulas(&mut self, node: &Node) -> Option<Path> {
         let Value::Array(items) = &node.value else { return None };
         let mut scope = self.scope.clone();
@@ -85,9 +86,9 @@ impl Expander<'_> {
         self.keep(compiled, text, span)
     }
 
-    /// Samples the curve densely enough to measure its length. Reports an error if a point is not finite.
+    /// Samples the curve densely enough to measure its length. Reports an error and returns `None` if a point of the curve is not finite.
     fn samples(&mut self, path: &Path, at: Option<&Node>, count: usize) -> Option<Vec<Sample>> {
-        /// The number of chords for each copy, which approximate the arc length.
+        /// The number of chords per copy that approximate the arc length of the curve.
         const PER_COPY: usize = 32;
         let number = (PER_COPY * count).clamp(4096, 1 << 20);
         let mut samples: Vec<Sample> = Vec::with_capacity(number + 1);
@@ -128,18 +129,18 @@ impl Curve {
 
 const NOWHERE: Place = Place { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
 
-/// The arc length from the beginning of the curve to the point at `u`, m.
+/// A sample of the curve: the parameter `u`, and the arc length from the beginning of the curve to the point at `u`, m.
 struct Sample {
     u: f64,
     length: f64,
 }
 
-/// The parameter `u` at an arc length.
+/// Returns the parameter `u` of the point at a given arc length, by linear interpolation between two samples.
 fn parameter_at(samples: &[Sample], length: f64) -> f64 {
     let next = samples.partition_point(|sample| sample.length < length);
     let (Some(b), Some(a)) = (samples.get(next), next.checked_sub(1).and_then(|last| samples.get(last)))
     else {
-        // The length is before the first sample or, by rounding, after the last.
+        // The arc length is at the first sample or, because of rounding, beyond the last.
         return if next == 0 { 0.0 } else { 1.0 };
     };
     a.u + (b.u - a.u) * (length - a.length) / (b.length - a.length)
@@ -156,15 +157,15 @@ impl Path {
         }
     }
 
-    /// The tangent of the curve, not normalized.
+    /// Returns the direction of the curve at `u` as a central difference. Its length is arbitrary.
     fn tangent(&self, u: f64) -> DVec3 {
         const STEP: f64 = 1e-6;
         self.at((u + STEP).min(1.0)) - self.at((u - STEP).max(0.0))
     }
 }
 
-/// A point of the Catmull–Rom spline, which goes through all points. Beyond the end of an open spline, the missing
-/// neighbour is the mirror image of the next-to-last point in the last.
+/// Returns the point at parameter `u` (0 to 1) of the Catmull–Rom spline through all `points`. At each end of an open spline, the missing
+/// neighbor is the reflection of the next-to-last point through the end point.
 fn spline(points: &[DVec3], closed: bool, u: f64) -> DVec3 {
     let count = points.len();
     let pieces = if closed { count } else { count - 1 };
@@ -189,7 +190,7 @@ fn spline(points: &[DVec3], closed: bool, u: f64) -> DVec3 {
     b + 0.5 * v * (c - a + v * (2.0 * a - 5.0 * b + 4.0 * c - d + v * (3.0 * (b - c) + d - a)))
 }
 
-/// The rotation that turns the x axis into a direction and keeps the y axis as upright as possible.
+/// Returns the rotation that turns the x axis into `direction` and keeps the y axis as upright as possible.
 fn along(direction: DVec3) -> DQuat {
     let Some(direction) = direction.try_normalize() else { return DQuat::IDENTITY };
     let yaw = libm::atan2(-direction.z, direction.x);

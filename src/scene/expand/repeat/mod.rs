@@ -1,7 +1,7 @@
-//! `repeat`: makes many bodies from one table.
+//! The key `repeat`: makes many bodies from one table.
 //!
-//! The name of a copy is the name of its body with an index, `brick[3,0]`. The random numbers of a copy depend on
-//! this name, so adding copies does not change those of the others.
+//! A copy is named after its body and its indices: `brick[3,0]`. The random numbers of a copy depend on this name, so adding copies does
+//! not change the random numbers of existing copies.
 
 mod curve;
 mod pattern;
@@ -23,27 +23,27 @@ use crate::scene::source::{CopiedTable, Entry, Name, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 use crate::scene::view::View;
 
-/// The names that formulas use for the index of a copy in each direction.
+/// The variables that hold the indices of a copy along the first, second and third direction of the pattern.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
 
-/// The maximum work for all copies with formulas, in units of about ten bytes. It takes a few seconds and fits into
-/// the memory of a typical computer.
+/// The maximum cost of all copies with formulas, in units of about ten bytes of memory. This cost takes a few seconds of time, and its
+/// memory fits into a typical computer.
 const MAX_WORK: u64 = 100_000_000;
 
-/// The work for a copy without its formulas.
+/// The cost of making one copy, not counting its formulas.
 const WORK_OF_COPY: u64 = 100;
 
-/// The work for evaluating a formula once: parsing its text and storing its value.
+/// Returns the cost of evaluating a formula once: parsing its text and storing its value.
 pub(super) fn work_of_value(text: &str) -> u64 {
     25 + text.len() as u64
 }
 
-/// The work for a formula of the time, which is stored as programs with its derivatives.
+/// Returns the cost of a formula that depends on the time. It is stored as compiled programs for its value and its derivatives.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
     100 + 10 * formula.operations()
 }
 
-/// The place of a copy, relative to the location of its body.
+/// The offset (m) and the rotation of a copy, relative to the location and orientation of its body.
 pub(super) struct Place {
     offset: DVec3,
     turn: DQuat,
@@ -68,7 +68,7 @@ impl Expander<'_> {
         bodies.entries = all.into();
     }
 
-    /// Adds the copies of a body to `all`.
+    /// Appends all copies of the repeated body `entry` to `all`.
     fn copies(&mut self, entry: Entry, name: &str, spec: &'static TableSpec, all: &mut Vec<Entry>) {
         let Entry { name: Name { span: named, .. }, node: Node { span, value } } = entry;
         let Value::Table(mut table) = value else { return };
@@ -83,7 +83,7 @@ impl Expander<'_> {
         let counts = pattern.as_ref().map(Pattern::counts);
         let counts = counts.filter(|counts| self.is_affordable(counts, "bodies", name, repeat.node.span));
         let mut is_known = counts.is_some();
-        // With a wrong count, check one copy for other mistakes.
+        // If the number of copies is wrong, make one copy to find the other errors in the table.
         let mut counts = counts.unwrap_or_else(|| vec![1]);
         self.collisions(&counts, name, repeat.name.span);
 
@@ -122,13 +122,14 @@ impl Expander<'_> {
         if let (Some(Pattern::Scatter(scatter)), true) = (&pattern, is_known) {
             self.scatter(scatter, &sizes, copies, name, &repeat, spec);
         }
-        // The first copy keeps its `repeat` for the validation.
+        // The first copy keeps its `repeat` key, which the validation checks later.
         if let Some(Entry { node: Node { value: Value::Table(table), .. }, .. }) = all.get_mut(first) {
             table.entries.push(repeat);
         }
     }
 
-    /// Whether this many copies are affordable. Reports an error if not.
+    /// Returns true if this many copies are within the limit for the scene, and counts them. Reports an error if not. `counts` is the
+    /// number of copies along each direction, and `what` is the plural noun for the message, such as "bodies".
     pub(super) fn is_affordable(&mut self, counts: &[usize], what: &str, name: &str, span: Span) -> bool {
         let most = usize::try_from(MAX_COPIES).unwrap_or(usize::MAX);
         let number = counts.iter().fold(1usize, |product, count| product.saturating_mul(*count));
@@ -143,8 +144,8 @@ impl Expander<'_> {
         false
     }
 
-    /// Whether the formulas of this many copies are affordable. `before` is the work before the first copy, whose
-    /// work is the estimate for each. Reports an error if not.
+    /// Returns true if the formulas of `number` copies are within the limit of cost. Reports an error if not. `before` is the total cost
+    /// before the first copy; the cost since then serves as the estimate for every copy.
     pub(super) fn is_workable(&mut self, number: usize, before: u64, name: &str, span: Span) -> bool {
         let one = self.work - before;
         if one == 0 || (one + WORK_OF_COPY).saturating_mul(number as u64) <= MAX_WORK.saturating_sub(before) {
@@ -160,7 +161,7 @@ impl Expander<'_> {
         false
     }
 
-    /// Sets the indices `i`, `j` and `k` in formulas to those of a copy.
+    /// Sets the variables `i`, `j` and `k` of formulas to the indices of a copy.
     pub(super) fn count_as(&mut self, index: &[usize]) {
         for (letter, number) in INDICES.iter().zip(index) {
             #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
@@ -168,7 +169,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports variables with the name of an index of the copies.
+    /// Reports variables of the scene that are named `i`, `j` or `k`, like an index of the copies of `name`.
     pub(super) fn collisions(&mut self, counts: &[usize], name: &str, span: Span) {
         for letter in INDICES.into_iter().take(counts.len()) {
             let Some(&variable) = self.variable_spans.get(letter) else { continue };
@@ -182,7 +183,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Reports a body, force or joint with the same name as a copy.
+    /// Reports a body, force or joint that has the same name as a copy.
     pub(super) fn unique(&mut self, all: &[Entry], what: &str) {
         let mut names = std::collections::HashMap::with_capacity(all.len());
         for Entry { name: Name { span, text }, .. } in all {
@@ -195,7 +196,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Scatters copies of these sizes.
+    /// Scatters copies at random. `sizes` are their bounding radii, m (`None` for an unbounded copy).
     fn scatter(
         &mut self,
         scatter: &Scatter,
@@ -223,7 +224,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Moves and rotates a copy to its place in the pattern.
+    /// Moves a copy by the offset, and turns it by the rotation, that the pattern gives.
     fn place(&mut self, copy: &mut Table, place: &Place, repeat: &Entry, spec: &'static TableSpec) {
         let Place { offset, turn } = *place;
         let has_turned = turn != DQuat::IDENTITY;
@@ -237,7 +238,7 @@ impl Expander<'_> {
         if is_whole(copy, "location") {
             let own = View::new(spec, Some(copy)).vector("location").unwrap_or_default();
             let location = numbers(&(own + offset).to_array(), repeat.node.span);
-            // The validation reports a wrong value.
+            // A wrong location stays as it is, because the validation reports it.
             if copy.get("location").is_none_or(|own| read::vector(&own.node, Bound::Any).is_some()) {
                 put(copy, "location", location.value, repeat);
             }
@@ -245,16 +246,17 @@ impl Expander<'_> {
     }
 }
 
-/// Stores the tables of copies compactly, as differences from templates.
+/// Stores the tables of copies compactly, as their differences from a few template tables.
 #[derive(Default)]
 struct Keeper {
     templates: Vec<Arc<Table>>,
 }
 
 impl Keeper {
-    /// The value for the table of a copy. The first copy keeps its whole table as a template.
+    /// Returns the compact value for the table of a copy. If no template has the same keys, stores the whole table and uses it as a
+    /// further template.
     fn keep(&mut self, table: Table) -> Value {
-        /// The maximum number of templates. Copies with other keys need another template.
+        /// The maximum number of templates. Copies that have different keys need different templates.
         const MOST: usize = 4;
         if self.templates.iter().any(|template| template.entries.is_same(&table.entries)) {
             return Value::Table(table);
@@ -269,17 +271,17 @@ impl Keeper {
     }
 }
 
-/// Whether an entry is a table with a `repeat`.
+/// Returns true if an entry is a table with the key `repeat`.
 fn has_repeat(entry: &Entry) -> bool {
     entry.node.as_table().is_some_and(|table| table.get("repeat").is_some())
 }
 
-/// Whether the value of a key is valid or missing.
+/// Returns true if a key is missing or its value is valid.
 fn is_whole(table: &Table, key: &str) -> bool {
     table.get(key).is_none_or(|entry| !matches!(entry.node.value, Value::Invalid))
 }
 
-/// Replaces the value of a key. Adds a missing key at the place of the `repeat`.
+/// Replaces the value of a key. A key that is missing is added with the source span of the `repeat`.
 fn put(table: &mut Table, key: &str, value: Value, repeat: &Entry) {
     match table.get_mut(key) {
         Some(entry) => entry.node.value = value,
@@ -290,13 +292,13 @@ fn put(table: &mut Table, key: &str, value: Value, repeat: &Entry) {
     }
 }
 
-/// A list of numbers.
+/// Makes a list node from numbers. The list and all its items get the same source span.
 fn numbers(numbers: &[f64], span: Span) -> Node {
     let node = |number: &f64| Node { span, value: Value::Float(*number) };
     Node { span, value: Value::Array(numbers.iter().map(node).collect()) }
 }
 
-/// The name of a copy: `brick[3,0]`.
+/// Returns the name of a copy, such as `brick[3,0]`, from the name of the body and the indices.
 pub(super) fn copy_name(name: &str, index: &[usize]) -> String {
     let mut text = format!("{name}[");
     for (direction, number) in index.iter().enumerate() {
@@ -306,7 +308,7 @@ pub(super) fn copy_name(name: &str, index: &[usize]) -> String {
     text
 }
 
-/// All indices of a grid, with the last direction running fastest. Missing directions have the index 0.
+/// Iterates over all indices of a grid; the last index varies fastest. With fewer than three counts, the missing indices are 0.
 pub(super) fn indices(counts: &[usize]) -> impl Iterator<Item = [usize; 3]> + use<> {
     let count = |direction: usize| counts.get(direction).copied().unwrap_or(1);
     let [ni, nj, nk] = [count(0), count(1), count(2)];

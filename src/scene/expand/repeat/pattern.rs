@@ -1,4 +1,4 @@
-//! The patterns in which copies are placed.
+//! The patterns in which `repeat` places copies: grid, ring, line, curve and random scatter.
 
 use glam::{DQuat, DVec3};
 
@@ -11,9 +11,9 @@ use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::view::View;
 
-/// The pattern in which copies are placed.
+/// The pattern in which the copies of a body are placed.
 pub(super) enum Pattern {
-    /// The number of copies, each placed by its formulas.
+    /// The number of copies, without a pattern. Each copy is at the location that its formulas of `i` give.
     Count(usize),
     Grid {
         counts: Vec<usize>,
@@ -34,7 +34,7 @@ pub(super) enum Pattern {
     Scatter(Scatter),
 }
 
-/// Converts the number of copies. The number is positive.
+/// Converts a positive number of copies to `usize`.
 fn number(count: i64) -> usize {
     usize::try_from(count).unwrap_or(1)
 }
@@ -45,7 +45,7 @@ pub(super) fn fraction(n: usize, of: usize) -> f64 {
 }
 
 impl Expander<'_> {
-    /// Reads the pattern of a repeat. `None` if it has an error, which is reported here or by the validation.
+    /// Reads the pattern of a `repeat`. `None` if the pattern has an error, which is reported now or by the later validation.
     pub(super) fn pattern(&mut self, repeat: &Entry, spec: &'static TableSpec) -> Option<Pattern> {
         let alone = Table { entries: vec![repeat.clone()].into() };
         let body = View::new(spec, Some(&alone));
@@ -96,7 +96,7 @@ impl Expander<'_> {
                 Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
             let (spacings, spacing, count) = (spacing.len(), view.span("spacing")?, view.span("count")?);
             let error = error.at(spacing, "").at(count, format!("the grid has {directions}"));
-            // The suggested grid has one copy along each missing direction.
+            // The suggestion adds a count of 1 for each direction that only `spacing` has.
             let padded = counts.iter().map(usize::to_string).chain(std::iter::repeat("1".to_owned()));
             let padded: Vec<String> = padded.take(spacings).collect();
             let is_short = counts.len() < spacings && spacings <= 3;
@@ -112,7 +112,7 @@ impl Expander<'_> {
 }
 
 impl Pattern {
-    /// The number of copies in each direction.
+    /// Returns the number of copies along each direction of the pattern.
     pub(super) fn counts(&self) -> Vec<usize> {
         match self {
             Pattern::Count(count) | Pattern::Ring { count, .. } | Pattern::Line { count, .. } => vec![*count],
@@ -122,7 +122,8 @@ impl Pattern {
         }
     }
 
-    /// The place of a copy. Scattered copies are placed together, elsewhere.
+    /// Returns the offset and rotation of the copy with these indices. Scattered copies get none, because [`Scatter::places`] places all
+    /// of them together.
     pub(super) fn place(&self, [i, j, k]: [usize; 3]) -> Place {
         let here = |offset: DVec3| Place { offset, turn: DQuat::IDENTITY };
         match self {
@@ -148,7 +149,7 @@ impl Pattern {
 }
 
 impl Curve {
-    /// The node of `at` in the curve of a repeat.
+    /// Returns the value of `curve.at` in a `repeat`, the list of coordinate formulas.
     fn formulas(repeat: &Node) -> Option<&Node> {
         let curve = repeat.as_table()?.get("curve")?.node.as_table()?;
         curve.get("at").map(|entry| &entry.node)

@@ -1,4 +1,4 @@
-//! Places copies at random in a volume, without overlaps.
+//! Places copies of a body at random in a volume, without overlaps.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -9,38 +9,38 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::random::Stream;
 use crate::scene::view::View;
 
-/// The settings for scattering copies.
+/// The settings of `repeat.scatter`, which places copies at random.
 pub(super) struct Scatter {
     pub(super) count: usize,
     volume: Volume,
-    /// The minimum distance between the balls around two copies, m.
+    /// The minimum gap between the bounding spheres of two copies, m.
     gap: f64,
     turned: bool,
 }
 
-/// A volume around the origin. Lengths in m.
+/// The volume in which copies are placed, centered at the origin. Lengths in m.
 enum Volume {
     Box { size: DVec3 },
     Sphere { radius: f64 },
     Cylinder { radius: f64, height: f64 },
 }
 
-/// The error that not all copies have a place.
+/// The error that the volume has no free place for one of the copies.
 pub(super) struct Full {
-    /// The number of copies that have a place.
+    /// The number of copies that were placed before the error.
     placed: usize,
-    /// Why the next copy has no place.
+    /// The reason why the next copy could not be placed.
     why: Why,
 }
 
 enum Why {
-    /// The copy is endless.
+    /// The copy is unbounded, such as a plane.
     Endless,
-    /// The copy is larger than the volume.
+    /// The bounding sphere of the copy is larger than the volume.
     TooLarge,
-    /// All tries overlap other copies.
+    /// All random places that were tried overlap other copies.
     Crowded,
-    /// The search exceeds this many comparisons with other copies.
+    /// The search needs more than this number of comparisons with other copies.
     Costly(u64),
 }
 
@@ -63,15 +63,15 @@ impl Scatter {
         })
     }
 
-    /// Places copies of these sizes. Tries random places for each copy until it overlaps no earlier copy, so later
-    /// copies never move earlier ones. Each copy has its own random stream.
+    /// Places copies at random. `sizes` are the radii of their bounding spheres, m. Tries random places for each copy until it overlaps no
+    /// earlier copy, so later copies never move earlier ones. `stream` gives each copy its own random stream.
     pub(super) fn places(
         &self,
         sizes: &[Option<f64>],
         mut stream: impl FnMut(usize) -> Stream,
     ) -> Result<Vec<Place>, Full> {
-        /// The maximum number of tries for each copy. At the density at which balls of one size hardly fit any more,
-        /// one try in a hundred succeeds.
+        /// The maximum number of random places tried for each copy. Even when the volume is almost full of equal spheres, about one try in
+        /// a hundred succeeds.
         const TRIES: usize = 20_000;
         let most = most_looks(sizes.len());
         let mut taken = Taken::default();
@@ -103,7 +103,8 @@ impl Scatter {
 }
 
 impl Full {
-    /// Describes the error. `span` is the place of the `repeat`.
+    /// Returns the diagnostic for this error. `name` is the repeated body, `count` is the wanted number of copies, and `span` is that of
+    /// the `repeat`.
     pub(super) fn diagnostic(&self, name: &str, count: usize, span: Span) -> Diagnostic {
         let Full { placed, why } = self;
         let (message, label) = match why {
@@ -132,7 +133,8 @@ impl Full {
 }
 
 impl Volume {
-    /// Whether a ball of this radius fits. In a flat volume, only the centre has to fit.
+    /// Returns true if a sphere of this radius, m, fits into the volume. Along a direction in which the volume has no extent, only the
+    /// center has to fit.
     fn holds(&self, radius: f64) -> bool {
         let fits = |length: f64| length == 0.0 || radius <= length / 2.0;
         match self {
@@ -142,7 +144,7 @@ impl Volume {
         }
     }
 
-    /// A uniformly distributed point for the centre of a ball of this radius.
+    /// Draws a uniformly distributed point for the center of a sphere of this radius, m, that fits into the volume.
     fn point(&self, radius: f64, stream: &mut Stream) -> DVec3 {
         let mut between = |length: f64| (2.0 * stream.uniform() - 1.0) * (length / 2.0 - radius).max(0.0);
         match self {
@@ -162,7 +164,8 @@ impl Volume {
     }
 }
 
-/// A uniformly distributed rotation: the direction of four normal random numbers is uniform.
+/// Draws a uniformly distributed rotation. Four normally distributed numbers have a uniformly distributed direction; normalized, they are
+/// the quaternion.
 fn any_turn(stream: &mut Stream) -> DQuat {
     let [x, y, z, w] = [stream.normal(), stream.normal(), stream.normal(), stream.normal()];
     let length = (x * x + y * y + z * z + w * w).sqrt();
@@ -173,32 +176,32 @@ fn any_turn(stream: &mut Stream) -> DQuat {
     }
 }
 
-/// The maximum number of comparisons for all copies. If balls fill a third of the volume, each copy needs a few
-/// hundred. Forty million take some seconds.
+/// Returns the maximum number of comparisons for placing all copies. If spheres fill a third of the volume, each copy needs a few hundred
+/// comparisons. Forty million comparisons take some seconds.
 fn most_looks(copies: usize) -> u64 {
     5_000_000 + (1_000 * copies as u64).min(40_000_000)
 }
 
-/// The balls placed so far, grouped by size. Without groups, one large ball would make the cells large, and many
-/// small balls would share a cell.
+/// The spheres placed so far, with a search grid for each class of size. With a single grid, one large sphere would make the cells large,
+/// and many small spheres would share a cell.
 #[derive(Default)]
 struct Taken {
-    /// The balls by size: by the exponent of the power of two at or above their radius.
+    /// The spheres by class of size. The key is the exponent of the smallest power of two that is at least the radius.
     sizes: BTreeMap<i32, OfSize>,
-    /// The number of cells and balls compared so far.
+    /// The number of cells and spheres that the search has visited so far.
     looks: u64,
 }
 
-/// Balls of similar size, found by the cells of a grid.
+/// Spheres of similar size, with a grid of cells to search for neighbors.
 struct OfSize {
-    /// The largest radius, m.
+    /// The largest radius of these spheres, m. The cells are twice as wide.
     largest: f64,
     balls: Vec<(DVec3, f64)>,
     cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Taken {
-    /// Whether a ball overlaps no other. The radius includes the gap.
+    /// Returns true if a sphere at `place` overlaps no placed sphere. `radius` includes the minimum gap, m.
     fn is_free(&mut self, place: DVec3, radius: f64) -> bool {
         let looks = &mut self.looks;
         self.sizes.values().all(|of_size| of_size.is_free(place, radius, looks))
@@ -212,7 +215,7 @@ impl Taken {
             OfSize { largest, balls: Vec::new(), cells: HashMap::new() }
         };
         let of_size = self.sizes.entry(exponent).or_insert_with(new);
-        // Rounding may have made the power of two a little too small.
+        // Because of rounding, the power of two may be slightly smaller than the radius.
         of_size.largest = of_size.largest.max(radius);
         let number = of_size.balls.len();
         of_size.balls.push((place, radius));
@@ -238,7 +241,7 @@ impl OfSize {
             low.iter().zip(high).map(|(low, high)| high.saturating_sub(*low) as f64 + 1.0).product();
         #[allow(clippy::cast_precision_loss, reason = "an estimate")]
         let all = self.balls.len() as f64;
-        // If the ball reaches more cells than there are balls, comparing all balls is faster.
+        // If the sphere reaches more cells than there are spheres, comparing it with every sphere is faster.
         if cells > all {
             return self.balls.iter().all(is_apart);
         }
@@ -261,7 +264,8 @@ impl OfSize {
 mod tests {
     use super::*;
 
-    /// With cells as large as the largest ball, all small balls would share a few cells.
+    /// If the grid cells were as large as the largest sphere, all small spheres would share a few cells, and each would be compared with
+    /// all others.
     #[test]
     fn one_large_ball_does_not_make_small_ones_be_compared_with_each_other() {
         let looks = |count: usize| {

@@ -1,4 +1,4 @@
-//! Tests scenes with copies.
+//! Tests the copies that `repeat` makes.
 
 use std::f64::consts::TAU;
 
@@ -101,14 +101,14 @@ fn a_line_has_a_copy_at_either_end() {
 
 #[test]
 fn copies_along_a_curve_are_evenly_apart_whatever_its_pace() {
-    // An arc of 2 rad on a circle of radius 3 m is 6 m long. `u^2` does not run along it evenly.
+    // An arc of 2 rad on a circle of radius 3 m is 6 m long. The speed along the arc varies, because the angle is quadratic in `u`.
     let arc = scene(
         "[body.a]\nshape.sphere.radius = 0.1\n[body.a.repeat.curve]\ncount = 7\nat = ['3*cos(2*u^2)', 5, '-3*sin(2*u^2)']",
     );
     for (n, body) in arc.bodies.iter().enumerate() {
         let angle = n as f64 / 3.0;
         let expected = DVec3::new(3.0 * libm::cos(angle), 5.0, -3.0 * libm::sin(angle));
-        // Each of the 4096 chords is shorter than its arc by angle³ / 24 of the radius.
+        // Each of the 4096 chords is shorter than its arc by the fraction angle² / 24.
         assert!(body.start.location.distance(expected) < 1e-6, "{n}");
         // The tangent of a circle is perpendicular to its radius.
         let tangent = DVec3::new(-libm::sin(angle), 0.0, -libm::cos(angle));
@@ -159,7 +159,7 @@ fn scattered_copies_do_not_overlap_and_stay_inside() {
                 assert!(place.distance(*other) > radius + size + 0.01 - 1e-12, "{within}: {n}");
             }
         }
-        // The copies fill the whole volume: about a quarter of them is in a quarter of the volume.
+        // The copies are spread over the whole volume: about a quarter of the 200 copies is in each quarter of the volume.
         let quarter = balls.iter().filter(|(place, _)| place.x > 0.0 && place.z > 0.0).count();
         assert!((30..=70).contains(&quarter), "{within}: {quarter}");
     }
