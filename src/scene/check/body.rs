@@ -1,4 +1,4 @@
-//! Reads `[body.NAME]`.
+//! Reads the bodies of a scene from `[body.NAME]`.
 
 use std::sync::Arc;
 
@@ -13,14 +13,15 @@ use crate::scene::palette::Palette;
 use crate::scene::source::Table;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Simulation};
 
-/// The keys for the initial motion of a body.
+/// The keys for the initial velocities of a body.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
-/// The keys for the rotational inertia and the loads of a body. [`super::effect`] checks the mass.
+/// The keys for the moments of inertia and the constant loads of a body, which have no effect on a body that is fixed or has a given
+/// motion. [`super::effect`] checks the mass.
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
-/// The body read before the present one. Copies share its shape and look.
+/// The parts of the body read before the current one. Copies of a body share these parts.
 struct Last {
-    /// The table with the shape.
+    /// The shape table of that body.
     table: Option<Table>,
     shape: Shape,
     look: Arc<BodyLook>,
@@ -45,7 +46,7 @@ pub(super) fn read(
         let before = context.diagnostics.len();
         let body = table.look(|view| {
             let table = view.table("shape");
-            // Copies that share a table also share the result.
+            // If this copy has the same shape table as the body before, reuse the shape.
             let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
             let shape = same.map(|last| last.shape.clone());
             let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
@@ -58,7 +59,7 @@ pub(super) fn read(
                 motion.map_or((None, own), |(motion, presence)| (Some(motion), presence));
             presence::never(name, view, &presence, simulation, context);
             if let Some(motion) = &motion {
-                // Rest lengths follow from the pose that the motion gives, not from the pose in the body's table.
+                // Rest lengths of springs are measured in the pose that the motion gives, not in the pose in the body's table.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }
@@ -97,7 +98,7 @@ pub(super) fn read(
     bodies
 }
 
-/// Reads the initial state of a body.
+/// Reads the initial state and the mass properties of a body.
 fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> RigidBody {
     let fixed = fixed(name, view, shape, context);
     let mass = mass(name, span, view, shape, context);
@@ -107,7 +108,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let help = "close it, or give the body `mass` and `inertia`, or say `fixed = true`";
     let needs_solid = !fixed && !weighs_as_given;
     context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
-    // Moments of inertia in the scene refer to the body's own axes.
+    // Moments of inertia that the scene gives refer to the body axes. Otherwise, the shape gives the principal axes.
     let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
     let vector = |key: &str| view.vector(key).unwrap_or_default();
     RigidBody {
@@ -125,7 +126,8 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     }
 }
 
-/// Whether a body is fixed. Warns of keys that contradict this or have no effect on a fixed body.
+/// Returns whether a body is fixed. Reports keys that contradict `fixed`, and warns of keys that have no effect on a fixed body or on a
+/// body with a given motion.
 fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> bool {
     let scenery = if view.table("shape").has("heightfield") {
         Some(("heightfield", "it is a surface without weight", "a heightfield is always fixed"))
@@ -185,12 +187,12 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     1.0
 }
 
-/// Describes a computed number that is not positive and finite.
+/// Describes a computed mass or moment of inertia that is not positive and finite.
 fn extreme(number: f64) -> &'static str {
     if number > 0.0 { "larger than any number" } else { "smaller than any number" }
 }
 
-/// Computes the moments of inertia from shape and mass. Reports an error if one is not positive and finite.
+/// Computes the principal moments of inertia (kg·m²) from the shape and the mass. Reports an error if a moment is not positive and finite.
 fn inertia_of_shape(
     name: &str,
     span: Span,
@@ -201,7 +203,7 @@ fn inertia_of_shape(
 ) -> DVec3 {
     let inertia = shape.inertia(mass);
     let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
-    // A mesh that encloses no solid has its own error.
+    // Skip a mesh without a volume, which has an error of its own.
     if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
         let error = Diagnostic::error(Code::ImpossibleInertia, message);
@@ -210,10 +212,10 @@ fn inertia_of_shape(
     inertia
 }
 
-/// Reads the moments of inertia in the scene. Reports an error if no body can have them.
+/// Reads the moments of inertia (kg·m²) from the key `inertia`. Reports moments that no distribution of mass can have.
 fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVec3> {
-    // Each moment is a sum over the other two coordinates, so no moment can exceed the sum of the other two. For a
-    // flat body both are equal, so rounding may exceed this limit a little.
+    // The triangle inequality: no moment of inertia exceeds the sum of the other two. A flat body reaches the limit, where a rounding
+    // error may exceed the limit a little.
     const ROUNDING: f64 = 1e-9;
     let inertia = view.vector("inertia")?;
     let mut moments = inertia.to_array();
@@ -231,7 +233,7 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
     Some(inertia)
 }
 
-/// Reads the orientation under `key`. `name` is the name of the body.
+/// Reads the orientation of the body `name` from the key `orientation`.
 pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
     if let Some(angles) = view.vector("orientation") {
         return euler(angles);
@@ -250,7 +252,7 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
     }
 }
 
-/// Reports an axis without an angle, and an angle without an axis.
+/// Reports an orientation with an `axis` but no `angle`, or with an `angle` but no `axis`.
 pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context<'_>) {
     for (key, other, value) in [("axis", "angle", "45"), ("angle", "axis", "[0, 0, 1]")] {
         if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
@@ -262,15 +264,15 @@ pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context
     }
 }
 
-/// The rotation about the world's x, then y, then z, as in POV-Ray's `rotate <x, y, z>`. Angles in degrees.
+/// Returns the rotation about the world's x, then y, then z axis, like POV-Ray's `rotate <x, y, z>`. The angles are in degrees.
 fn euler(angles: DVec3) -> DQuat {
     let turn = |axis: DVec3, angle: f64| DQuat::from_axis_angle(axis, angle.to_radians());
     turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
 }
 
-/// The index of the body's own material in `materials`. Copies of a body with the same look share one material.
+/// Returns the index in `materials` of a material that belongs to one body. Copies of a body with equal looks share one material.
 fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
-    /// The number of latest materials that are compared.
+    /// The number of most recent materials that are compared with the new look.
     const LATEST: usize = 16;
     if let Some(original) = context.groups.original(name) {
         let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);
@@ -283,7 +285,7 @@ fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: 
     materials.len() - 1
 }
 
-/// The index of the body's material. A body without a material gets the next color of the palette.
+/// Returns the index of the body's material in `materials`. A body without a material gets the next color of the palette.
 fn material(
     name: &str,
     root: &View<'_>,
@@ -299,13 +301,14 @@ fn material(
         context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
         return None;
     }
-    // Every body takes a color of the palette, so that giving one body a material changes no other body's color.
+    // Take a palette color for every body, even for one with a material. If a user gives one body a material, the other bodies keep their
+    // colors.
     let usual = palette.next(shape);
     if let Some(table) = view.variant("material") {
         let look = super::material::look(&table, root, context);
         return Some(own_material(name, look, materials, context));
     }
-    // Raw SDL brings its own textures. A material would cover them.
+    // Raw SDL has its own textures, which a material would cover.
     let has_own = view.table("shape").has("sdl");
     let Some(name) = view.text("material") else {
         return (!has_own).then(|| palette.material(usual, materials));

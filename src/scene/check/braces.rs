@@ -1,9 +1,9 @@
-//! Reports unmatched braces in raw SDL. POV-Ray would report them far from the cause, in the code around the SDL.
+//! Reports unmatched braces in raw SDL. POV-Ray would report them far from the cause, in the script around the SDL.
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::sdl::{Token, Tokens};
 
-/// The error for a text with unmatched braces. `None` if all braces match.
+/// Returns the error for SDL with unmatched braces. `None` if all braces match.
 pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
     let message = match depth(text) {
         Err(()) => "the SDL closes a brace that it has not opened".to_owned(),
@@ -14,8 +14,11 @@ pub(super) fn unbalanced(text: &str, span: Span) -> Option<Diagnostic> {
     Some(Diagnostic::error(Code::UnbalancedSdl, message).at(span, ""))
 }
 
-/// The number of braces still open at the end. An error if a brace closes that was never opened. Ignores strings and
-/// comments.
+/// Returns the number of braces that are still open at the end of the text. Ignores strings and comments.
+///
+/// # Errors
+///
+/// Returns an error if a closing brace has no opening brace.
 fn depth(text: &str) -> Result<usize, ()> {
     Tokens::of(text).try_fold(0usize, |open, (token, _)| match token {
         Token::Symbol('{') => Ok(open + 1),

@@ -1,4 +1,4 @@
-//! Reads `[camera]` and `[view.NAME]`.
+//! Reads the main camera from `[camera]` and the other cameras from `[view.NAME]`.
 
 use super::read::figure;
 use super::view::View as Keys;
@@ -7,10 +7,10 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
 
-/// The word for all views in `--view`. No view can have this name.
+/// The value of `--view` that selects all views. No view can have this name.
 const ALL: &str = "all";
 
-/// Reads the main camera.
+/// Reads the main camera from `[camera]`.
 pub(super) fn read(
     root: &Keys<'_>,
     simulation: &Simulation,
@@ -20,7 +20,7 @@ pub(super) fn read(
     camera(&[root.table("camera")], simulation, bodies, context)
 }
 
-/// Reads the other cameras. Each inherits missing keys from the main camera.
+/// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
 pub(super) fn views(
     root: &Keys<'_>,
     simulation: &Simulation,
@@ -40,7 +40,7 @@ pub(super) fn views(
     root.named("view").into_iter().map(read).collect()
 }
 
-/// Reads a camera from tables. The first table that has a key gives its value.
+/// Reads a camera from one or two tables. Each value comes from the first table that has its key.
 fn camera(
     tables: &[Keys<'_>],
     simulation: &Simulation,
@@ -49,7 +49,7 @@ fn camera(
 ) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
-    // Takes a key from the first table that gives it, so that a default of the view does not hide the main camera's value.
+    // Takes the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
     let of = |key: &str| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
     for key in ["location", "look_at", "angle"] {
         motion::finite(tables[0].raw(key), simulation, context);
@@ -81,7 +81,7 @@ fn camera(
         tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
     let open = number("shutter").filter(|open| *open > 0.0);
     misplaced(&tables[0], orthographic, number("aperture").is_some(), open.is_some(), context);
-    // An error in an inherited key is reported for the main camera.
+    // Only check the camera's own `shutter`: an inherited one is reported for the main camera.
     if let (Some(open), Some(span)) = (tables[0].number("shutter"), tables[0].span("shutter")) {
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
     }
@@ -119,7 +119,7 @@ fn camera(
     camera
 }
 
-/// Reads which body the camera follows. `None` if it follows no body.
+/// Reads the body that the camera follows. `None` if the camera follows no body.
 fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     let follow = keys.variant("follow")?;
     let body = *context.names.bodies.get(follow.text("body")?)?;
@@ -130,7 +130,7 @@ fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
     })
 }
 
-/// Warns of a camera that follows a body which is never present. Errors in inherited keys are reported for the main camera.
+/// Warns of a camera that follows a body which is never present. Ignores an inherited `follow`, which is reported for the main camera.
 fn nobody(
     keys: &Keys<'_>,
     motion: &CameraMotion,
@@ -147,9 +147,10 @@ fn nobody(
     }
 }
 
-/// The error for a shutter that is still open when the next frame begins. `None` if it closes in time.
+/// Returns the error for a shutter that is still open when the next frame begins. `None` if the shutter closes in time. `open` is in
+/// seconds.
 fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
-    // The relative tolerance. A user may write the time between 30 frames per second as 0.0333 s.
+    // The relative tolerance for a rounded number: at 30 frames per second, a user may write the interval as 0.0333 s.
     const TOLERANCE: f64 = 0.01;
     let interval = 1.0 / simulation.frame_rate;
     let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));
@@ -162,7 +163,7 @@ fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
     (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error(Code::LongShutter, message).help(help))
 }
 
-/// Warns of keys that have no effect for this camera.
+/// Warns of camera keys that have no effect without another key, such as `focus` without `aperture`.
 fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
     let mut report = |key: &str, needs: &str| {
         let message = format!("`{key}` has no effect without {needs}");

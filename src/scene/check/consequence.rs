@@ -1,10 +1,10 @@
-//! Removes errors that only follow from other errors.
+//! Removes diagnostics that are only consequences of other errors.
 
 use std::collections::HashSet;
 
 use crate::diagnostic::{Code, Diagnostic, Severity, Sources, Span};
 
-/// Errors that may only follow from an unreadable part of the scene.
+/// The codes of diagnostics that may be consequences of an unreadable part of the scene.
 const OF_LACK: [Code; 6] = [
     Code::MissingKey,
     Code::UnknownName,
@@ -14,14 +14,15 @@ const OF_LACK: [Code; 6] = [
     Code::SamePlace,
 ];
 
-/// Drops the diagnostics in `found` that only follow from other errors, such as unreadable text.
+/// Drops the diagnostics in `found` that are only consequences of other errors. `unreadable` holds the diagnostics from parsing and
+/// including.
 pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sources: &Sources) {
     let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
     if found.iter().chain(unreadable).any(is_error) {
-        // The scene may have bodies with errors, which are not counted.
+        // Drop "no bodies": the scene may have bodies that could not be read.
         found.retain(|diagnostic| diagnostic.code != Code::NoBodies);
     }
-    // A placeholder replaces a wrong location, and may be below the ground.
+    // A placeholder replaces a wrong location. Do not report that the placeholder is below the ground.
     let wrong: Vec<Span> = found
         .iter()
         .filter(|diagnostic| is_error(diagnostic) && diagnostic.code != Code::BelowGround)
@@ -39,7 +40,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         .iter()
         .any(|diagnostic| matches!(diagnostic.code, Code::CannotInclude | Code::CyclicInclude))
     {
-        // What is reported as missing may be in the file that could not be included.
+        // A missing key or name may be in the file that could not be included.
         found.retain(|diagnostic| !OF_LACK.contains(&diagnostic.code));
     }
     let syntax: Vec<&Diagnostic> = unreadable.iter().filter(|d| is_syntax(d.code)).collect();
@@ -52,7 +53,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         let Some(span) = diagnostic.span() else { continue };
         let line = sources.position(span.source, span.start).line;
         lines.insert((span.source, line));
-        // After an unreadable header, the parser assigns the keys below it to another table.
+        // After an unreadable table header, the parser assigns the following keys to the wrong table.
         let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
         if (header && diagnostic.code == Code::TomlSyntax) || diagnostic.code == Code::TomlUnclosed {
             end = end.into_iter().chain([span]).min();

@@ -1,4 +1,4 @@
-//! Collisions of bodies: `simulation.contacts`, and the keys that need it.
+//! Reads and checks the collisions of bodies: the key `simulation.contacts`, and the keys that need it.
 
 use std::sync::Arc;
 
@@ -11,22 +11,22 @@ use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 use crate::dynamics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, Simulation};
 
-/// The keys for the properties of a surface.
+/// The keys for the surface properties of a body or of the ground.
 const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
-/// The keys of a body that need contacts.
+/// The keys of a body that have an effect only if `simulation.contacts` is set.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
 
-/// A body may begin this far below the ground, relative to its size and its largest coordinate: this is rounding. The
+/// The largest initial depth below the ground that counts as a rounding error, relative to the body's size and its largest coordinate. The
 /// dynamics tolerates the same overlap between bodies.
 const BELOW: f64 = 1e-9;
 
-/// The contact law of the scene. `None` if the scene has no contacts.
+/// Reads the contact law from `simulation.contacts`. `None` if the scene has no contacts.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
     let word = simulation.text("contacts")?;
     ContactLaw::ALL.into_iter().find(|law| law.name() == word)
 }
 
-/// Reads how a body collides. `None` if it does not collide.
+/// Reads how a body collides: its surface and its collision group. `None` if the body does not collide.
 pub(super) fn collider(
     name: &str,
     view: &View<'_>,
@@ -34,7 +34,7 @@ pub(super) fn collider(
     simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Option<Collider> {
-    // Without contacts, no body collides. `check` reports the keys that need contacts.
+    // Return without warnings: `check` reports the keys that need contacts.
     simulation.contacts?;
     let mut has_no_effect = |keys: &[&str], why: &str| {
         for key in keys {
@@ -76,13 +76,13 @@ pub(super) fn has_torus(shape: &Shape) -> bool {
     }
 }
 
-/// Reads the surface of a body or of the ground.
+/// Reads the surface properties of a body or of the ground.
 fn surface(view: &View<'_>) -> Surface {
     let [restitution, friction, rolling_friction] = SURFACE.map(|key| view.number(key));
     Surface { restitution, friction, rolling_friction }
 }
 
-/// Completes the ground for contacts: a missing height becomes 0, and the ground stops bodies.
+/// Prepares the ground for contacts: sets a missing height to 0, and adds the surface that stops bodies.
 pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut Environment) {
     if let (Some(_), Some(ground)) = (simulation.contacts, &mut environment.ground) {
         let table = root.table("environment").variant("ground");
@@ -91,7 +91,8 @@ pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut
     }
 }
 
-/// Without contacts, reports keys that need them. With contacts, reports integrators and bodies that do not support them.
+/// Without contacts, reports keys that need contacts. With contacts, reports integrators and bodies that do not support contacts, and
+/// bodies that begin below the ground.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,
@@ -100,7 +101,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    // A wrong value of `contacts` has its own error.
+    // A wrong value of `contacts` has its own error, so do not report the keys that need it.
     if simulation.contacts.is_none() && !table.has("contacts") {
         needed(root, &table, context);
     }
@@ -119,7 +120,7 @@ pub(super) fn check(
     }
 }
 
-/// Reports keys that need `simulation.contacts`. Reports each place once. The first report shows the line to add.
+/// Reports each key that needs `simulation.contacts`, once per source span. The first error has a fix that adds the missing line.
 fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     let mut wrong: Vec<(&str, Span)> = Vec::new();
     for body in root.bodies() {
@@ -157,7 +158,7 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     }
 }
 
-/// The place for the missing line `simulation.contacts`, and the text to insert there.
+/// Returns the source span at which the line for `simulation.contacts` is to be inserted, and the text to insert.
 fn insertion(
     root: &View<'_>,
     simulation: &View<'_>,
@@ -171,7 +172,7 @@ fn insertion(
         return before(span, LINE, context);
     }
     match root.key_span("simulation").filter(|span| is_file(span.source, context)) {
-        // An empty table: insert the line after the line of its header.
+        // The `[simulation]` table is empty: insert the line below its header.
         Some(span) => {
             let text = &context.sources.get(span.source).text;
             let end = text[span.end..].find('\n').map_or(text.len(), |newline| span.end + newline);
@@ -181,7 +182,7 @@ fn insertion(
     }
 }
 
-/// Warns of bodies that begin below the ground.
+/// Reports free bodies that begin below the ground.
 fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Context<'_>) {
     let Some(height) = ground.height else { return };
     for (table, body) in root.bodies().zip(bodies) {
@@ -208,12 +209,12 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
     }
 }
 
-/// A length, rounded to four digits.
+/// Formats a length with four significant digits.
 fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
 
-/// The collider of a body. Shares the collider of the body before if both are equal.
+/// Returns the collider of a body. If it equals the collider of the preceding body, both bodies share one allocation.
 pub(super) fn shared(last: Option<&Body>, collider: Option<Collider>) -> Option<Arc<Collider>> {
     let collider = collider?;
     let same = last.and_then(|body| body.collider.as_ref()).filter(|last| ***last == collider);

@@ -1,4 +1,4 @@
-//! The numbers of frames and timesteps of a scene, and their limits.
+//! Computes the numbers of frames and timesteps of a scene, and checks their limits.
 
 use super::Context;
 use super::habits::{insertion, is_file};
@@ -7,26 +7,26 @@ use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::dynamics::Spring;
 use crate::scene::{Body, Force, ForceKind};
 
-/// The maximum number of frames: eleven hours at 25 frames per second.
+/// The maximum number of frames, which is eleven hours at 25 frames per second.
 pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
-/// The maximum number of timesteps.
+/// The maximum number of timesteps of a scene.
 pub(super) const MAX_STEPS: f64 = 1e11;
-/// The number of timesteps above which a scene without `step` gets a warning: five days at 1/240 s.
+/// The number of timesteps above which a scene without the key `step` gets a warning. This is five days at 1/240 s.
 const MANY_STEPS: f64 = 1e8;
-/// The number of timesteps in the shortest time scale of the initial state, if the scene gives no `step`.
+/// The suggested timestep is the shortest time scale of the initial state divided by this number.
 const STEPS_OF_A_TIME: f64 = 100.0;
-/// The number of frames in a film of 20 seconds.
+/// The number of frames that a suggested frame rate gives: a film of 20 seconds at 25 frames per second.
 const USUAL_FRAMES: f64 = 500.0;
-/// The maximum number of bodies for comparing all pairs.
+/// The maximum number of bodies among which all pairs are compared for the shortest time scale.
 const MAX_BODIES: usize = 1000;
 
-/// The duration, the frame rate and the timestep of a scene, which give the numbers of frames and timesteps.
+/// The duration (s), the frame rate (1/s) and the timestep (s) of a scene. The numbers of frames and timesteps follow from them.
 #[derive(Clone, Copy)]
 pub(super) struct Counts {
     pub(super) duration: f64,
     pub(super) frame_rate: f64,
     pub(super) step: f64,
-    /// Whether timesteps are needed. They are not if the motion of every body is given.
+    /// Whether the scene needs timesteps. False if no body moves freely and there are no emitters.
     pub(super) needs_steps: bool,
 }
 
@@ -39,13 +39,13 @@ impl Counts {
         if self.needs_steps { self.duration / self.step.min(1.0 / self.frame_rate) } else { 0.0 }
     }
 
-    /// Whether the frames or timesteps exceed the limits.
+    /// Returns whether the number of frames or of timesteps exceeds its limit.
     pub(super) fn are_too_many(self) -> bool {
         self.frames() > MAX_FRAMES || self.steps() > MAX_STEPS
     }
 
-    /// A timestep, s, that suits the initial state: at most one frame, and a tenth of a frame if the state has no
-    /// time scale.
+    /// Returns a suitable timestep, s: a hundredth of the shortest time scale of the initial state, but at most one frame. Without a time
+    /// scale, the timestep is a tenth of a frame.
     fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
         let shortest = shortest_time(bodies, forces);
         let step = if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 / self.frame_rate };
@@ -53,7 +53,7 @@ impl Counts {
     }
 }
 
-/// Reports too many frames or timesteps, and suggests suitable values.
+/// Reports too many frames or timesteps, and suggests a frame rate or a timestep.
 pub(super) fn check(
     root: &View<'_>,
     counts: Counts,
@@ -114,8 +114,8 @@ pub(super) fn check(
     context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
 }
 
-/// The shortest time scale, s, of the initial state. For two bodies, it is their distance divided by their relative
-/// speed; for a spring, √(m / k).
+/// Returns the shortest time scale of the initial state, s. The time scale of two bodies is their distance divided by their relative
+/// speed; that of a spring is √(m / k). Infinite if there is no time scale.
 fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
     let free = |body: &Body| body.motion.is_none() && !body.start.fixed;
     let bounded: Vec<&Body> =
@@ -140,16 +140,16 @@ fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
             bodies.filter(|body| free(body)).map(|body| body.start.mass).fold(f64::INFINITY, f64::min);
         (lightest / stiffness).sqrt()
     });
-    // Pairs at the same place or at relative rest have no time scale.
+    // Skip pairs of bodies at the same location or at relative rest, which have no time scale.
     meetings.chain(swings).filter(|time| *time > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// Adds labels at the values of the given keys.
+/// Adds to the diagnostic a label at the value of each given key.
 fn point(error: Diagnostic, view: &View<'_>, keys: &[&str]) -> Diagnostic {
     keys.iter().filter_map(|key| view.span(key)).fold(error, |error, span| error.at(span, ""))
 }
 
-/// Adds a fix that sets keys of `[simulation]` to these values.
+/// Adds to the diagnostic a fix that sets keys of `[simulation]` to the given values.
 fn with_values(
     said: Diagnostic,
     root: &View<'_>,
@@ -164,7 +164,7 @@ fn with_values(
         }
     };
     let Some(mut edits) = values.iter().map(edit).collect::<Option<Vec<_>>>() else { return said };
-    // Join two insertions at the same place into one.
+    // Join two insertions at the same source position into one.
     if let [(one, first), (two, second)] = edits.as_mut_slice()
         && one == two
     {
@@ -178,24 +178,24 @@ fn with_values(
     edits.into_iter().fold(said, |said, (span, text)| said.fix(span, text))
 }
 
-/// Rounds a number to one digit.
+/// Rounds a number to one significant digit.
 fn one_digit(number: f64) -> f64 {
     format!("{number:.0e}").parse().unwrap_or(number)
 }
 
-/// The largest number of one digit that does not exceed `number`.
+/// Returns the largest number with one significant digit that does not exceed `number`.
 fn digit_below(number: f64) -> f64 {
     let text = format!("{number:e}");
     let cut = text.split_once('e').map(|(digits, power)| format!("{}e{power}", &digits[..1]));
     cut.and_then(|cut| cut.parse().ok()).unwrap_or(number)
 }
 
-/// A number in TOML's notation: `0.02`, `2e-7`, `30000`.
+/// Formats a number in TOML notation, such as `0.02`, `2e-7` or `30000`.
 fn written(number: f64) -> String {
     if (0.001..1e7).contains(&number) { number.to_string() } else { format!("{number:e}") }
 }
 
-/// A large number with separators: `1,000,001`.
+/// Formats a large number with separators, such as `1,000,001`.
 fn count(number: f64) -> String {
     if number >= 1e15 {
         let most = f64::MAX.min(number);
@@ -231,7 +231,8 @@ mod tests {
         assert_eq!(written(digit_below(999_999.0)), "900000");
     }
 
-    /// The third body reaches the second in 1000 s. The spring's mass is 4 kg, so √(4/1e-6) = 2000 s.
+    /// The third body would reach the second body after 1000 s. The body at the spring has a mass of 4 kg, so the time scale of the spring
+    /// is √(4/1e-6) = 2000 s.
     #[test]
     fn the_step_is_a_hundredth_of_the_shortest_time_of_the_start() {
         let bodies = "

@@ -1,4 +1,4 @@
-//! Warns of keys of a body that need a force to have an effect.
+//! Warns of body properties, such as a charge, that have no effect because no force uses them.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
 use crate::scene::{Body, Force, ForceKind};
 
-/// Warns of masses that have no effect on inertia or gravitation, and of charges that no force acts on.
+/// Warns of masses of fixed bodies that no gravitation acts on, and of charges and magnetic moments that no force acts on.
 pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context: &mut Context<'_>) {
     let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     let mut magnetic = vec![false; bodies.len()];

@@ -1,4 +1,4 @@
-//! Reads `[emitter.NAME]`.
+//! Reads particle emitters from `[emitter.NAME]`.
 
 use std::sync::Arc;
 
@@ -14,21 +14,21 @@ use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
 use crate::scene::{Body, Color, ContactLaw, Emitter, Simulation};
 
-/// The maximum number of particles at one time.
+/// The maximum number of particles of one emitter that are alive at the same time.
 const MAX_ALIVE: f64 = 1_000_000.0;
-/// The maximum number of colliding particles for event-driven contacts.
+/// The maximum number of particles of one emitter that may collide at the same time with event-driven contacts.
 const MAX_COLLIDING: f64 = 1_000.0;
-/// The maximum number of timesteps before the run.
+/// The maximum number of timesteps that an emitter may take before time 0.
 const MAX_EARLY_STEPS: f64 = 100_000.0;
-/// The maximum number of births before the run. Beyond it, an `f64` cannot distinguish their times.
+/// The maximum number of births before time 0. With more births, an `f64` cannot distinguish the birth times.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
-/// The number of samples drawn from a formula with random numbers.
+/// The number of samples drawn when a formula with random numbers is checked.
 const DRAWS: u64 = 4096;
 
-/// The keys for the properties of a surface.
+/// The keys for the surface properties of particles.
 const SURFACE: [&str; 2] = ["restitution", "friction"];
 
-/// The inputs for reading an emitter.
+/// Reads one emitter.
 struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
@@ -98,7 +98,7 @@ impl Reader<'_, '_> {
         emitter
     }
 
-    /// Reports an integrator that cannot move particles: their timesteps must be of equal length.
+    /// Reports an integrator that cannot move particles. Particles need timesteps of equal length.
     fn can_be_advanced(&mut self) {
         let method = self.simulation.method;
         if method.ahead.is_some() {
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The surface of the particles. `None` if they do not collide.
+    /// Reads the surface properties of the particles. `None` if the particles do not collide.
     fn surface(&mut self) -> Option<Surface> {
         let view = self.view;
         let [restitution, friction] = SURFACE.map(|key| view.number(key));
@@ -126,7 +126,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Reports why the particles cannot collide.
+    /// Reports the reasons why the particles cannot collide, such as too many particles or a body that is a torus.
     fn can_collide(&mut self, emitter: &Emitter) {
         let span = self.view.key_span("collides").unwrap_or(self.span);
         let most = emitter.most_alive(self.simulation.end());
@@ -155,16 +155,16 @@ impl Reader<'_, '_> {
                     );
                     let label = "no distance is computed for a torus";
                     self.context.diagnostics.push(error.at(span, label).help(help));
-                    // Copies of a body are all alike: one report is enough.
+                    // Stop after the first torus: bodies with a torus are mostly copies of one body.
                     break;
                 }
             }
-            // Missing contacts are reported once for all keys that need them.
+            // Without contacts, `contact::check` reports all keys that need contacts.
             _ => {}
         }
     }
 
-    /// Reads the times at which particles are born.
+    /// Reads the birth times of the particles.
     fn births(&mut self) -> Births {
         let (view, simulation) = (self.view, self.simulation);
         let start = simulation.nearest_frame(view.number("start").unwrap_or_default());
@@ -194,9 +194,10 @@ impl Reader<'_, '_> {
         Births { start, end, at_once: u64::from(burst), every: view.number("every").unwrap_or(f64::INFINITY) }
     }
 
-    /// Reads the lifetime of the particles, and the longest lifetime, s.
+    /// Reads the lifetime of the particles, and returns it with the longest lifetime, s.
     ///
-    /// For a formula, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to it.
+    /// If a formula gives the lifetime, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to the
+    /// longest lifetime.
     fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
         let lifetime = self.view.drawn("lifetime").unwrap_or(Drawn::Constant(f64::INFINITY));
         let longest = match &lifetime {
@@ -209,8 +210,8 @@ impl Reader<'_, '_> {
         (lifetime, longest)
     }
 
-    /// Samples a formula and returns the largest value. Reports the first sample that is non-finite or otherwise
-    /// wrong.
+    /// Samples the formula of the key `key` and returns the largest value. Reports the first sample that is non-finite or that `wrong`
+    /// rejects.
     fn each_draw(
         &mut self,
         key: &str,
@@ -247,7 +248,7 @@ impl Reader<'_, '_> {
         largest
     }
 
-    /// Reads where particles begin, and the body that emits them.
+    /// Reads the point, area or volume in which particles are born, and the body that carries the emitter.
     fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
         let from = self.view.table("from");
         let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
@@ -292,7 +293,7 @@ impl Reader<'_, '_> {
         (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
     }
 
-    /// Limits the time before the run. It is computed step by step, like the run.
+    /// Reports an emitter that starts too long before time 0. That time is simulated in timesteps, like the run itself.
     fn not_too_early(&mut self, emitter: &Emitter) {
         let births = emitter.source.births;
         let before = births.start.max(-emitter.source.longest_life);
@@ -309,7 +310,7 @@ impl Reader<'_, '_> {
 
     fn not_too_many(&mut self, emitter: &Emitter) {
         let most = emitter.most_alive(self.simulation.end());
-        // Particles that die before the next frame take computing time, too.
+        // Particles that die before the next frame take computing time too.
         let between_frames = emitter.births_within(1.0 / self.simulation.frame_rate);
         let key = if self.view.has("burst") { "burst" } else { "rate" };
         if most <= MAX_ALIVE && between_frames > MAX_ALIVE {

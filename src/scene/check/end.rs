@@ -1,4 +1,4 @@
-//! Reads an end of a spring or a joint.
+//! Reads the ends of springs and joints.
 
 use glam::{DQuat, DVec3};
 
@@ -10,12 +10,12 @@ use crate::scene::Body;
 use crate::scene::grammar::{Bound, END};
 use crate::scene::source::{Node, Value};
 
-/// The index of the named body. `None` if there is no such body, which has been reported.
+/// Returns the index of the body that `node` names. `None` if no body has this name; validation has already reported that error.
 pub(super) fn body(node: &Node, context: &Context<'_>) -> Option<usize> {
     node.as_str().and_then(|name| context.names.bodies.get(name)).copied()
 }
 
-/// Reads an end as written: a body by its name, a point of a body, or a point of the world.
+/// Reads an end of a spring or a joint: the name of a body, a point of a body, or a point of the world.
 pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
     match node.value {
         Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
@@ -28,18 +28,18 @@ pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
     }
 }
 
-/// Whether an end gives a point of its body by `at`.
+/// Returns whether an end gives a point of its body with the key `at`.
 pub(super) fn says_point(node: &Node) -> bool {
     matches!(&node.value, Value::Table(table) if table.get("at").is_some())
 }
 
-/// The initial location and orientation of a body.
+/// Returns the initial location (m) and orientation of a body.
 pub(super) fn pose(id: BodyId, bodies: &[Body]) -> (DVec3, DQuat) {
     let start = &bodies[id.index()].start;
     (start.location, start.orientation)
 }
 
-/// The initial location of an end.
+/// Returns the initial location of an end in world coordinates, m.
 pub(super) fn place(end: Anchor, bodies: &[Body]) -> DVec3 {
     end.place(|id| pose(id, bodies))
 }

@@ -1,4 +1,4 @@
-//! Checks the tree of a scene and builds the [`Scene`], or reports all errors.
+//! Checks the parsed tree of a scene and builds the [`Scene`], or reports all errors.
 
 mod asset;
 mod body;
@@ -48,75 +48,76 @@ use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::digest::Sha256;
 use crate::dynamics::{Presence, Track};
 
-/// The inputs of the check.
+/// The inputs of [`check`].
 pub(super) struct Input<'a> {
     /// The name of the scene.
     pub(super) name: &'a str,
-    /// The name of the scene's file in messages.
+    /// The name under which diagnostics show the scene's file.
     pub(super) shown: &'a str,
-    /// The path of the scene's file. `None` if the scene has no file.
+    /// The path of the scene's file. `None` if the scene was not read from a file.
     pub(super) path: Option<&'a Path>,
-    /// The folder for relative paths. `None` if the scene has no folder.
+    /// The folder that relative paths in the scene start from. `None` if the scene has no folder.
     pub(super) folder: Option<&'a Path>,
-    /// The text of the scene.
+    /// The TOML text of the scene.
     pub(super) text: &'a str,
 }
 
-/// The state shared by all parts of the check.
+/// The state that all parts of the check share.
 struct Context<'a> {
     folder: Option<&'a Path>,
     trust: bool,
     names: Names,
-    /// The places of the scene's tables.
+    /// The source spans of the scene's top-level tables, by table name.
     tables: HashMap<Arc<str>, Span>,
-    /// The bodies that are copies of others.
+    /// Maps each copy made by `repeat` to its original body.
     groups: Groups,
-    /// Whether a force has an error. If so, no force is reported as missing.
+    /// Whether a force has an error. If true, the check does not warn about missing forces.
     forces_are_wrong: bool,
-    /// Whether a body has an error. If so, its location may be a placeholder.
+    /// Whether a body has an error. If true, a body's location may be a placeholder.
     bodies_are_wrong: bool,
     /// The names of the forces with errors.
     wrong_forces: HashSet<Arc<str>>,
-    /// Whether the present table gives defaults, such as `[defaults.body]`. If so, required keys may be missing.
+    /// Whether the table being checked gives defaults, such as `[defaults.body]`. If true, required keys may be missing.
     is_partial: bool,
-    /// The code and place of each reported error. Copies share one text, so each error is reported once.
+    /// The code and source span of each reported error. Copies of a body share one source text, and their common error is reported only
+    /// once.
     told: HashSet<(Code, Span)>,
-    /// The number of wrong copies of each body.
+    /// The number of copies with errors, by the name of the original body.
     wrong_copies: HashMap<String, usize>,
-    /// The number of comparisons of unknown names with known names that are still allowed.
+    /// The number of comparisons between unknown and known names that the check may still make.
     comparisons: usize,
     meshes: mesh::Meshes,
-    /// The files that SDL may name.
+    /// The files that the scene's raw SDL may name.
     assets: sdl::Assets,
-    /// The files that trusted SDL names.
+    /// The files that trusted raw SDL names, each with its kind.
     reads: Vec<(FileKind, String)>,
     diagnostics: Vec<Diagnostic>,
-    /// The texts of the scene.
+    /// All source texts of the scene. Spans of diagnostics point into these texts.
     sources: Sources,
-    /// The trajectory files, each read once.
+    /// The trajectory files that have been read. Each file is read only once.
     recordings: trajectory::Recordings,
-    /// The tracks from trajectory files, which bodies share, and the times at which these bodies are present.
+    /// The tracks from trajectory files, each with the times at which its bodies are present. Bodies with the same rows share one track.
     tracks: HashMap<motion::Rows, (Arc<Track>, Presence)>,
-    /// The addresses of the recordings whose duration has been compared with the run.
+    /// The addresses of the recordings whose duration has already been compared with the duration of the simulation.
     measured: HashSet<usize>,
-    /// The table that named the last trajectory file, and the recording in that file.
+    /// The `motion.trajectory` table of the body read before, and the recording from the file that this table names.
     last_recording: Option<(Option<Table>, Option<Arc<trajectory::Recording>>)>,
-    /// The addresses of the rows that bodies already use.
+    /// The addresses of the trajectory rows that bodies already use.
     rows: HashSet<usize>,
-    /// The number of places in all tracks together.
+    /// The total number of locations in all tracks.
     places: usize,
-    /// The number of operations that may still be spent on finding non-finite values.
+    /// The number of formula operations that the search for non-finite values may still take.
     operations: u64,
-    /// The addresses of the tables of copies that have been validated, each with `is_partial`.
+    /// The addresses of the copies' tables that have been validated, each with the value of `is_partial` at that time.
     validated: HashSet<(usize, bool)>,
-    /// The digests of other files that the scene reads.
+    /// The SHA-256 digests of the other files that the scene reads.
     files: Vec<[u8; 32]>,
-    /// The pairs of bodies whose impacts are counted.
+    /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
 }
 
 impl Context<'_> {
-    /// A context for parts of the check whose diagnostics are ignored.
+    /// Returns an empty context for parts of the check whose diagnostics are ignored.
     fn silent() -> Context<'static> {
         Context {
             folder: None,
@@ -149,26 +150,26 @@ impl Context<'_> {
         }
     }
 
-    /// Adds the digest of a file's contents.
+    /// Adds the SHA-256 digest of a file's contents to the digests of the files that the scene reads.
     fn add_file(&mut self, bytes: &[u8]) {
         self.files.push(Sha256::digest(bytes));
     }
 
-    /// Whether an error is among the diagnostics after the first `before`.
+    /// Returns whether the diagnostics after the first `before` contain an error.
     fn has_errors(&self, before: usize) -> bool {
         self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Whether so many copies of the body are wrong that the check can skip the others.
+    /// Returns whether `name` is a copy of a body of which very many copies have errors. The check then skips the remaining copies.
     fn is_hopeless(&self, name: &str) -> bool {
-        /// The number of wrong copies of one body that are checked. Each may be wrong in its own way.
+        /// The number of copies with errors after which the remaining copies are skipped. Each copy may have different errors.
         const ENOUGH: usize = 1000;
         let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);
         !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
     }
 
-    /// Deduplicates the diagnostics after the first `before`: all copies of a body have the same mistakes. Drops a
-    /// diagnostic if its code and place have been reported before. `name` and `span` are those of the present copy.
+    /// Deduplicates the diagnostics after the first `before`, since all copies of a body have the same mistakes. Drops each diagnostic
+    /// with a code and span that have been reported before. `name` and `span` belong to the copy being checked.
     fn once(&mut self, before: usize, name: &str, span: Span) {
         if self.diagnostics.len() == before {
             return;
@@ -195,7 +196,7 @@ impl Context<'_> {
     }
 }
 
-/// The names that other tables may refer to, each with its index in the order of the file.
+/// The names that other tables may refer to. Maps each name to its index in the order of the file.
 #[derive(Default)]
 struct Names {
     bodies: HashMap<Arc<str>, usize>,
@@ -228,11 +229,15 @@ impl Names {
     }
 }
 
-/// Reads and checks a scene.
+/// Parses and checks a scene. Returns the [`Scene`] with its warnings.
+///
+/// # Errors
+///
+/// Returns all diagnostics if at least one of them is an error.
 pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Report> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    // Editors hide a byte order mark and do not count it as a column.
+    // Drop a byte order mark: editors hide it and do not count it as a column.
     let text = input.text.strip_prefix('\u{feff}').unwrap_or(input.text);
     let id = sources.add(input.shown, text);
     input.path.iter().for_each(|path| sources.note_file(*path));
@@ -267,7 +272,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     validate::validate(&root, &mut context);
     let scene = build(input, options, &root, &included, &mut context);
     let (mut found, sources) = (context.diagnostics, context.sources);
-    // A default without effect on some things may have an effect on others, so do not warn.
+    // Drop the warning `NoEffect` for a default value: the default may have an effect on other bodies or forces.
     let of_default =
         |diagnostic: &Diagnostic| diagnostic.span().is_some_and(|span| of_defaults.contains(&span));
     found.retain(|diagnostic| diagnostic.code != Code::NoEffect || !of_default(diagnostic));
@@ -282,7 +287,8 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     Ok(Scene { warnings: report, ..scene })
 }
 
-/// Builds the scene. A missing or wrong value has been reported; a placeholder takes its place.
+/// Builds the scene from the validated tree. Uses a placeholder for each value that is missing or wrong, since these errors have already
+/// been reported.
 fn build(
     input: &Input<'_>,
     options: &Options,
@@ -301,7 +307,7 @@ fn build(
     let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
-    // If a force has an error, it may be the force that a mass or charge would need.
+    // Skip these warnings if a force has an error: that force may be the one that uses a mass or a charge.
     if !context.forces_are_wrong {
         planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);
@@ -359,7 +365,7 @@ fn build(
     }
 }
 
-/// Whether timesteps are needed: a body moves freely, or there are emitters.
+/// Returns whether the scene needs timesteps: true if a body moves freely or there is an emitter.
 fn needs_steps(root: &View<'_>) -> bool {
     let is_free = |body: &View<'_>| {
         let shape = body.table("shape");
@@ -369,7 +375,7 @@ fn needs_steps(root: &View<'_>) -> bool {
     root.bodies().any(|body| body.look(is_free)) || !root.named("emitter").is_empty()
 }
 
-/// A digest of all texts and other files that the scene was read from.
+/// Computes the SHA-256 digest of all texts and other files that the scene was read from, in hexadecimal.
 fn digest(
     input: &Input<'_>,
     options: &Options,
@@ -379,7 +385,7 @@ fn digest(
 ) -> String {
     let mut hash = Sha256::new();
     let mut add = |text: &str| {
-        // The length separates the texts: without it, two different lists of texts could have the same digest.
+        // The length separates the texts. Without the length, two different lists of texts could have the same digest.
         hash.update((text.len() as u64).to_le_bytes());
         hash.update(text);
     };
@@ -396,7 +402,7 @@ fn digest(
             Include::Text { text, .. } => add(text),
         }
     }
-    // Scripts contain the names of assets, but not their contents.
+    // Hash only the names of assets: scripts contain the names of assets, but not their contents.
     povray.assets.iter().for_each(|asset| add(&asset.name));
     context.files.iter().for_each(|digest| hash.update(digest));
     context.meshes.digests().for_each(|digest| hash.update(digest));

@@ -1,4 +1,4 @@
-//! Reads forces of liquids, magnets and planets.
+//! Reads the forces `buoyancy`, `dipoles` and `j2`.
 
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ impl Reader<'_, '_> {
         Some(ForceKind::Buoyancy(Buoyancy { bodies: carried, density, level, gravity }))
     }
 
-    /// Reports a body that the surface of a liquid cannot cut.
+    /// Reports a body of a shape for which buoyancy cannot be computed.
     fn not_cut(&mut self, body: &str, shape: &str, span: Span) {
         let message = format!("the surface of the liquid cannot cut `{body}`");
         let why = match shape {
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
         let all = self.bodies;
         let field = view.vector("field").unwrap_or_default();
         (self.lack, self.softens) = ("it has no `magnetic_moment`", false);
-        // In a magnetic field, a force acts on a single magnet.
+        // With an external magnetic field, the force also acts on a single magnet.
         let alone = field != DVec3::ZERO;
         let is_magnet = |i: usize| all[i].magnetic_moment != DVec3::ZERO;
         let (bodies, against) = self.pairs_or_one(view, 0.0, is_magnet, alone);

@@ -1,4 +1,4 @@
-//! Reads forces by formulas, and compares each force with its potential.
+//! Reads forces given by formulas, and compares each force with the gradient of its potential.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use crate::scene::expand::in_string;
 use crate::scene::expression::ExpressionError;
 use crate::scene::law::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 
-/// The maximum number of bodies whose initial force is checked.
+/// The maximum number of bodies for which a formula is evaluated in the initial state.
 const SEEN: usize = 1000;
-/// The tolerance for the difference between a force and minus the gradient of its potential, relative to the force.
-/// Derivatives are exact except for rounding errors, which grow where terms cancel.
+/// The largest accepted difference between a force and minus the gradient of its potential, relative to the larger of the two. Derivatives
+/// are exact except for rounding errors, which grow where terms cancel.
 const TOLERANCE: f64 = 1e-6;
 
-/// The values of [`QUANTITIES`] for one body.
+/// The values of the [`QUANTITIES`] for one body, in the same order.
 type Quantities = [f64; QUANTITIES.len()];
 
 impl Reader<'_, '_> {
@@ -46,7 +46,7 @@ impl Reader<'_, '_> {
         Some(ForceKind::Formula { bodies, law: Arc::new(law) })
     }
 
-    /// Reports a formula without a value in the initial state of a body that the force can move.
+    /// Reports a formula that has no finite value in the initial state of a body that the force can move.
     fn has_value_at_start(&mut self, law: &FormulaLaw, on: &[BodyId]) {
         let bodies = self.bodies;
         let is_there = |body: &&BodyId| {
@@ -76,8 +76,8 @@ impl Reader<'_, '_> {
         });
     }
 
-    /// Reports a force on a body at rest that differs from minus the gradient of the potential at one of
-    /// [`places`](Self::places).
+    /// Reports a potential that does not match its force. At each of the [`places`](Self::places), the force on a body at rest must equal
+    /// minus the gradient of the potential.
     fn belongs_to_force(&mut self, law: &FormulaLaw, on: &[BodyId], view: &View<'_>, potential: Span) {
         let (mut is_compared, mut first) = (false, None);
         for place in self.places(law, on) {
@@ -120,10 +120,11 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Points around the initial locations of bodies at rest; at several times if the force depends on time. The
-    /// coordinates are not round numbers, for which a wrong formula might be right.
+    /// Returns sample points around the initial locations of the bodies, with zero velocity. Adds several times if the force depends on
+    /// time. The coordinates are not round numbers, at which a wrong formula might be right by chance.
     fn places(&self, law: &FormulaLaw, on: &[BodyId]) -> Vec<Quantities> {
-        /// Directions and distances. Distances are relative to the body's distance from the origin.
+        /// The direction and the length of the offset from the body to each sample point. Lengths are relative to the body's distance from
+        /// the origin.
         const STEPS: [([f64; 3], f64); 6] = [
             ([0.618, -0.414, 0.732], 0.001),
             ([-0.577, 0.693, 0.302], 0.03),
@@ -154,7 +155,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// A number rounded to six digits.
+/// Rounds a number to six significant digits.
 fn short(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

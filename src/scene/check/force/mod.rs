@@ -1,4 +1,4 @@
-//! Reads `[force.NAME]`.
+//! Reads the forces of a scene from `[force.NAME]`.
 
 mod fields;
 mod formula;
@@ -15,9 +15,9 @@ use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, L
 use crate::scene::source::Node;
 use crate::scene::{Body, Emitter, Force, ForceKind, Simulation};
 
-/// The inputs for reading a force of any kind.
+/// Reads one force of any kind.
 struct Reader<'a, 'c> {
-    /// The name of the force, and the place of the name.
+    /// The name of the force.
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
@@ -25,17 +25,17 @@ struct Reader<'a, 'c> {
     simulation: &'a Simulation,
     /// Whether the force acts on particles.
     has_particles: bool,
-    /// Why this force between pairs does not act on a body that lacks a property.
+    /// The property that a body lacks if this force does not act on it, in words for warnings.
     lack: &'static str,
-    /// Whether the force can have a softening.
+    /// Whether this kind of force has the key `softening`.
     softens: bool,
-    /// The codes and places reported so far. The name of a body with a `repeat` means all of its copies, and one
-    /// report is enough.
+    /// The codes and source spans of the diagnostics reported for this force. The name of a body with a `repeat` stands for all copies of
+    /// the body, and one diagnostic is enough.
     told: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
-/// Why an electric force does not act on a body.
+/// The warning text for an electric force on an uncharged body.
 const NO_CHARGE: &str = "it has no charge";
 
 pub(super) fn read(
@@ -64,7 +64,7 @@ pub(super) fn read(
         reader.has_particles = !emitters.is_empty();
         let kind = reader.kind(&view);
         if context.wrong_forces.contains(name) {
-            // The wrong key may be the key that `NoEffect` reports as missing.
+            // Drop the warning that the force has no effect: the key with the error may be the key that the warning calls missing.
             let mut said = context.diagnostics.split_off(before);
             said.retain(|it| it.code != Code::NoEffect || it.span() != Some(span));
             context.diagnostics.append(&mut said);
@@ -133,7 +133,7 @@ impl Reader<'_, '_> {
         let softening = view.number("softening").unwrap_or_default();
         let (bodies, against) = self.pairs(view, softening, |_| true);
         let constant = view.number("constant").unwrap_or_default();
-        // At an opening angle of 0, the force is the sum over all pairs of bodies.
+        // With an opening angle of 0, there is no tree: the force is the exact sum over all pairs of bodies.
         let opening_angle = view.number("opening_angle").filter(|&angle| angle > 0.0);
         ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
     }
@@ -164,7 +164,7 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// Warns of a force that has none of the keys. Without them the force is zero.
+    /// Warns of a force that has none of the given keys. Such a force is zero.
     fn needs_one_of(&mut self, view: &View<'_>, keys: &[&str]) {
         if !keys.iter().any(|key| view.has(key)) {
             let name = self.name;
@@ -174,8 +174,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reports a diagnostic, unless the same code has been reported at this place. The place of the force itself may
-    /// have several diagnostics.
+    /// Adds a diagnostic, unless one with the same code and span has been added for this force. The span of the force's own name may have
+    /// several diagnostics.
     fn say(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
         if span == self.span || self.told.insert((code, span)) {
             self.context.diagnostics.push(diagnostic());
@@ -186,7 +186,7 @@ impl Reader<'_, '_> {
         self.say(Code::NoEffect, span, || Diagnostic::warning(Code::NoEffect, message()).at(span, why));
     }
 
-    /// The index of the named body. `None` if there is no such body, which has been reported.
+    /// Returns the index of the body that `node` names. `None` if no body has this name; validation has already reported that error.
     fn body(&self, node: &Node) -> Option<usize> {
         node.as_str().and_then(|name| self.context.names.bodies.get(name)).copied()
     }

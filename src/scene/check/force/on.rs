@@ -1,4 +1,4 @@
-//! Reads the bodies that a force acts on.
+//! Reads the bodies and the emitters that a force acts on.
 
 use std::collections::HashSet;
 
@@ -9,8 +9,8 @@ use crate::dynamics::BodyId;
 use crate::scene::Emitter;
 
 impl Reader<'_, '_> {
-    /// The emitters whose particles the force acts on: those in `on`, or all. Springs act on no particles, and
-    /// electric forces on no uncharged particles.
+    /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters without `on`. Springs and
+    /// dipole forces act on no particles. Electric forces act on charged particles only.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
         const KINDS: [&str; 10] = [
             "constant",
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
         on
     }
 
-    /// The movable bodies in `on`, or all movable bodies. Warns of fixed bodies in `on`.
+    /// Returns the bodies in `on`, or all movable bodies without `on`. Warns of fixed bodies in `on`.
     pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let moves = |i: usize| !bodies[i].start.fixed;
@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
     }
 
-    /// The charged bodies among [`movable`](Self::movable). Warns of bodies without charge in `on`.
+    /// Returns the charged, movable bodies in `on`, or all such bodies without `on`. Warns of uncharged bodies in `on`.
     pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let mut on = self.movable(view);
@@ -88,14 +88,14 @@ impl Reader<'_, '_> {
         on
     }
 
-    /// The bodies in `on`, each with the place that names it.
+    /// Returns the index of each body in `on`, with the source span of its name.
     fn spans(&self, view: &View<'_>) -> Vec<(usize, Span)> {
         let items = view.list("on").unwrap_or_default();
         items.iter().filter_map(|item| Some((self.body(item)?, item.span))).collect()
     }
 
-    /// The bodies in `on`, each with the place that names it. `None` without `on`. Reports a body that is named
-    /// twice.
+    /// Returns the index of each body in `on`, with the source span of its name. `None` if the force has no `on`. Reports a body that is
+    /// named twice.
     pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
         let items = view.list("on")?;
         let mut seen = HashSet::with_capacity(items.len());
@@ -111,14 +111,14 @@ impl Reader<'_, '_> {
         Some(named)
     }
 
-    /// Reports a body that is named a second time.
+    /// Reports the second occurrence of a body's name in a list.
     pub(super) fn named_twice(&mut self, body: usize, span: Span) {
         let name = &self.bodies[body].name;
         let error = || Diagnostic::error(Code::NamedTwice, format!("the body `{name}` is named twice"));
         self.say(Code::NamedTwice, span, || error().at(span, "the second time"));
     }
 
-    /// Warns that the force acts on no body. A scene without bodies is reported elsewhere.
+    /// Warns that the force acts on no body. Does not warn if the scene has no bodies at all, or if the force acts on particles.
     pub(super) fn acts_on_nothing(&mut self, why: &str) {
         if !self.bodies.is_empty() && !self.has_particles {
             let name = self.name;

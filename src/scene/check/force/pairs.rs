@@ -1,4 +1,4 @@
-//! Reads forces between all pairs of bodies.
+//! Reads forces that act between all pairs of bodies.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,14 +8,14 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::BodyId;
 use crate::scene::source::Value;
 
-/// The index of a body, and the place that names it, if there is one.
+/// The index of a body, and the source span of its name. The span is `None` if the scene does not name the body for this force.
 pub(super) type Member = (usize, Option<Span>);
 
 impl Reader<'_, '_> {
-    /// The bodies that attract or repel each other: the bodies in `on`, or all except planes, or the two groups in
-    /// `between`. `able` says whether a body has what the force needs.
+    /// Returns the bodies that attract or repel each other: the bodies in `on`, or the two groups in `between`, or else all bodies except
+    /// planes. `able` tells whether a body has the property that the force needs, such as a charge.
     ///
-    /// Reports planes, because a plane has no centre. Without softening, reports two bodies at the same place.
+    /// Reports planes, because a plane has no center. Without softening, also reports two bodies at the same location.
     pub(super) fn pairs(
         &mut self,
         view: &View<'_>,
@@ -25,7 +25,7 @@ impl Reader<'_, '_> {
         self.pairs_or_one(view, softening, able, false)
     }
 
-    /// Like [`pairs`](Self::pairs). If `alone`, the force also acts on a single body.
+    /// Like [`pairs`](Self::pairs). If `alone` is true, the force also acts on a single body.
     pub(super) fn pairs_or_one(
         &mut self,
         view: &View<'_>,
@@ -50,7 +50,7 @@ impl Reader<'_, '_> {
             return (numbers(&first), Some(numbers(&second)));
         }
         if view.has("between") {
-            // An error in `between` has been reported.
+            // The validation has already reported the error in `between`.
             return (Vec::new(), None);
         }
         let on: Vec<Member> = match self.named(view) {
@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         (numbers(&on), None)
     }
 
-    /// The bodies that the force can act between. Reports why the others are excluded.
+    /// Returns the named bodies that the force can act on. Reports the reason for each body that is left out.
     fn usable(&mut self, named: Vec<(usize, Span)>, able: impl Fn(usize) -> bool) -> Vec<Member> {
         let bodies = self.bodies;
         for &(body, span) in &named {
@@ -79,7 +79,7 @@ impl Reader<'_, '_> {
         named.into_iter().filter(|&(body, _)| able(body)).map(|(body, span)| (body, Some(span))).collect()
     }
 
-    /// The two groups in `between`. All copies of a repeated body have the place of the body's name.
+    /// Reads the two groups of bodies in `between`. All copies of a repeated body have the span of the body's name, and form one group.
     fn groups(&mut self, view: &View<'_>) -> Option<[Vec<(usize, Span)>; 2]> {
         let items = view.list("between")?;
         let mut groups: Vec<(Span, Vec<(usize, Span)>)> = Vec::new();
@@ -127,8 +127,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Reports two bodies at the same place, unless both are fixed. With several groups, only compares bodies of
-    /// different groups.
+    /// Reports two bodies at the same location, unless both are fixed. If there are several groups, compares only bodies of different
+    /// groups.
     pub(super) fn apart(&mut self, groups: &[&[Member]]) {
         if self.context.bodies_are_wrong {
             return;
@@ -139,7 +139,7 @@ impl Reader<'_, '_> {
         let members =
             groups.iter().enumerate().flat_map(|(group, members)| members.iter().map(move |it| (group, *it)));
         for (group, (body, span)) in members {
-            // Adding 0 turns −0 into 0: both mean the same place, but have different bits.
+            // Adding 0 turns −0 into 0: both are the same coordinate, but have different bits.
             let place = (bodies[body].start.location + 0.0).to_array().map(f64::to_bits);
             let (of, other) = *places.entry(place).or_insert((group, body));
             let within_one = groups.len() > 1 && of == group;
@@ -147,7 +147,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let (one, two) = (&bodies[other].name, &bodies[body].name);
-            // One report for two bodies is enough for all of their copies.
+            // Report copies of the same two bodies only once.
             let groups = &self.context.groups;
             if !said.insert([one, two].map(|name| groups.original(name).unwrap_or(name))) {
                 continue;

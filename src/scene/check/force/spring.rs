@@ -1,4 +1,4 @@
-//! Reads `[force.NAME.spring]`.
+//! Reads springs from `[force.NAME.spring]`.
 
 use super::super::end;
 use super::super::view::View;
@@ -9,7 +9,7 @@ use crate::scene::ForceKind;
 use crate::scene::source::Node;
 
 impl Reader<'_, '_> {
-    /// Reads a spring from each end in `between` to the next.
+    /// Reads a chain of springs: one spring between each two consecutive ends in `between`.
     pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let nodes = view.list("between")?;
         self.chain_of_groups(nodes, view.span("between"));
@@ -35,9 +35,9 @@ impl Reader<'_, '_> {
         Some(ForceKind::Spring { links, look: super::super::showing::spring(view, self.context) })
     }
 
-    /// Warns of several repeated bodies in `between`. Their copies make one chain, but the user may have meant pairs.
+    /// Warns if `between` names two or more repeated bodies. All copies form a single chain, but the user may have meant pairs of copies.
     fn chain_of_groups(&mut self, nodes: &[Node], between: Option<Span>) {
-        // All copies of a body have the place of the body's name.
+        // All copies of a body have the span of the body's name.
         let mut groups: Vec<&[Node]> = nodes.chunk_by(|a, b| a.span == b.span).collect();
         let count = groups.len();
         groups.retain(|group| group.len() > 1);
@@ -65,8 +65,7 @@ impl Reader<'_, '_> {
         );
     }
 
-    /// Warns of a spring between copies at the same initial place. Its rest length would be 0, which the user has
-    /// hardly meant.
+    /// Warns of a spring between two copies with the same initial location. The rest length would be 0, which is hardly intended.
     fn copies_apart(&mut self, nodes: [&Node; 2], between: [Anchor; 2]) {
         let bodies = self.bodies;
         let is_copy = |end: &Anchor| {
@@ -87,7 +86,7 @@ impl Reader<'_, '_> {
         self.say(Code::SpringEnds, span, warning);
     }
 
-    /// Reports two neighbouring ends that are equal, on the same body, or both immovable.
+    /// Reports a spring if its two ends are the same point, lie on the same body, or are both immovable.
     fn link(&mut self, first: &Node, second: &Node, between: [Anchor; 2]) {
         let moves = |end: Anchor| end.body().is_some_and(|id| !self.bodies[id.index()].start.fixed);
         if between[0] == between[1] {
