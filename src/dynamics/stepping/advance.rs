@@ -1,4 +1,5 @@
-//! Time integration with the engine: equal steps, births and deaths between steps, and moments within them.
+//! Time integration with the engine. Steps have equal lengths between two births or deaths of bodies. Requested moments within a step are
+//! interpolated.
 
 use glam::DVec3;
 
@@ -7,14 +8,14 @@ use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::{TimeStepping, bodies, set_step, spin};
 
-/// Angular velocities count as equal if their relative difference is below this.
+/// Two angular velocities count as equal if their relative difference is below this.
 const SAME: f64 = 1e-14;
 
-/// The largest allowed overlap at the start, as a fraction of the thickness of the thinnest body.
+/// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
 
 impl TimeStepping {
-    /// Advances to time `t` in steps that end at each birth and death.
+    /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
     pub(super) fn advance_by_events(
         &mut self,
         t: f64,
@@ -67,7 +68,8 @@ impl TimeStepping {
         Ok(())
     }
 
-    /// The state after a fraction of the last step: interpolated positions, with the velocities at its end.
+    /// Returns the state and the energy balance after a fraction of the last step. Positions are interpolated; velocities are those at the
+    /// end of the step.
     fn look_within(&self, part: f64) -> (State, Balance) {
         let (before, mut within) = (&self.before, self.state.clone());
         for i in 0..within.len() {
@@ -82,7 +84,8 @@ impl TimeStepping {
         (within, balance)
     }
 
-    /// Makes a single step.
+    /// Makes one step of `dt` from time `begin` to time `end`, s. Fails if a state is not finite, or if bodies overlap deeply at the start
+    /// of the run.
     fn make_step(&mut self, begin: f64, end: f64, dt: f64) -> Result<(), Breakdown> {
         self.ledger.close(&self.model, begin, &self.state);
         self.model.place(begin, &mut self.state);
@@ -109,7 +112,7 @@ impl TimeStepping {
         Ok(())
     }
 
-    /// Bodies that overlap deeply at the start are a mistake: they would shoot apart.
+    /// Returns an error if bodies overlap deeply at the start of the run. Such bodies would shoot apart.
     fn check_start(&mut self, time: f64) -> Result<(), Breakdown> {
         let allowed = DEEPEST * self.engine.integration_parameters.length_unit;
         let Some((bodies, depth)) = self.deepest().filter(|(_, depth)| *depth > allowed) else {
@@ -122,7 +125,7 @@ impl TimeStepping {
         Err(failure)
     }
 
-    /// Passes the loads and the rotations of the bodies to the engine.
+    /// Passes the forces on the bodies and their angular velocities to the engine, before a step of `dt` that ends at time `end`, s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, .. } = self;
         for (i, handle) in handles.iter().enumerate() {
@@ -140,14 +143,14 @@ impl TimeStepping {
                 spin::leading(from, to, dt)
             };
             books.mean[i].1 = turning;
-            // Fast bodies must not pass through moving ones. The engine by itself prevents this only for those at rest.
+            // Fast bodies must not pass through moving bodies. By default, the engine stops fast bodies only at bodies at rest.
             let is_fast = dt * state.velocity[i].length() > half_thickness[i];
             let Some(body) = engine.bodies.get(*handle) else { continue };
             let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
             let is_turning =
                 (body.angvel() - turning).length_squared() > SAME * SAME * turning.length_squared();
             if is_same && !is_turning {
-                // Each change from outside costs the engine time.
+                // Each change of a body through the engine's interface takes time, so unchanged values are not set again.
                 books.mean[i].1 = body.angvel();
                 continue;
             }
@@ -165,7 +168,7 @@ impl TimeStepping {
         }
     }
 
-    /// Reads the results of a step from the engine.
+    /// Reads the positions and velocities of the bodies from the engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, .. } = self;
         books.motors = joints.motor_pushes(engine, state);
@@ -184,15 +187,15 @@ impl TimeStepping {
             if body.is_ccd_enabled()
                 && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
             {
-                // The engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so its speed would carry
-                // it through. So it is moved slightly in front of the surface.
+                // The engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of the body
+                // would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
                 moved.push((*handle, pose));
             }
             state.location[i] = pose.translation;
             state.orientation[i] = pose.rotation;
             state.velocity[i] = body.linvel();
-            // Contacts and joints act on the inertia at the start of the step.
+            // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
             let change = body.angvel() - books.mean[i].1;
             books.turned[i] = DVec3::ZERO;
             if change != DVec3::ZERO {
@@ -210,7 +213,7 @@ impl TimeStepping {
         }
     }
 
-    /// Adds and removes bodies at births and deaths.
+    /// Enables bodies that are born and disables bodies that die. `due` holds the index of each body, and true for a birth.
     fn change(&mut self, due: &[(usize, bool)]) {
         if due.is_empty() {
             return;

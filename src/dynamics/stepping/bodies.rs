@@ -1,4 +1,4 @@
-//! The bodies of a world in the engine.
+//! Inserts the bodies of a world into the physics engine.
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
@@ -11,12 +11,13 @@ use super::super::{Model, State};
 use super::mixing::Mixing;
 use super::{plane, shape};
 
-/// For each body, present or absent, whether forces move it.
+/// Returns, for each present or absent body, whether forces move it.
 pub(super) fn moving(model: &Model) -> Vec<bool> {
     (0..model.len()).map(|i| model.is_moved_by_forces(i)).collect()
 }
 
-/// The thickness of the thinnest body that moves and touches others, m. It sets the scale of near and fast.
+/// Returns the thickness of the thinnest body that moves and touches others, m; 1 m if no body does. The engine measures its tolerances in
+/// this length.
 pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool]) -> f64 {
     let touches = |i: &usize| moves[*i] && contacts.surfaces.get(*i).is_some_and(Option::is_some);
     let thickness = |i: usize| Some(2.0 * model.shape(i)?.half_thickness()?);
@@ -24,13 +25,14 @@ pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool])
     thinnest.filter(|length| *length > 0.0).unwrap_or(1.0)
 }
 
-/// Half of the thickness of each body, m; infinite for bodies without a shape.
+/// Returns half of the thickness of each body, m; infinite for bodies without a shape.
 pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
     let of = |i: usize| model.shape(i).and_then(Shape::half_thickness).unwrap_or(f64::INFINITY);
     (0..model.len()).map(of).collect()
 }
 
-/// Adds all bodies to the engine. Absent bodies are disabled.
+/// Adds all bodies to the engine and returns their handles, one per body. Absent bodies are disabled. `length` is the thickness of the
+/// thinnest moving body, m.
 pub(super) fn insert(
     engine: &mut PhysicsWorld,
     model: &mut Model,
@@ -65,7 +67,7 @@ pub(super) fn insert(
     handles
 }
 
-/// A body without its shape, in the frame of its principal axes.
+/// Returns the rigid body for the engine, still without its colliders. Its frame is that of the principal axes of inertia.
 fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
     let builder = if !model.movable()[i] {
         RigidBodyBuilder::fixed()
@@ -87,16 +89,16 @@ fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
         .additional_mass_properties(mass)
         .can_sleep(false)
         .allow_fast_rotation(true)
-        // `spin` computes the rotation of bodies.
+        // The module `spin` computes the free rotation of bodies, including gyroscopic effects.
         .gyroscopic_forces_enabled(false)
 }
 
-/// The pose of a body, in the frame of its principal axes.
+/// Returns the pose of a body: its centre of mass and its principal axes, in world axes.
 pub(super) fn pose(state: &State, i: usize) -> Pose {
     Pose::from_parts(state.location[i], state.orientation[i])
 }
 
-/// The colliders of a body.
+/// Returns the colliders of a body, without mass. `meets_others` tells whether any moving body is neither sphere nor box.
 fn colliders(
     model: &Model,
     state: &State,

@@ -1,4 +1,4 @@
-//! Energy accounts of contacts and joints, and impacts.
+//! Books the energy that contacts and joints take or give in each step, and finds the impacts.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
@@ -15,35 +15,36 @@ use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
 use super::touch::{self, Push, Touch};
 
-/// Bodies have no impact if they approach by less than this many thicknesses per second.
+/// A new contact counts as an impact only if the bodies approach faster than this many thicknesses of the thinnest moving body per second.
 const SLOW: f64 = 0.03;
 
-/// The motion of a body: its velocity, m/s, and its angular velocity, rad/s.
+/// The motion of a body: its velocity, m/s, and its angular velocity, rad/s, both in world axes.
 pub(super) type Motion = (DVec3, DVec3);
 
-/// The books of contacts.
+/// The bookkeeping of contacts and joints: data of the last step from which their work and the impacts follow.
 pub(super) struct Books {
-    /// The motion of each body: before the step, and its mean in the step.
+    /// The motion of each body before the last step, and its mean during that step.
     pub(super) before: Vec<Motion>,
     pub(super) mean: Vec<Motion>,
-    /// The position of each body before the step, m.
+    /// The position of each body's centre of mass before the last step, m.
     pub(super) places: Vec<DVec3>,
-    /// The bodies that touched something, or came near it, in the last step.
+    /// For each body, whether it touched another body, or came near one, in the last step.
     touched: Vec<bool>,
-    /// The bodies held by joints.
+    /// For each body, whether a joint holds it.
     held: Vec<bool>,
-    /// The change of angular momentum of each constrained body by contacts and joints in the last step, N m s.
+    /// The change of each body's angular momentum by contacts and joints in the last step, world axes, N m s. Zero for bodies that forces
+    /// do not move.
     pub(super) turned: Vec<DVec3>,
-    /// The impulses of motors in the last step.
+    /// The impulses of the joints' motors in the last step.
     pub(super) motors: Vec<MotorPush>,
     impacts: Vec<Impact>,
-    /// Pairs of colliders that have come near each other, and have not pushed yet.
+    /// Pairs of colliders that are near each other, and between which no contact force has acted yet.
     pub(super) near: Vec<[ColliderHandle; 2]>,
     pub(super) events: Events,
     slow: f64,
 }
 
-/// The engine's events: pairs that come near each other or separate.
+/// Collects the engine's collision events: two colliders come near each other, or separate.
 #[derive(Default)]
 pub(super) struct Events(Mutex<Vec<CollisionEvent>>);
 
@@ -64,15 +65,15 @@ impl EventHandler for Events {
     fn handle_soft_body_tear_event(&self, _: &SoftBodySet, _: &SoftBodyTearEvent) {}
 }
 
-/// The pairs that push in a step, among those that were near each other and had not pushed before.
+/// The pairs of colliders with a first contact impulse in a step. They were near each other before, without a contact force.
 struct Pushing {
-    /// For each collider, whether it is near another. Few are, so few pairs have to be looked up.
+    /// For each collider, whether it belongs to a near pair. Most colliders do not, so most pairs need no look-up in the set.
     is_near: Vec<bool>,
     pairs: HashSet<[ColliderHandle; 2]>,
 }
 
 impl Pushing {
-    /// An empty set for the given pairs.
+    /// Creates an empty set that accepts only the colliders of the given near pairs.
     fn among(near: &[[ColliderHandle; 2]]) -> Pushing {
         let mut pushing = Pushing { is_near: Vec::new(), pairs: HashSet::new() };
         for collider in near.as_flattened() {
@@ -85,7 +86,7 @@ impl Pushing {
         pushing
     }
 
-    /// Adds a pair that pushes.
+    /// Adds a pair with a contact impulse, if both colliders belong to near pairs.
     fn see(&mut self, pair: &ContactPair) {
         let pair = [pair.collider1, pair.collider2];
         if pair.iter().all(|collider| self.is_near.get(number(*collider)) == Some(&true)) {
@@ -93,13 +94,13 @@ impl Pushing {
         }
     }
 
-    /// Whether a pair pushes.
+    /// Returns whether the set contains a pair of colliders, in either order.
     fn has(&self, [one, two]: [ColliderHandle; 2]) -> bool {
         self.pairs.contains(&[one, two]) || self.pairs.contains(&[two, one])
     }
 }
 
-/// The index of a collider.
+/// Returns the index of a collider in the engine.
 fn number(collider: ColliderHandle) -> usize {
     collider.into_raw_parts().0 as usize
 }
@@ -122,7 +123,7 @@ impl Books {
         }
     }
 
-    /// Whether there are impacts that have not been taken.
+    /// Returns whether there are impacts that [`take_impacts`](Self::take_impacts) has not returned yet.
     pub(super) fn has_impacts(&self) -> bool {
         !self.impacts.is_empty()
     }
@@ -131,13 +132,14 @@ impl Books {
         std::mem::take(&mut self.impacts)
     }
 
-    /// Books the work of contacts and joints in the last step, and its impacts. `time` is that of its end, s.
+    /// Adds the work of contacts and joints in the last step to the accounts, and finds the impacts of the step. `time` is the end of the
+    /// step, s.
     ///
-    /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, whatever else
-    /// acts at the same time. The sum over two bodies is the loss; the contribution of a guided body is work.
+    /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, also if other
+    /// impulses act at the same time. The sum over both bodies of a contact is the energy loss. The contribution of a guided body is work.
     ///
-    /// The engine also separates overlapping bodies, or lets them sink in, without a lasting velocity. Forces with a potential do work on
-    /// that displacement, which contacts absorb or release as well.
+    /// The engine also shifts overlapping bodies apart, or lets them sink in, without a lasting velocity. Forces with a potential do work
+    /// during that displacement. Contacts absorb or release the same energy.
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
@@ -150,7 +152,7 @@ impl Books {
         let mut touched = std::mem::take(&mut self.touched);
         touched.fill(false);
         let mut accounts = Accounts::default();
-        // The energy that contacts give to bodies held by joints, J.
+        // The energy that contacts give to the bodies held by joints in this step, J.
         let mut pressed = 0.0;
         let meet = |touch: &Touch<'_>| touch.bodies.into_iter().for_each(|body| touched[body] = true);
         touch::visit(engine.narrow_phase.contact_pairs(), meet, |pair, touch, push| {
@@ -176,14 +178,14 @@ impl Books {
             let account = if self.touched[i] { &mut accounts.impacts } else { &mut pulled };
             *account -= (loads.force[i] - driven.on(i)).dot(shift);
             if self.held[i] && model.inverse_mass()[i] != 0.0 {
-                // Changes that are not due to its force come from contacts and joints.
+                // Contacts and joints cause the part of the velocity change that does not follow from the body's force.
                 let change = model.mass()[i] * (state.velocity[i] - self.before[i].0) - dt * loads.force[i];
                 pulled += change.dot(self.mean[i].0) + self.turned[i].dot(self.mean[i].1);
             }
         }
         let motors: f64 = self.motors.iter().map(|push| push.work(|body| self.mean[body])).sum();
         accounts.motors += motors;
-        // The rest comes from joints: they yield and hit limits, and guides at their ends do work through them.
+        // The remaining energy comes from joints: they yield and hit limits, and guided bodies do work through them.
         let others = pulled - pressed - motors;
         if joints.has_guide {
             accounts.work += others;
@@ -194,7 +196,8 @@ impl Books {
         self.find_impacts(engine, &pushing, time);
     }
 
-    /// The energy that a touch takes from its first body and gives to its second, each by the normal impulses and by friction, J.
+    /// Returns the energy that a contact takes from its first body and the energy that it gives to its second body, J. Each pair holds the
+    /// part of the normal impulses and the part of friction.
     fn rates(&self, touch: &Touch<'_>, push: &Push) -> Option<[[f64; 2]; 2]> {
         let normal = touch.normal();
         let rate = |side: usize| {
@@ -206,7 +209,7 @@ impl Books {
         Some([rate(0)?, rate(1)?])
     }
 
-    /// Updates which pairs have come near each other in the last step, and which have separated.
+    /// Updates the list of near pairs from the engine's collision events of the last step.
     fn note_near(&mut self) {
         let events = std::mem::take(&mut *self.events.0.lock().unwrap_or_else(PoisonError::into_inner));
         for event in events {
@@ -219,7 +222,7 @@ impl Books {
         }
     }
 
-    /// Finds the impacts of near pairs that have pushed now.
+    /// Finds the impacts of the last step: first contact impulses of near pairs. Removes these pairs from the list of near pairs.
     fn find_impacts(&mut self, engine: &PhysicsWorld, pushing: &Pushing, time: f64) {
         let mut near = std::mem::take(&mut self.near);
         near.retain(|pair| {
@@ -232,7 +235,7 @@ impl Books {
         self.near = near;
     }
 
-    /// Notes the impact of a pair if it has pushed. Returns whether it has.
+    /// Records an impact of a pair if its bodies approached fast enough. Returns whether the pair had any normal impulse.
     fn note_impact(&mut self, pair: &ContactPair, time: f64) -> bool {
         let (mut hardest, mut fastest) = (0.0, 0.0_f64);
         let (mut impulse, mut energy) = (DVec3::ZERO, 0.0);

@@ -1,7 +1,7 @@
-//! A moment of a run as bytes, from which the run continues with the same bits.
+//! Checkpoints: one moment of a run as bytes, from which the run continues with the same bits.
 //!
 //! A checkpoint holds everything that changes with time: the state, the accounts, the presence of bodies, and the engine with its
-//! contacts. The rest follows from the scene.
+//! contacts. Everything constant follows from the scene.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
@@ -10,23 +10,23 @@ use serde::{Deserialize, Serialize};
 use super::super::{EnergyLedger, State};
 use super::TimeStepping;
 
-/// Everything that changes with time, except the engine.
+/// Everything in a run that changes with time, except the engine.
 #[derive(Serialize, Deserialize)]
 struct Moment {
     time: f64,
     steps: u64,
     state: State,
     ledger: EnergyLedger,
-    /// The number of past births and deaths.
+    /// The number of births and deaths up to this moment.
     over: usize,
-    /// The absent bodies, with the velocity (m/s) and the angular momentum (kg m²/s) of their return.
+    /// The index of each absent body, with the velocity (m/s) and the angular momentum (kg m²/s) that it will have when it returns.
     away: Vec<(usize, DVec3, DVec3)>,
-    /// Pairs of colliders that have come near each other, and have not pushed yet.
+    /// Pairs of colliders that are near each other, and between which no contact force has acted yet.
     near: Vec<[ColliderHandle; 2]>,
 }
 
 impl TimeStepping {
-    /// Saves the present moment. `None` after a failure, or while impacts have not been taken.
+    /// Returns the present moment of the run as bytes; `None` after a failure, or if impacts have not been taken yet.
     pub(super) fn save(&mut self) -> Option<Vec<u8>> {
         if self.failure.is_some() || self.books.has_impacts() {
             return None;
@@ -43,7 +43,7 @@ impl TimeStepping {
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
 
-    /// Continues from a saved moment. Returns false if it does not belong to this run.
+    /// Restores a saved moment. Returns false and changes nothing if the bytes do not belong to this run.
     pub(super) fn load(&mut self, bytes: &[u8]) -> bool {
         let Ok((moment, engine)) = postcard::from_bytes::<(Moment, PhysicsWorld)>(bytes) else {
             return false;

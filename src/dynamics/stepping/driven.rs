@@ -1,7 +1,7 @@
-//! The work of forces without a potential.
+//! The work of forces without a potential in time-stepping.
 //!
-//! The engine holds a force constant over a step. So its work uses the mean velocity of the step, not that at the start: with the latter,
-//! a servo that starts to pull at rest would do no work.
+//! The engine holds a force constant over a step, so the work of the force follows from the mean velocity of the step. With the velocity
+//! at the start of the step, a servo that starts at rest would do no work.
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use super::super::force::Moment;
 use super::super::{Accounts, Loads, Model, State, WorkAccount};
 use super::books::Motion;
 
-/// The loads of forces without a potential in a step.
+/// The loads in one step by forces without a potential.
 #[derive(Clone, Default)]
 pub(super) struct Driven {
-    /// The summed loads of each account.
+    /// For each account, the summed loads of the forces whose work belongs to that account.
     alone: Vec<(WorkAccount, Loads)>,
 }
 
 impl Driven {
-    /// Called at the start of a step: evaluates these forces, and removes their power from `loads`.
+    /// Evaluates the forces without a potential at the start of a step, and removes their power from `loads`.
     pub(super) fn begin(&mut self, model: &Model, time: f64, state: &State, loads: &mut Loads) {
         for (_, alone) in &mut self.alone {
             alone.power = Accounts::default();
@@ -34,7 +34,7 @@ impl Driven {
         }
     }
 
-    /// The loads of an account, for a number of bodies.
+    /// Returns the loads of an account; creates them with zeros for this number of bodies if needed.
     fn loads_of(&mut self, account: WorkAccount, bodies: usize) -> &mut Loads {
         let known = self.alone.iter().position(|(of, _)| *of == account);
         let place = known.unwrap_or_else(|| {
@@ -45,7 +45,7 @@ impl Driven {
         &mut self.alone[place].1
     }
 
-    /// The work of these forces in a step of `dt` (s), with the mean motion of the bodies.
+    /// Returns the work of the forces without a potential in a step of `dt`, s. `mean` holds the mean motion of each body in the step.
     pub(super) fn work(&self, dt: f64, mean: &[Motion]) -> Accounts {
         let mut accounts = Accounts::default();
         for (account, alone) in &self.alone {
@@ -58,7 +58,7 @@ impl Driven {
         accounts
     }
 
-    /// The sum of these forces on a body, N.
+    /// Returns the sum of the forces without a potential on a body, N.
     pub(super) fn on(&self, body: usize) -> DVec3 {
         self.alone.iter().map(|(_, alone)| alone.force[body]).sum()
     }

@@ -1,4 +1,4 @@
-//! Joints in the engine, which solves them together with the contacts, by impulses.
+//! Joints in the physics engine. The engine solves joints and contacts together, by impulses.
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
@@ -9,59 +9,59 @@ use rapier3d_f64::prelude::{
 use super::super::{Anchor, Ball, BodyId, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State};
 use super::books::Motion;
 
-/// The stiffness of the motor that keeps the length of a rod, N/m, and of one that keeps a speed, N s/m or N m s. It is so large that the
-/// step alone determines the softness.
+/// The stiffness (N/m) of the motor that keeps the length of a rod, and the damping (N s/m or N m s) of a motor that keeps a speed. The
+/// value is so large that only the length of the step determines how soft the motor is.
 const RIGID: f64 = 1e30;
 
-/// A joint of two bodies, of a kind that the engine supports.
+/// A joint between two bodies, of a kind that time-stepping supports.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// Its kind.
+    /// The kind of the joint, with its ends and parameters.
     pub kind: LinkKind,
     /// Whether the two bodies can collide with each other.
     pub collides: bool,
 }
 
-/// The kinds of links.
+/// The kinds of joints that time-stepping supports.
 #[derive(Clone, Debug)]
 pub enum LinkKind {
-    /// Two points coincide.
+    /// Ball joint: two points coincide.
     Ball(Ball),
-    /// Two points coincide, and one axis is common. An optional motor keeps a speed.
+    /// Hinge: two points coincide, and one axis is common to both bodies. An optional motor keeps an angular speed.
     Hinge(Hinge),
-    /// One body moves along an axis of the other. An optional motor keeps a speed.
+    /// Slider: one body moves along an axis of the other body without rotating relative to that body. An optional motor keeps a speed.
     Slider(Slider),
-    /// Two bodies move as one.
+    /// Fixed joint: two bodies keep their relative position and orientation.
     Fixed(Fixed),
-    /// The distance of two points is constant.
+    /// Rod: the distance between two points is constant.
     Rod(Rod),
-    /// The distance of two points is limited.
+    /// Rope: the distance between two points has an upper limit.
     Rope(Rope),
 }
 
-/// The joints of a run.
+/// The joints of a run in the engine.
 pub(super) struct Joints {
     handles: Vec<ImpulseJointHandle>,
-    /// The indices of the bodies at both ends; `None` for the world.
+    /// For each joint, the indices of the bodies at its two ends; `None` for an end at a fixed point of the world.
     bodies: Vec<[Option<usize>; 2]>,
-    /// The free axis of each joint with a motor.
+    /// For each joint, the axis of the motor that keeps a speed; `None` for a joint without a motor.
     motors: Vec<Option<JointAxis>>,
     /// Whether any joint has an end at a body with a given motion.
     pub(super) has_guide: bool,
 }
 
-/// The impulse of a motor on the first body within a step, N s or N m s, and the coefficients of its row.
+/// The impulse of a joint's motor on the first body within a step, N s or N m s, and the coefficients of the Jacobian row of the motor.
 pub(super) struct MotorPush {
     bodies: [Option<usize>; 2],
     impulse: f64,
-    /// The direction of a linear motor; zero for a rotary one.
+    /// The direction of a linear motor, as a unit vector in world axes; zero for a rotary motor.
     direction: DVec3,
-    /// For each body, the coefficients of its angular velocity.
+    /// For each body, the coefficients of its angular velocity in the motor's speed, world axes.
     arms: [DVec3; 2],
 }
 
 impl MotorPush {
-    /// The energy from the motor, J. The closure returns the mean motion of a body in the step.
+    /// Returns the work of the motor in the step, J. The closure `mean` returns the mean motion of a body in the step.
     pub(super) fn work(&self, mean: impl Fn(usize) -> Motion) -> f64 {
         let rate = |side: usize| {
             let Some((velocity, turning)) = self.bodies[side].map(&mean) else { return 0.0 };
@@ -71,7 +71,8 @@ impl MotorPush {
     }
 }
 
-/// An end of a link: its body in the engine, and the rotation from the body's axes to the engine's.
+/// An end of a joint: a body in the engine, the rotation from the axes of the scene's body to those of the engine's body, and the point in
+/// the latter axes, m.
 struct End {
     body: RigidBodyHandle,
     turn: DQuat,
@@ -79,7 +80,7 @@ struct End {
 }
 
 impl LinkKind {
-    /// The axis of the motor that keeps a speed, if there is one.
+    /// Returns the axis of the motor that keeps a speed; `None` for a joint without a motor.
     fn motor(&self) -> Option<JointAxis> {
         let of = |freedom: &Freedom, axis: JointAxis| {
             matches!(freedom.motor, Some(Motor::Speed { .. })).then_some(axis)
@@ -91,7 +92,7 @@ impl LinkKind {
         }
     }
 
-    /// Its two ends.
+    /// The two ends of the joint.
     #[must_use]
     pub fn between(&self) -> [Anchor; 2] {
         match self {
@@ -106,14 +107,14 @@ impl LinkKind {
 }
 
 impl Joints {
-    /// Adds all links to the engine.
+    /// Adds a joint to the engine for each of `links`. `bodies` holds the engine's handle of each body.
     pub(super) fn insert(
         engine: &mut PhysicsWorld,
         links: &[Link],
         bodies: &[RigidBodyHandle],
         model: &Model,
     ) -> Joints {
-        // Points of the world belong to this body.
+        // Joints to fixed points of the world are attached to this body.
         let ground = (!links.is_empty()).then(|| engine.insert_body(RigidBodyBuilder::fixed()));
         let end = |anchor: Anchor| match (anchor, ground) {
             (Anchor::Body { id, at }, _) => {
@@ -139,17 +140,17 @@ impl Joints {
         Joints { handles, bodies: ends, motors, has_guide }
     }
 
-    /// For each of `bodies` bodies, whether a joint holds it.
+    /// Returns for each of `bodies` bodies whether a joint holds it.
     pub(super) fn held(&self, bodies: usize) -> Vec<bool> {
         let mut held = vec![false; bodies];
         self.bodies.iter().flatten().flatten().for_each(|&body| held[body] = true);
         held
     }
 
-    /// The impulses of the motors in the last step. `state` is that of its start.
+    /// Returns the impulses of the joints' motors in the last step. `state` is the state at the start of the step.
     ///
-    /// A motor is the first row that the engine makes for a joint, so its impulse acts along its axis. The later rows are made orthogonal
-    /// to each other, so their impulses have no such meaning.
+    /// The engine makes the row of a motor before the other rows of its joint, so the motor's impulse acts along its axis. The engine
+    /// makes later rows orthogonal to the earlier ones, so impulses of later rows would not act along the axes of the joint.
     pub(super) fn motor_pushes(&self, engine: &PhysicsWorld, state: &State) -> Vec<MotorPush> {
         let with_motor = self.motors.iter().enumerate().filter_map(|(k, axis)| Some((k, (*axis)?)));
         let push = |(k, axis): (usize, JointAxis)| {
@@ -179,9 +180,9 @@ impl Joints {
     }
 }
 
-/// A link in the form of the engine.
+/// Returns a joint as the engine describes it.
 fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
-    // The first axis of an engine joint is the free one.
+    // The x axis of an engine joint's frame is the axis of its free motion.
     let frames = |axis: DVec3, turned: DQuat| {
         let own = DQuat::from_rotation_arc(DVec3::X, axis);
         [Pose::from_parts(one.at, one.turn * own), Pose::from_parts(two.at, two.turn * turned * own)]
@@ -208,7 +209,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
             joint
         }
         LinkKind::Rod(rod) => {
-            // The engine has no joint for a constant distance, but a motor without limit keeps one.
+            // The engine has no joint for a constant distance. A motor with unlimited force keeps the distance instead.
             let mut joint = build(JointAxesMask::empty(), frames(DVec3::X, DQuat::IDENTITY));
             joint.coupled_axes = JointAxesMask::LIN_AXES;
             joint.set_motor_model(JointAxis::LinX, MotorModel::ForceBased);
@@ -218,7 +219,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
     }
 }
 
-/// Adds limits and a motor on the free axis.
+/// Adds the limits and the motor of `freedom` to the free axis of a joint.
 fn free(mut joint: GenericJoint, axis: JointAxis, freedom: &Freedom) -> GenericJoint {
     if let Some(limits) = freedom.limits {
         joint.set_limits(axis, limits);

@@ -1,4 +1,4 @@
-//! The rules by which the engine mixes two surfaces.
+//! The rules by which the engine combines the friction and the restitution of two surfaces in contact.
 
 use std::collections::BTreeSet;
 
@@ -9,30 +9,30 @@ use rapier3d_f64::prelude::{
 
 use super::super::contact::{Contacts, Surface};
 
-/// Which bodies pass through each other, and how surfaces mix.
+/// The rules for pairs of bodies: which bodies pass through each other, and how the properties of two surfaces combine.
 ///
-/// The engine supports the scene's rules for mixing, the larger restitution and the geometric mean of the frictions. It does not support
-/// surfaces without a value, for which the other's value counts. Pairs where this matters need a callback at every step, which costs
+/// The engine supports the scene's rules: the larger of two restitutions and the geometric mean of two frictions. It has no surfaces
+/// without a value, where the value of the other surface counts. Pairs with such a surface may need a callback at every step, which costs
 /// time. So callbacks are avoided where possible.
 pub(super) struct Mixing {
     surfaces: Vec<Surface>,
     apart: BTreeSet<(usize, usize)>,
-    /// The friction of each body in the engine.
+    /// The coefficient of friction of each body that is set in the engine.
     known: Vec<f64>,
-    /// The bodies that need a callback for some pair.
+    /// For each body, whether some of its contact pairs need a callback to compute the friction.
     asked: Vec<bool>,
 }
 
 impl Mixing {
-    /// Prepares the mixing for the given contacts. `moves` says which bodies move by forces; a pair touches only if one of its bodies
-    /// does.
+    /// Prepares the rules for the given contacts. `moves` tells for each body whether forces move it. Two bodies touch only if forces move
+    /// one of them.
     pub(super) fn new(contacts: &Contacts, moves: &[bool]) -> Mixing {
         let surfaces: Vec<Surface> =
             contacts.surfaces.iter().map(|surface| surface.unwrap_or_default()).collect();
         let is_there = |i: &usize| contacts.surfaces[*i].is_some();
         let movers = || (0..surfaces.len()).filter(is_there).filter(|i| moves[*i]);
         let neither = Surface::default().meet(&Surface::default()).friction;
-        // If all moving bodies have the same value, each other body gets the value whose mean with it is right.
+        // If all moving bodies have the same friction, every other body gets the friction whose geometric mean with that value is right.
         let common = movers().next().map(|i| surfaces[i]);
         let common = common.filter(|first| movers().all(|i| surfaces[i].friction == first.friction));
         let known = |i: usize| {
@@ -53,7 +53,7 @@ impl Mixing {
         Mixing { surfaces, apart: contacts.apart.clone(), known, asked }
     }
 
-    /// Sets the surface of a collider.
+    /// Sets the friction, the restitution and the callbacks of a body's collider.
     pub(super) fn describe(&self, body: usize, collider: ColliderBuilder) -> ColliderBuilder {
         let mut hooks = ActiveHooks::empty();
         if self.asked[body] {
@@ -65,14 +65,14 @@ impl Mixing {
         collider
             .friction(self.known[body])
             .friction_combine_rule(CoefficientCombineRule::GeometricMean)
-            // An unset value counts as 0, which is never above the other's.
+            // An unset restitution counts as 0. The engine takes the larger value, so the restitution of the other surface counts.
             .restitution(self.surfaces[body].restitution.unwrap_or(0.0))
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .active_hooks(hooks)
     }
 }
 
-/// The body of a collider, whose index is stored in the collider.
+/// Returns the index of a collider's body, which the collider stores as user data.
 pub(super) fn body_of(colliders: &ColliderSet, collider: ColliderHandle) -> Option<usize> {
     Some(colliders.get(collider)?.user_data as usize)
 }

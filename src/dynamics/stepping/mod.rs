@@ -1,11 +1,12 @@
 //! Time-stepping: contacts of many bodies at once, at fixed steps.
 //!
-//! Among hundreds of touching bodies, impacts cannot be followed one by one. Here all contacts of a step are solved together, as
-//! inequalities of velocities, by a few sweeps over all of them. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small Steps
-//! in Physics Simulation*, SCA 2019. The engine is rapier. It finds contacts, and solves contacts and joints. Forces, energies, guided
-//! bodies, births and deaths are those of every [`World`], whose bodies it takes over.
+//! Among hundreds of touching bodies, impacts cannot be followed one by one. Time-stepping solves all contacts of a step together, as
+//! inequalities of velocities, by a few sweeps over all contacts. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small Steps
+//! in Physics Simulation*, SCA 2019. The engine is rapier, which finds contacts, and solves contacts and joints. Forces, energies, guided
+//! bodies, births and deaths come from a [`World`], whose bodies are taken over.
 //!
-//! A step is one of Euler–Cromer: without contacts and joints, it gives the same numbers. All forces are evaluated at its start.
+//! Without contacts and joints, a step gives the same numbers as a step of Euler–Cromer. All forces are evaluated at the start of the
+//! step.
 
 mod advance;
 mod bodies;
@@ -35,18 +36,17 @@ use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, Wo
 
 pub use joint::{Link, LinkKind};
 
-/// The number of sweeps over all contacts in a step: first with position correction, then without. Friction is solved only in the latter:
-/// with two of them, a block creeps down an incline that should hold it.
+/// The numbers of sweeps over all contacts in a step: first with position correction, then without it. Friction is solved only in the
+/// final sweeps. With only two final sweeps, a block creeps down an incline on which friction should hold it.
 const SWEEPS: usize = 2;
 const FINAL_SWEEPS: usize = 4;
-/// The damping of contacts, relative to critical damping.
+/// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
 
-/// Fast bodies stop this near another body, or this deep within it, in typical lengths.
+/// Fast bodies stop this far in front of a surface or behind it, as a fraction of the thickness of the thinnest moving body.
 const SLOP: f64 = 0.002;
 
-/// Bodies that move under forces and touch each other, advanced by steps of equal length in which all contacts are solved
-/// together.
+/// Simulates bodies that move under forces and touch each other, in steps of equal length. All contacts of a step are solved together.
 pub struct TimeStepping {
     time: f64,
     step: f64,
@@ -55,11 +55,11 @@ pub struct TimeStepping {
     state: State,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// The engine, which finds and solves contacts.
+    /// The physics engine, which finds and solves contacts and joints.
     engine: PhysicsWorld,
-    /// The bodies of the model in the engine.
+    /// The engine's handle of each body of the model.
     handles: Vec<RigidBodyHandle>,
-    /// Half of each body's thickness, m. A body that moves by more within a step is fast.
+    /// Half of each body's thickness, m. A body that moves farther than this within a step counts as fast.
     half_thickness: Vec<f64>,
     mixing: Mixing,
     joints: Joints,
@@ -69,13 +69,13 @@ pub struct TimeStepping {
     shows_contacts: bool,
     /// Working memory for the loads at one moment.
     loads: Loads,
-    /// The state before the last step, for moments within it.
+    /// The state before the last step, from which moments within that step are interpolated.
     before: State,
     failure: Option<Breakdown>,
 }
 
 impl TimeStepping {
-    /// Takes over the bodies of a world with their forces, motions and lifetimes. They touch each other by the rules of `contacts`, and
+    /// Takes over the bodies of a world with their forces, motions and lifetimes. Bodies touch each other by the rules of `contacts`, and
     /// `links` join them. Constraints of the world itself are ignored.
     #[must_use]
     pub fn new(world: World, contacts: &Contacts, links: &[Link]) -> TimeStepping {
@@ -111,7 +111,7 @@ impl TimeStepping {
         }
     }
 
-    /// Whether snapshots list the contacts of their moment. There may be many.
+    /// Sets whether snapshots list the contacts of their moment, which may be many. The default is true.
     pub fn show_contacts(&mut self, shown: bool) {
         self.shows_contacts = shown;
     }
@@ -122,25 +122,25 @@ impl TimeStepping {
     }
 }
 
-/// The engine's parameters. `length` is the thickness of the thinnest moving body, m.
+/// Returns the engine's parameters. `length` is the thickness of the thinnest moving body, m.
 fn parameters(length: f64) -> IntegrationParameters {
     IntegrationParameters {
         length_unit: length,
-        // Each step is one step of the engine, so that forces are evaluated for each, and all impulses can be read.
+        // Each step is a single step of the engine, so that forces are evaluated in each step, and all impulses can be read.
         num_solver_iterations: 1,
         num_internal_pgs_iterations: SWEEPS,
         num_internal_stabilization_iterations: FINAL_SWEEPS,
         normalized_allowed_linear_error: SLOP,
-        // Speeds are not limited.
+        // The engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,
-        // Bodies that fall by their own thickness separate at about the speed of their fall.
+        // The engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
         normalized_max_corrective_velocity: 3.0 / length.sqrt(),
         warmstart_joints: true,
         ..IntegrationParameters::default()
     }
 }
 
-/// Sets the step of the engine, and with it the stiffness of contacts.
+/// Sets the length of the engine's step, s, and the stiffness of contacts, which depends on the step.
 fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
     let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
     parameters.dt = dt;

@@ -1,4 +1,4 @@
-//! Infinite planes.
+//! The collision shapes of infinite planes.
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, Pose, SharedShape};
@@ -6,24 +6,24 @@ use rapier3d_f64::prelude::{Group, InteractionGroups, InteractionTestMode, Pose,
 use super::super::shape::Shape;
 use super::shape::Solid;
 
-/// The edges of the block that replaces a plane, in typical lengths of the scene.
+/// The edge length of the cube that replaces a plane, in multiples of the thickness of the thinnest moving body.
 const EDGE: f64 = 1e6;
-/// A plane counts as aligned with a world axis if its normal deviates by no more than this.
+/// A plane counts as aligned with a world axis if a component of its unit normal differs from ±1 by no more than this.
 const ALIGNED: f64 = 1e-12;
 
-/// The group of solids whose contacts with a block have a closed form.
+/// The collision group of spheres and boxes, whose contacts with a block have a closed form.
 const SIMPLE: Group = Group::GROUP_1;
-/// The group of all other solids.
+/// The collision group of all shapes other than spheres, boxes and planes.
 const OTHER: Group = Group::GROUP_2;
-/// Planes have their own group, since planes do not touch each other.
+/// The collision group of planes. Planes do not touch each other.
 const PLANE: Group = Group::GROUP_3;
 
-/// The solids of a plane, each with the groups that it touches. The normal and the orientation of its body give its direction.
-/// `meets_others` says whether any moving body is neither sphere nor box.
+/// Returns the solids of a plane, each with its collision groups. `normal` (body axes) and `orientation` give the direction of the plane.
+/// `meets_others` tells whether any moving body is neither sphere nor box.
 ///
-/// The engine has half-spaces, but compares each with every body, near or far: four walls and a ground cost as much as the rest of the
-/// step. So a block replaces a plane that is aligned with a world axis: it is compared only with near bodies. Spheres and boxes touch the
-/// block exactly. Other shapes are compared with the half-space, which is exact for them.
+/// The engine has half-spaces, but compares each half-space with every body, near or far: four walls and a ground cost as much as the
+/// remaining work of a step. So a block replaces a plane that is aligned with a world axis, because the engine compares a block only with
+/// near bodies. Spheres and boxes touch the block exactly. Other shapes are compared with the half-space, which is exact for these shapes.
 pub(super) fn solids(
     normal: DVec3,
     orientation: DQuat,
@@ -37,7 +37,7 @@ pub(super) fn solids(
         return vec![(half_space, groups(PLANE, SIMPLE | OTHER))];
     }
     let half = 0.5 * EDGE * length;
-    // The edges of the block are parallel to the world axes.
+    // This rotation makes the edges of the block parallel to the world axes.
     let turn = orientation.conjugate();
     let block = (Pose::from_parts(-half * normal, turn), SharedShape::cuboid(half, half, half));
     let mut all = vec![(block, groups(PLANE, SIMPLE))];
@@ -47,12 +47,12 @@ pub(super) fn solids(
     all
 }
 
-/// Whether contacts of a shape with the block have a closed form.
+/// Returns whether contacts of a shape with a block have a closed form: true for spheres and boxes.
 pub(super) fn is_simple(shape: &Shape) -> bool {
     matches!(shape, Shape::Sphere { .. } | Shape::Box { .. })
 }
 
-/// The groups that the solids of a shape touch, unless it is a plane.
+/// Returns the collision groups of a shape other than a plane: its own group, and the groups that it touches.
 pub(super) fn groups_of(shape: &Shape) -> InteractionGroups {
     let own = if is_simple(shape) { SIMPLE } else { OTHER };
     groups(own, SIMPLE | OTHER | PLANE)

@@ -1,4 +1,4 @@
-//! Shapes in the form of the engine.
+//! Translates shapes into the collision shapes of the engine.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -9,23 +9,24 @@ use rapier3d_f64::prelude::{Pose, SharedShape};
 
 use super::super::shape::{Mesh, Shape, cone_base};
 
-/// The number of sides of the pyramid that replaces a frustum. Its corners lie as far outside as the middles of its sides lie inside, by
-/// a quarter of a percent of the radius.
+/// The number of sides of the pyramid frustum that replaces a conical frustum. Its corners lie outside the circle, and the middles of its
+/// sides inside, both by a quarter of a percent of the radius.
 const SIDES: u32 = 32;
-/// A mesh counts as convex if its hull has at most this fraction more volume.
+/// A mesh counts as convex if the volume of its convex hull exceeds its own volume by at most this fraction.
 const CONVEX: f64 = 1e-3;
-/// A ring of capsules replaces a torus. It deviates by this fraction of the tube's radius.
+/// The deviation between a torus and the ring of capsules that replaces it, as a fraction of the tube's radius. A torus with a very thin
+/// tube deviates more.
 const TORUS: f64 = 0.01;
 
-/// A solid of the engine in the frame of its body.
+/// A collision shape of the engine, with its pose in the frame of its body.
 pub(super) type Solid = (Pose, SharedShape);
 
-/// The solids that make up a shape, in its own frame. A plane has none here: see [`plane`](super::plane). Moving shapes must be solid;
-/// others may be surfaces.
+/// Returns the solids that make up a shape, in the shape's own frame. A plane has none, because [`plane`](super::plane) makes its solids.
+/// Moving bodies need solids with an inside; bodies at rest may be surfaces.
 pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
     let mut all = Vec::new();
     collect(shape, moves, Pose::IDENTITY, &mut all);
-    // As one compound, so that the engine knows which of their contacts belong together.
+    // A compound tells the engine which contacts belong to the same pair of bodies.
     if all.len() > 1 && all.iter().all(|(_, solid)| solid.as_composite_shape().is_none()) {
         return vec![(Pose::IDENTITY, SharedShape::compound(all))];
     }
@@ -42,7 +43,8 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
         }
         Shape::RoundedBox { size, rounding } => {
             let half = 0.5 * size - rounding;
-            // A fully rounded box has no flat face in some direction; the engine needs a small one.
+            // A box with the largest possible rounding has no extent between its roundings in some direction. The engine needs a small
+            // extent.
             let half = half.max(DVec3::splat(1e-9 * rounding));
             all.push((pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
         }
@@ -74,10 +76,10 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
     }
 }
 
-/// Wedges around the axis, because the engine uses only four corners of a face.
+/// Returns wedges around the axis that together form a frustum, because the engine uses only four corners of a face.
 fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = SharedShape> {
     let base = cone_base(radius, top_radius, height);
-    // Between the circumscribed and the inscribed circle of the polygon.
+    // The circle lies midway between the circumscribed and the inscribed circle of the polygon.
     let outer = 2.0 / (1.0 + libm::cos(PI / f64::from(SIDES)));
     let corner = move |i: u32, radius: f64, y: f64| {
         let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(SIDES));
@@ -90,9 +92,9 @@ fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = Sh
     })
 }
 
-/// Capsules along the ring.
+/// Returns capsules along the circle that replace a torus.
 fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
-    // A chord deviates from its arc by radius · (1 − cos(π/n)). Moving it outwards by half of that leaves the other half.
+    // A chord deviates from its arc by radius · (1 − cos(π/n)). A chord that is shifted outwards by half of this deviates by half as much.
     let deviation = (2.0 * TORUS * tube_radius / radius).min(0.1);
     let sides = (PI / libm::acos(1.0 - deviation)).ceil().clamp(12.0, 96.0);
     let ring = radius * 2.0 / (1.0 + libm::cos(PI / sides));
@@ -104,11 +106,12 @@ fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
         .map(move |i| SharedShape::capsule(corner(f64::from(i)), corner(f64::from(i) + 1.0), tube_radius))
 }
 
-/// A moving mesh becomes its hull, if it is convex, or convex parts. A mesh at rest becomes its triangles.
+/// Returns the solids of a mesh. A moving mesh becomes its convex hull if it is convex, and several convex parts if not. A mesh at rest
+/// becomes its triangles.
 fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<Solid> {
     let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| scale * *vertex).collect();
     if !moves {
-        // A closed surface has an inside; an open one has two sides.
+        // A closed surface has an inside. An open surface can be touched from both sides.
         let flags = match mesh.flaw() {
             None => TriMeshFlags::FIX_INTERNAL_EDGES,
             Some(_) => TriMeshFlags::MERGE_DUPLICATE_VERTICES,

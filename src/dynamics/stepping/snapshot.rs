@@ -1,4 +1,4 @@
-//! Snapshots of a moment.
+//! Makes snapshots of a moment in time-stepping.
 
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
@@ -6,7 +6,7 @@ use super::TimeStepping;
 use super::touch::{Point, Touch};
 
 impl TimeStepping {
-    /// The bodies as they are, or as they are in `state`, with the contacts and joints of the last step.
+    /// Returns a snapshot of the present state, or of `state` if it is given. The contacts and joints are those of the last step.
     pub(super) fn picture(&mut self, time: f64, balance: Balance, state: Option<&State>) -> Snapshot {
         let Self { model, state: own, loads, .. } = self;
         let seen = state.unwrap_or(own);
@@ -22,7 +22,7 @@ impl TimeStepping {
         Snapshot { time, bodies, reactions, contacts, penetration: self.penetration(), balance }
     }
 
-    /// Adds the mean forces of contacts in the last step.
+    /// Adds the contact forces of the last step to the loads, each averaged over the step.
     fn add_contact_forces(&mut self) {
         let Self { engine, model, loads, steps, .. } = self;
         if *steps == 0 {
@@ -41,7 +41,7 @@ impl TimeStepping {
         }
     }
 
-    /// The contacts of the last step.
+    /// Returns the contacts of the last step, ordered by their bodies.
     fn contacts(&self) -> Vec<ContactSnapshot> {
         let dt = self.engine.integration_parameters.dt;
         let mut all = Vec::new();
@@ -59,7 +59,8 @@ impl TimeStepping {
                     place: self.state.location[one] + point.arms[0],
                     normal: sign * touch.normal(),
                     force: sign * point.impulse / dt * touch.normal(),
-                    // Friction is that of all points together. Each point gets its share by its normal impulse.
+                    // The engine computes one friction impulse for all points of a contact. Each point gets a share in proportion to its
+                    // normal impulse.
                     friction: sign * point.impulse / push.impulse / dt * push.friction,
                 }));
             }
@@ -68,13 +69,14 @@ impl TimeStepping {
         all
     }
 
-    /// The greatest penetration of bodies, m.
+    /// The greatest penetration of two bodies at present, m; 0 if no bodies overlap.
     #[must_use]
     pub fn penetration(&self) -> f64 {
         self.deepest().map_or(0.0, |(_, depth)| depth.max(0.0))
     }
 
-    /// The pair with the greatest penetration, and its depth, m.
+    /// Returns the two bodies with the greatest penetration, and their penetration, m (negative if they are apart). `None` if no bodies
+    /// are near each other.
     pub(super) fn deepest(&self) -> Option<([usize; 2], f64)> {
         let Self { engine, model, state, .. } = self;
         let pose = |i: usize| model.movable()[i].then(|| super::bodies::pose(state, i));

@@ -1,19 +1,19 @@
-//! The rotation of free bodies within a step of the engine.
+//! Computes the rotation of free bodies within a step of the engine.
 
 use glam::{DQuat, DVec3};
 
-/// The largest rotation within a step, rad. Faster bodies rotate only this far.
+/// The largest rotation of a body within a step, rad. Faster rotations are cut off at this angle.
 const LARGEST: f64 = 3.0;
 
-/// The angular velocity (world axes, rad/s) with which the engine rotates a body from one orientation to another within `dt`.
+/// Returns the angular velocity (world axes, rad/s) with which the engine rotates a body from orientation `from` to `to` within `dt`, s.
 ///
-/// The engine advances orientations along a straight line, q + ½ ω q dt, and normalises. So it rotates by 2 atan(½ ω dt), and a rotation
-/// by φ needs ω = 2 tan(½ φ)/dt.
+/// The engine advances orientations along a straight line, q + ½ ω q dt, and normalises the result. This rotates a body by 2 atan(½ ω dt),
+/// so a rotation by φ needs ω = 2 tan(½ φ)/dt.
 pub(super) fn leading(from: DQuat, to: DQuat, dt: f64) -> DVec3 {
     let turn = to * from.conjugate();
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let sine = DVec3::new(turn.x, turn.y, turn.z);
-    // tan(½ φ) = sin/cos, where cos stays above 0.
+    // The tangent is tan(½ φ) = sin(½ φ)/cos(½ φ). A lower bound of the cosine limits the angle.
     let cosine = turn.w.max(libm::cos(0.5 * LARGEST));
     2.0 / dt / cosine * sine
 }

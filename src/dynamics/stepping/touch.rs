@@ -1,49 +1,49 @@
-//! The engine's data on two bodies that touch.
+//! Reads the engine's data on contacts between two bodies.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{
     ContactData, ContactManifold, ContactPair, PairContacts, Pose, RigidBodyHandle, SolverContact,
 };
 
-/// The largest number of points of a touch for which the engine solves.
+/// The largest number of points of one contact for which the engine computes impulses.
 const MOST_POINTS: usize = 4;
 
-/// The contact of two bodies, on a common normal.
+/// A contact of two bodies: one or more points with a common normal.
 #[derive(Clone, Copy)]
 pub(super) struct Touch<'a> {
-    /// The indices of the bodies.
+    /// The indices of the two bodies in contact.
     pub(super) bodies: [usize; 2],
     manifold: &'a ContactManifold,
 }
 
-/// A point of a touch: the impulse along the normal, and the vectors to it from the centres of the bodies.
+/// A point of a contact: the impulse along the normal (N s), and the vectors from the centres of the two bodies to the point (m).
 pub(super) struct Point {
     pub(super) impulse: f64,
     pub(super) arms: [DVec3; 2],
 }
 
-/// The effect of a contact on the second body within a step; the first gets the opposite.
+/// The impulses of a contact on the second body within a step. The first body gets the opposite impulses.
 #[derive(Default)]
 pub(super) struct Push {
-    /// The impulse along the normal, N s.
+    /// The normal impulse, summed over all points, N s.
     pub(super) impulse: f64,
-    /// Its moments about the centres of the bodies, N m s.
+    /// The moments of the normal impulses about the centres of the two bodies, N m s.
     pub(super) moments: [DVec3; 2],
-    /// The impulse of friction, N s.
+    /// The friction impulse, summed over all points, N s.
     pub(super) friction: DVec3,
     /// The moment of friction about the normal, N m s.
     pub(super) twist: f64,
-    /// The vectors from the centres of the bodies to the point where friction acts, m.
+    /// The vectors from the centres of the two bodies to the point where friction acts, m.
     pub(super) arms: [DVec3; 2],
 }
 
 impl<'a> Touch<'a> {
-    /// All touches of a pair.
+    /// Returns all contacts between two colliders.
     pub(super) fn of_pair(pair: &'a ContactPair) -> impl Iterator<Item = Touch<'a>> {
         manifolds(pair).iter().filter_map(Touch::new)
     }
 
-    /// The touch of a manifold. `None` if it is empty.
+    /// Makes a contact from the engine's contact manifold; `None` if the manifold has no points to solve.
     fn new(manifold: &'a ContactManifold) -> Option<Touch<'a>> {
         if manifold.data.solver_contacts.is_empty() {
             return None;
@@ -53,29 +53,30 @@ impl<'a> Touch<'a> {
         Some(Touch { bodies, manifold })
     }
 
-    /// The unit normal from the first body to the second.
+    /// The unit normal of the contact, from the first body to the second, world axes.
     pub(super) fn normal(&self) -> DVec3 {
         self.manifold.data.normal
     }
 
-    /// Its points.
+    /// Returns the points of the contact.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> + use<'a> {
         self.data().map(|data| Point { impulse: data.impulse, arms: [data.solver_dp1, data.solver_dp2] })
     }
 
-    /// The engine's data on the points.
+    /// Returns the engine's data on each point of the contact.
     fn data(&self) -> impl Iterator<Item = &'a ContactData> + use<'a> {
         let points = &self.manifold.points;
         let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
         contacts.filter_map(move |contact| {
-            // The contact knows the index of its point. Reading it takes time, and a single point needs no index.
+            // The solver's contact stores the index of its point. To read that index takes time, so a contact with a single point does
+            // without.
             let index = if points.len() == 1 { 0 } else { contact.contact_indices()[0] as usize };
             points.get(index).map(|point| &point.data)
         })
     }
 
-    /// The penetration of the bodies, m; negative if they are apart. The closure returns the pose of a body, or `None` if the body is
-    /// fixed.
+    /// Returns the largest penetration at the points of the contact, m; negative if the bodies are apart. The closure returns the pose of
+    /// a body, or `None` for a fixed body.
     pub(super) fn depth(&self, pose: impl Fn(usize) -> Option<Pose>) -> f64 {
         let poses = self.bodies.map(pose);
         let place = |side: usize, anchor: DVec3| poses[side].map_or(anchor, |pose| pose * anchor);
@@ -86,16 +87,16 @@ impl<'a> Touch<'a> {
         contacts.map(depth).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The impulse in the last step. `None` if there was none.
+    /// Returns the impulses of the contact in the last step; `None` if the normal impulse was zero.
     pub(super) fn push(&self) -> Option<Push> {
         Some(self.push_or_nothing()).filter(|push| push.impulse != 0.0)
     }
 
-    /// The impulse in the last step, which may be zero.
+    /// Returns the impulses of the contact in the last step, which may be zero.
     fn push_or_nothing(&self) -> Push {
         let mut points = self.data();
         let Some(first) = points.next() else { return Push::default() };
-        // Values of the whole manifold are stored with each of its points.
+        // The engine stores the friction and the twist of the whole manifold with each of its points.
         let mut push = Push { friction: -first.warmstart_tangent_world, ..Push::default() };
         let mut count = 0.0;
         for point in std::iter::once(first).chain(points) {
@@ -108,7 +109,7 @@ impl<'a> Touch<'a> {
             }
         }
         push.arms = push.arms.map(|arm| arm / count);
-        // A single point has no arm for a twist.
+        // The engine computes no twist for a single point, because friction there has no lever arm about the normal.
         push.twist = if count > 1.0 { first.warmstart_twist_impulse } else { 0.0 };
         push
     }
@@ -121,11 +122,11 @@ fn manifolds(pair: &ContactPair) -> &[ContactManifold] {
     }
 }
 
-/// Calls `look` with each touch that has pushed, and with its pair, in the order of `pairs`. Calls `meet` with each touch, pushing or
-/// not.
+/// Calls `meet` with each contact, with or without an impulse. Calls `look` with each contact that has an impulse, and with its pair of
+/// colliders. Contacts come in the order of `pairs`.
 ///
 /// The engine's contacts are scattered over the memory. Each of the short loops follows one more pointer for many contacts at once, so
-/// that the processor need not wait for each in turn.
+/// that the processor loads many contacts in parallel instead of one after another.
 pub(super) fn visit<'a>(
     pairs: impl Iterator<Item = &'a ContactPair>,
     mut meet: impl FnMut(&Touch<'a>),

@@ -1,11 +1,12 @@
-//! Friction, stacks, rebounds and walls.
+//! Tests of time-stepping: friction, stacks, rebounds and thin walls.
 
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
 use super::{GRAVITY, STEP, Scene, cube, run};
 
-/// A block at rest on an incline, with friction just above and just below the limit.
+/// A block rests on an incline. The slope is just below the friction angle, where the block must stay, and just above it, where the block
+/// must slide.
 #[test]
 fn friction_holds_up_to_its_angle() {
     let friction = 0.5_f64;
@@ -26,7 +27,7 @@ fn friction_holds_up_to_its_angle() {
     }
 }
 
-/// The block stops after v²/(2 μ g), when friction has taken all of ½ m v².
+/// A sliding block stops after v²/(2 μ g), where friction has taken its whole kinetic energy ½ m v².
 #[test]
 fn what_friction_takes_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -43,7 +44,7 @@ fn what_friction_takes_is_booked() {
     assert!(end.balance.drift.abs() < 0.01);
 }
 
-/// Ten boxes of 1 m. They sink into each other slightly, and stay in place.
+/// Ten boxes of 1 m stand on each other. They may sink into each other slightly, but must stay in place.
 #[test]
 fn ten_boxes_stand_for_a_minute() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -68,8 +69,8 @@ fn ten_boxes_stand_for_a_minute() {
     println!("penetration {} m, drift {}", stepping.penetration(), end.balance.drift);
 }
 
-/// While a wall of bricks sinks in, its energy error is that of Euler–Cromer, which uses forces at the start of a step and velocities at
-/// its end: −½ Δt Σ F·v. All energy that contacts take is booked.
+/// While a wall of bricks settles under its weight, its energy error equals that of Euler–Cromer, −½ Δt Σ F·v: the method uses forces at
+/// the start of a step and velocities at its end. All energy that contacts take must be booked.
 #[test]
 fn a_wall_that_settles_loses_what_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -93,7 +94,7 @@ fn a_wall_that_settles_loses_what_is_booked() {
     assert!(largest > 1e-3, "{largest}");
 }
 
-/// A ball at 2,000 m/s hits a wall of 1 cm: it flies 8 m within a step.
+/// A ball at 2,000 m/s, which flies 8 m within a step, must not pass through a wall of 1 cm.
 #[test]
 fn what_is_fast_does_not_pass_through_a_thin_wall() {
     for fixed in [true, false] {
@@ -111,7 +112,8 @@ fn what_is_fast_does_not_pass_through_a_thin_wall() {
     }
 }
 
-/// A ball with restitution 1 falls from 1 m, with steps of 1/240 s. The check's warning has these figures.
+/// A ball with restitution 1 falls from 1 m, with steps of 1/240 s. A warning of the scene's check names the loss of height that this test
+/// measures.
 #[test]
 fn a_rebound_loses_as_much_height_as_the_warning_says() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -131,7 +133,7 @@ fn a_rebound_loses_as_much_height_as_the_warning_says() {
     assert!((90..=98).contains(&heights.len()), "{}", heights.len());
 }
 
-/// A torus and a frustum rest at the heights of their shapes.
+/// A torus and a frustum, which the engine approximates by simpler solids, must rest at the heights of the exact shapes.
 #[test]
 fn shapes_that_are_fitted_are_right_to_a_percent() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -146,7 +148,7 @@ fn shapes_that_are_fitted_are_right_to_a_percent() {
     assert!((frustum - base).abs() < 0.001, "{frustum} {base}");
 }
 
-/// Two boxes of 1 m at a distance of 0.8 m, and two at 0.98 m.
+/// Two boxes of 1 m whose centres are 0.8 m apart must be reported. At 0.98 m, the overlap is small enough to be accepted.
 #[test]
 fn bodies_that_overlap_at_the_start_are_a_mistake() {
     for (apart, is_wrong) in [(0.8, true), (0.98, false)] {
@@ -164,8 +166,8 @@ fn bodies_that_overlap_at_the_start_are_a_mistake() {
     }
 }
 
-/// Five floors of cards that lean against each other at 20° from upright. Friction alone holds them: with a tenth of it, they slide
-/// apart.
+/// A house of five floors of cards that lean against each other at 20° from upright. Only friction holds the cards: with a tenth of the
+/// friction, they must slide apart.
 #[test]
 fn a_house_of_cards_stands_by_friction() {
     const FLOORS: u32 = 5;
@@ -206,7 +208,7 @@ fn a_house_of_cards_stands_by_friction() {
     }
 }
 
-/// Twenty dominoes. The first is pushed, and all fall one after another.
+/// The first of twenty dominoes is pushed. All dominoes must fall, one after another.
 #[test]
 fn dominoes_fall_to_the_last() {
     let mut scene = Scene::default().with_ground(0.0);

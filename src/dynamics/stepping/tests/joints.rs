@@ -1,11 +1,12 @@
-//! Joints against closed forms.
+//! Tests of joints in time-stepping against closed forms.
 
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
 use super::{GRAVITY, Scene, run};
 
-/// A bob 1 m below a point, rotated by some angle, rad, about z.
+/// Adds the bob of a pendulum of 1 m that hangs from the origin, deflected by `angle` (rad) about z. Returns the ends of the joint and the
+/// position of the bob.
 fn bob(scene: &mut Scene, angle: f64) -> ([Anchor; 2], DVec3) {
     let at = DVec3::new(libm::sin(angle), -libm::cos(angle), 0.0);
     let bob = scene.add(Shape::Sphere { radius: 0.1 }, |body| body.with_location(at));
@@ -16,8 +17,8 @@ fn swing(scene: &Scene, kind: LinkKind) -> TimeStepping {
     TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &[Link { kind, collides: false }])
 }
 
-/// A pendulum of 30° for 20 s, with steps of 1/240 s. A rod keeps its energy, and so its height, within a percent; pins and ropes lose a
-/// little.
+/// A pendulum starts at 30° and swings for 20 s, with steps of 1/240 s. A rod must keep the energy, and so the height, within one percent.
+/// Ball joints, hinges and ropes may lose up to eight percent.
 #[test]
 fn pendulums_keep_their_length_and_most_of_their_energy() {
     let angle = std::f64::consts::FRAC_PI_6;
@@ -40,14 +41,14 @@ fn pendulums_keep_their_length_and_most_of_their_energy() {
                 highest = highest.max(at.y);
             }
         }
-        // As a fraction of the energy above the lowest point.
+        // The lost energy, as a fraction of the initial potential energy above the lowest point.
         let lost = (start.y - highest) / (1.0 + start.y);
         println!("{name}: {lost} of the energy lost, length off by {worst} m");
         assert!(lost.abs() < loss && worst < 1e-4, "{name} {lost} {worst}");
     }
 }
 
-/// A hinge falls onto its limit. A motor brings a wheel to its speed and no further.
+/// A hinge must stop at its limit when its body falls. A motor must bring a wheel to its target speed and no further.
 #[test]
 fn limits_stop_a_hinge_and_motors_turn_it() {
     let mut scene = Scene::default();
@@ -65,14 +66,14 @@ fn limits_stop_a_hinge_and_motors_turn_it() {
     let freedom = Freedom { limits: None, motor: Some(Motor::Speed { speed: 3.0, limit: 0.5 }) };
     let kind = LinkKind::Hinge(Hinge::new(ends, DVec3::Y, DQuat::IDENTITY).with(freedom));
     let mut stepping = swing(&scene, kind);
-    // α = M/I = 0.5/(½ · 1 · 1²) = 1 rad/s².
+    // The angular acceleration of the wheel is α = M/I = 0.5/(½ · 1 · 1²) = 1 rad/s².
     for (t, speed) in [(1.0, 1.0), (2.0, 2.0), (4.0, 3.0)] {
         let turning = run(&mut stepping, t).bodies[0].angular_velocity;
         assert!(turning.abs_diff_eq(speed * DVec3::Y, 0.02), "{t} {turning}");
     }
 }
 
-/// A body on an inclined rail falls with g sin α.
+/// A body on an inclined rail must slide down with the acceleration g sin α.
 #[test]
 fn a_slider_runs_along_its_axis() {
     let mut scene = Scene::default();
@@ -86,8 +87,8 @@ fn a_slider_runs_along_its_axis() {
     assert!(end.reject_from_normalized(axis).length() < 1e-4, "{end}");
 }
 
-/// A wheel that a motor brings to 3 rad/s has ½ · ½ · 9 J; a cart that a motor pushes up a slope has ½ v² and the height. All of this
-/// energy comes from the motors.
+/// A motor brings a wheel to 3 rad/s, so the wheel has ½ · ½ · 9 J. Another motor pushes a cart up a slope, so the cart has ½ m v² and m g
+/// h. The account of the motors must hold this energy.
 #[test]
 fn what_motors_give_is_booked() {
     let mut scene = Scene::default();
@@ -111,8 +112,8 @@ fn what_motors_give_is_booked() {
     assert!(end.balance.drift.abs() < 0.01, "{}", end.balance.drift);
 }
 
-/// A servo's target jumps away from a rod at rest. In the first steps, the rod's energy equals the servo's work: for each step, the
-/// torque times the mean rotation.
+/// The target angle of a servo jumps while its rod is at rest. In the first steps, the rod's energy must equal the servo's work: in each
+/// step, the torque times the mean rotation.
 #[test]
 fn what_servos_give_is_booked() {
     #[derive(Debug)]
@@ -139,8 +140,8 @@ fn what_servos_give_is_booked() {
     }
 }
 
-/// A chain of eight links falls from level, and swings over the ground. Its joints take energy, which is booked. The rest is the error of
-/// Euler–Cromer.
+/// A chain of eight links falls from a horizontal line, and swings over the ground. The energy that its joints take must be booked. The
+/// remaining error is that of Euler–Cromer.
 #[test]
 fn what_joints_take_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);

@@ -1,4 +1,4 @@
-//! Time-stepping against closed forms, and against Euler–Cromer.
+//! Tests of time-stepping against closed forms and against Euler–Cromer.
 
 mod contacts;
 mod joints;
@@ -12,7 +12,7 @@ use super::super::*;
 const GRAVITY: f64 = 9.81;
 const STEP: f64 = 1.0 / 240.0;
 
-/// Bodies with their shapes and surfaces.
+/// A test scene: bodies with their shapes and surfaces.
 #[derive(Default)]
 struct Scene {
     bodies: Vec<RigidBody>,
@@ -29,7 +29,7 @@ impl Scene {
         BodyId::new(self.bodies.len() - 1)
     }
 
-    /// The ground at height 0, rotated about the z axis by some angle.
+    /// Adds the ground, a plane through the origin, rotated by `tilt` (rad) about the z axis.
     fn with_ground(mut self, tilt: f64) -> Scene {
         let turn = DQuat::from_rotation_z(tilt);
         self.add(Shape::Plane { normal: DVec3::Y }, |body| body.with_orientation(turn));
@@ -67,7 +67,7 @@ fn run(dynamics: &mut dyn Dynamics, t: f64) -> Snapshot {
     dynamics.snapshot().unwrap()
 }
 
-/// Free fall, free rotation, torques, springs: without contacts, the results equal those of Euler–Cromer.
+/// Free fall, free rotation, torques and springs, without contacts: the results must equal those of Euler–Cromer.
 #[test]
 fn without_contacts_it_is_euler_cromer() {
     let mut scene = Scene::default();
@@ -102,14 +102,15 @@ fn without_contacts_it_is_euler_cromer() {
             assert!(one.angular_velocity.abs_diff_eq(two.angular_velocity, 1e-11), "{t}");
         }
         assert!((one.balance.total - two.balance.total).abs() < 1e-10);
-        // The work of a damper uses the mean velocity of a step here, and the velocity at its start there.
+        // The two methods count the work of a damper differently: time-stepping with the mean velocity of a step, Euler–Cromer with the
+        // velocity at its start.
         assert!((one.balance.drift - two.balance.drift).abs() < 1e-3);
     }
     assert_eq!(here.steps(), there.steps());
     assert!(here.snapshot().is_ok_and(|snapshot| snapshot.bodies[spinning.index()].velocity.y < -10.0));
 }
 
-/// ω = 10/s: the energy oscillates by ω dt/2 = 2 % within a period, and stays the same from period to period.
+/// A spring oscillator at ω = 10/s: its energy oscillates by ω dt/2 = 2 % within a period, but must not drift from period to period.
 #[test]
 fn a_spring_keeps_its_energy_over_a_thousand_periods() {
     let mut scene = Scene::default();
@@ -119,7 +120,7 @@ fn a_spring_keeps_its_energy_over_a_thousand_periods() {
     world.add_force(Spring { between, stiffness: 100.0, damping: 0.0, rest_length: 0.0 });
     let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
     let period = std::f64::consts::TAU / 10.0;
-    // Ten moments per period, so that all steps are equal.
+    // Ten equal intervals per period make all steps equally long.
     let energies: Vec<f64> =
         (1..=10_000).map(|k| run(&mut stepping, 0.1 * f64::from(k) * period).balance.total).collect();
     let mean = |part: &[f64]| part.iter().sum::<f64>() / 100.0;
@@ -145,7 +146,7 @@ fn masses_and_inertias_are_exact() {
     for (handle, body) in stepping.handles.iter().zip(&scene.bodies) {
         let properties = stepping.engine.bodies[*handle].mass_properties().local_mprops;
         assert!(is_same(properties.inv_mass, 1.0 / body.mass), "{}", properties.inv_mass);
-        // The engine has its own order of the axes.
+        // The engine orders the principal axes in its own way, so sorted moments are compared.
         let sorted = |moments: DVec3| {
             let mut moments = moments.to_array();
             moments.sort_by(f64::total_cmp);
@@ -174,7 +175,7 @@ fn a_run_has_the_same_bits_on_any_number_of_threads() {
     assert_eq!(one, eight);
 }
 
-/// A ball is born above the ground, falls, and dies.
+/// A ball appears above the ground during the run, falls, lands and disappears.
 #[test]
 fn bodies_come_and_go() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -197,7 +198,7 @@ fn bodies_come_and_go() {
     assert!(impacts[0].normal.abs_diff_eq(DVec3::Y, 1e-12));
 }
 
-/// Moves along x at 1 m/s.
+/// A given motion along x at 1 m/s.
 struct Conveyor;
 
 impl Motion for Conveyor {
@@ -216,7 +217,7 @@ impl Motion for Conveyor {
     }
 }
 
-/// A belt takes a block along: friction loses as much energy as the block gains, and the belt does twice that work.
+/// A conveyor belt accelerates a block. Friction must lose as much energy as the block gains, and the belt must do twice that work.
 #[test]
 fn a_guided_body_takes_others_along_and_does_work() {
     let mut scene = Scene::default();
@@ -234,7 +235,8 @@ fn a_guided_body_takes_others_along_and_does_work() {
     assert!((accounts.friction + 0.5).abs() < 0.02, "{accounts:?}");
 }
 
-/// A pile in which bodies come and go, with a pendulum, is stopped at several moments. The resumed runs have the same bits.
+/// Checkpoints are taken at several moments of a run with a pile, a pendulum, and bodies that appear and disappear. Runs that continue
+/// from a checkpoint must give the same bits as an uninterrupted run.
 #[test]
 fn a_run_goes_on_from_a_checkpoint_with_the_same_bits() {
     let mut scene = Scene::default().with_ground(0.0);
@@ -249,7 +251,7 @@ fn a_run_goes_on_from_a_checkpoint_with_the_same_bits() {
     let links = [Link { kind: LinkKind::Ball(Ball { between }), collides: true }];
     let build = || {
         let mut world = scene.world(GRAVITY);
-        // One body dies, one is born, and one is absent for a while.
+        // Body 3 disappears, body 10 appears, and body 5 is absent for a while.
         for (body, intervals) in
             [(3, &[[0.0, 0.7]][..]), (10, &[[0.4, f64::INFINITY]]), (5, &[[0.0, 0.6], [1.3, 9.0]])]
         {
