@@ -1,4 +1,4 @@
-//! Compares a run with itself at half and a quarter of its step, and with a twin from a slightly different start.
+//! Compares a run with the same run at half and at a quarter of its timestep, and with a twin: a run from a slightly different start.
 
 use glam::DVec3;
 
@@ -10,49 +10,54 @@ use super::setting::Setting;
 use crate::dynamics::{Accounts, Snapshot};
 use crate::scene::Scene;
 
-/// The values compared at a frame.
+/// The differences between the compared runs at one frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moment {
-    /// The time, s.
+    /// The time of the frame, s.
     pub(super) time: f64,
-    /// The largest distance of a body's point from the same point at half the step, m. `None` after the end of either run.
+    /// The largest distance between a point of a body in the run and the same point in the run at half the timestep, m. `None` after the
+    /// end of either run.
     pub(super) off: Option<f64>,
-    /// The sums over all bodies of the squared distances: between the step and its half, and between its half and its quarter, m².
+    /// The sums of the squared distances of all bodies, m²: between the runs at the timestep and at its half, and between the runs at its
+    /// half and at its quarter.
     pub(super) squares: Option<[f64; 2]>,
-    /// The energy error, J.
+    /// The energy error of the run, J.
     pub(super) energy: f64,
-    /// The changes of linear and angular momentum: in the run, and at half the step.
+    /// The magnitudes of the changes of linear and angular momentum since the first frame: in the run, and in the run at half the
+    /// timestep.
     pub(super) changed: [[f64; 2]; 2],
-    /// The distance of the twin: the mean squares for positions (m²), velocities and orientations.
+    /// The mean-square differences between the run and its twin: of positions (m²), velocities (m²/s²) and orientations (rad²). `None`
+    /// after the end of the twin.
     pub(super) apart: Option<[f64; 3]>,
 }
 
-/// The comparison of a run with the same run at smaller steps.
+/// The result of comparing a run with the same run at smaller timesteps and with its twin.
 #[derive(Debug, Default)]
 pub(super) struct Compared {
     pub(super) moments: Vec<Moment>,
-    /// For each body: its largest errors in position and orientation, the time of the largest error of a point, and the length of its
-    /// path, m.
+    /// For each body: the largest differences between the run and the run at half the timestep, and the length of the body's path.
     pub(super) bodies: Vec<Off>,
-    /// The diagonal of the box around the motion of bodies, m, from the finest run.
+    /// The diagonal of the box around the motion of all bodies, m, from the finest run.
     pub(super) size: f64,
-    /// The largest speed of a body, m/s.
+    /// The largest speed of a body in the run, m/s.
     pub(super) fastest: f64,
     pub(super) largest_kinetic: f64,
-    /// The largest sums of the magnitudes of all momenta.
+    /// The largest sum of the magnitudes of all bodies' momenta during the run: linear (kg m/s) and angular (kg m²/s).
     pub(super) momenta: [f64; 2],
-    /// The energy accounts at the end of the run.
+    /// The energy brought in by everything without a potential, at the last frame of the run.
     pub(super) accounts: Accounts,
-    /// The breakdowns of the runs at the step, its half, its quarter, and of the twin.
+    /// The breakdowns of the four runs: at the timestep, at its half, at its quarter, and of the twin. `None` for a run that reached its
+    /// end.
     pub(super) ended: [Option<Ended>; 4],
     pub(super) steps: [u64; 3],
-    /// The largest energy error at half the step, relative to the largest kinetic energy.
+    /// The largest energy error in the run at half the timestep, relative to the largest kinetic energy.
     pub(super) drift_at_half: f64,
-    /// The largest distance between the runs at half and a quarter of the step, m.
+    /// The largest distance between equal points of a body in the runs at half and at a quarter of the timestep, m.
     pub(super) off_at_half: f64,
 }
 
-/// The largest errors of a body.
+/// The largest differences of a body between the run and the run at half the timestep, the time of the largest one (s), and the length of
+/// the body's path (`way`, m).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Off {
     pub(super) most: Distance,
@@ -60,7 +65,8 @@ pub(super) struct Off {
     pub(super) way: f64,
 }
 
-/// The first snapshot of each body.
+/// Values kept from earlier frames: the last positions of all bodies, the momenta at the first frame, the boxes around the motion, and the
+/// largest energies.
 struct Seen {
     before: Vec<Option<DVec3>>,
     momenta: Option<[[DVec3; 2]; 2]>,
@@ -69,7 +75,7 @@ struct Seen {
     energy_at_half: f64,
 }
 
-/// Makes and compares the runs.
+/// Simulates the run, the run at half and at a quarter of its timestep, and its twin side by side, and compares them frame by frame.
 pub(super) fn compare(
     scene: &Scene,
     own: Setting,
@@ -107,7 +113,7 @@ impl Compared {
         let [run, half, quarter, twin] = moments else { return };
         for (kept, moment) in seen.boxes.iter_mut().zip([run, half, quarter]) {
             let here = moment.as_ref().and_then(|moment| measured.around(moment));
-            // A finer run that ends early does not show the full size.
+            // The box never shrinks. A finer run that breaks down early has only a part of the motion in its box.
             *kept = match (*kept, here) {
                 (Some(kept), Some(here)) => Some(union(kept, here)),
                 (kept, here) => kept.or(here),
@@ -164,7 +170,8 @@ impl Compared {
         }
     }
 
-    /// The largest error of any point of a body at a moment, m.
+    /// Returns the largest distance between a point of a body in the run and at half the timestep, m. Updates the largest differences of
+    /// each body.
     fn see_off(&mut self, measured: &Measured, moments: [&Snapshot; 2]) -> f64 {
         let mut most = 0.0_f64;
         for (body, distance) in points(measured, moments) {
@@ -181,7 +188,7 @@ impl Compared {
     }
 }
 
-/// The distances of bodies between two moments, each with its index among the compared bodies.
+/// Yields the distance between two snapshots for each compared body that both contain, with the index of the body among the compared ones.
 pub(super) fn points<'s>(
     measured: &'s Measured,
     moments: [&'s Snapshot; 2],
@@ -190,7 +197,7 @@ pub(super) fn points<'s>(
         .filter_map(move |body| Some((body, measured.distance(body, measured.pair(body, moments)?))))
 }
 
-/// The mean-square distances between two moments: positions (m²), velocities and orientations.
+/// Returns the mean-square differences between the bodies of two snapshots: of positions (m²), velocities (m²/s²) and orientations (rad²).
 fn apart(measured: &Measured, moments: [&Snapshot; 2]) -> [f64; 3] {
     let (mut sums, mut count) = ([0.0; 3], 0.0);
     for body in 0..measured.bodies.len() {

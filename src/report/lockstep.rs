@@ -1,4 +1,4 @@
-//! Several runs that advance side by side, so that they can be compared without storing them.
+//! Advances several runs side by side, frame by frame, so that they can be compared without storing them.
 
 use super::Stopped;
 use crate::dynamics::Snapshot;
@@ -6,46 +6,46 @@ use crate::scene::Scene;
 use crate::simulate::{SimulateError, Snapshots};
 use crate::threads;
 
-/// Receives the amount of computation so far, in force evaluations. Returns false to stop.
+/// A progress callback. It receives the number of force evaluations since its previous call, and returns false to stop the computation.
 pub type Watch<'a> = dyn FnMut(f64) -> bool + 'a;
 
-/// The end of a run before its last frame.
+/// A run that broke down before its last frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ended {
-    /// The time of the last frame, s; `None` if there was no frame.
+    /// The time of the last computed frame, s. `None` if the run has no frame.
     pub after: Option<f64>,
-    /// The reason.
+    /// The error that ended the run.
     pub why: SimulateError,
 }
 
-/// A run that is compared with others.
+/// A run that advances side by side with others.
 pub(super) struct Track<'a> {
     snapshots: Snapshots<'a>,
-    /// Computed states that have not been compared yet.
+    /// The computed frames that have not been compared yet, oldest first.
     waiting: std::collections::VecDeque<Snapshot>,
     pub(super) ended: Option<Ended>,
     last: Option<f64>,
-    /// The cost of an interval between two frames, in force evaluations.
+    /// The approximate number of force evaluations from one frame to the next.
     cost: f64,
-    /// The largest number of timesteps, and whether more would have been needed.
+    /// The largest allowed number of timesteps, and whether the run has exceeded it (`is_long`).
     most: u64,
     pub(super) is_long: bool,
 }
 
 impl<'a> Track<'a> {
-    /// The run of a scene, with its number of force evaluations per frame.
+    /// Starts the run of a scene. `cost` is its number of force evaluations per frame.
     pub(super) fn new(scene: &'a Scene, cost: f64) -> Track<'a> {
         let waiting = std::collections::VecDeque::new();
         let snapshots = Snapshots::new(scene);
         Track { snapshots, waiting, ended: None, last: None, cost, most: u64::MAX, is_long: false }
     }
 
-    /// The same with a limit of about this many timesteps, since adaptive methods do not know their number in advance.
+    /// Limits the run to about `steps` timesteps. This is for adaptive methods, whose number of timesteps is unknown in advance.
     pub(super) fn of_at_most(self, steps: u64) -> Track<'a> {
         Track { most: steps, ..self }
     }
 
-    /// The number of timesteps so far.
+    /// Returns the number of timesteps of the run so far.
     pub(super) fn steps(&self) -> u64 {
         self.snapshots.steps()
     }
@@ -68,14 +68,15 @@ impl<'a> Track<'a> {
     }
 }
 
-/// Advances runs of a scene to its end. `see` receives each frame, with the runs that have reached it.
+/// Advances all runs to the last frame of the scene. At each frame, `see` receives the snapshot of every run, `None` for a run that has
+/// ended.
 pub(super) fn together(
     tracks: &mut [Track<'_>],
     scene: &Scene,
     watch: &mut Watch<'_>,
     see: &mut dyn FnMut(&[Option<Snapshot>]),
 ) -> Result<(), Stopped> {
-    /// The largest number of states of single bodies that wait for their comparison.
+    /// The largest number of body states that wait in memory for their comparison, per run.
     const ROOM: usize = 4096;
     let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;

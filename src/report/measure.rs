@@ -1,35 +1,36 @@
-//! The distance between two runs of a scene.
+//! Measures the distance between two runs of a scene, body by body.
 
 use glam::{DQuat, DVec3};
 
 use crate::dynamics::{BodySnapshot, Shape, Snapshot};
 use crate::scene::Scene;
 
-/// The compared bodies: those that forces move.
+/// The bodies that are compared between runs: those that forces move.
 pub(super) struct Measured {
-    /// Their indices in the scene.
+    /// The indices of the compared bodies in the scene.
     pub(super) bodies: Vec<usize>,
-    /// For each body, the distance of its farthest point from its centre, m; 0 for a ball, which looks the same in every orientation.
+    /// For each compared body, the distance of its farthest point from its center, m. It is 0 for a ball, since a ball looks the same in
+    /// every orientation.
     reach: Vec<f64>,
-    /// For each body, the radius of its bounding ball, m.
+    /// For each compared body, the radius of its bounding sphere, m.
     radius: Vec<f64>,
     mass: Vec<f64>,
     inertia: Vec<f64>,
 }
 
-/// The distance between a body and the same body in another run.
+/// The distance between a body in one run and the same body in another run, at the same time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Distance {
-    /// The distance between the two centres, m.
+    /// The distance between the two positions of the body's center, m.
     pub(super) place: f64,
-    /// The angle between the two orientations, rad.
+    /// The angle between the two orientations of the body, rad.
     pub(super) angle: f64,
-    /// The largest distance between points of the body, m.
+    /// An upper bound of the distance between the two positions of any point of the body, m.
     pub(super) point: f64,
 }
 
 impl Measured {
-    /// The bodies of a scene that forces move.
+    /// Selects the bodies of a scene that forces move, and computes their sizes, masses and moments of inertia.
     pub(super) fn of(scene: &Scene) -> Measured {
         let moves = |id: &usize| {
             let body = &scene.bodies[*id];
@@ -45,21 +46,22 @@ impl Measured {
         Measured { reach, radius, mass, inertia, bodies }
     }
 
-    /// A compared body at two moments, by its index; `None` while it is absent.
+    /// Returns a compared body in two snapshots. `body` is its index among the compared bodies. `None` if a snapshot lacks the body.
     pub(super) fn pair<'s>(&self, body: usize, moments: [&'s Snapshot; 2]) -> Option<[&'s BodySnapshot; 2]> {
         let id = *self.bodies.get(body)?;
         let [one, two] = moments.map(|moment| moment.body(id));
         Some([one?, two?])
     }
 
-    /// The distance between a body at two moments.
+    /// Computes the distance between two states of a compared body. `body` is its index among the compared bodies.
     pub(super) fn distance(&self, body: usize, [one, two]: [&BodySnapshot; 2]) -> Distance {
         let place = (one.location - two.location).length();
         let angle = angle(one.orientation, two.orientation);
         Distance { place, angle, point: place + angle * self.reach[body] }
     }
 
-    /// The box around the bodies of a moment; `None` if there are none.
+    /// Returns the axis-aligned box around the compared bodies of a snapshot, as its smallest and largest corner, m. `None` if the
+    /// snapshot contains none of them.
     pub(super) fn around(&self, moment: &Snapshot) -> Option<[DVec3; 2]> {
         let places = self.bodies.iter().zip(&self.radius).filter_map(|(&id, radius)| {
             let place = moment.body(id)?.location;
@@ -68,7 +70,8 @@ impl Measured {
         places.reduce(union)
     }
 
-    /// Upper bounds of linear and angular momentum: the sums if all momenta had the same direction.
+    /// Returns upper bounds of the total linear (kg m/s) and angular momentum (kg m²/s): the sums of the magnitudes of all bodies'
+    /// momenta.
     pub(super) fn momenta(&self, moment: &Snapshot) -> [f64; 2] {
         let (mut linear, mut angular) = (0.0, 0.0);
         for (body, &id) in self.bodies.iter().enumerate() {
@@ -82,12 +85,12 @@ impl Measured {
     }
 }
 
-/// The box around both boxes.
+/// Returns the smallest axis-aligned box around two boxes. A box is given by its smallest and its largest corner.
 pub(super) fn union([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> [DVec3; 2] {
     [a.min(c), b.max(d)]
 }
 
-/// The angle of the rotation from one orientation to another, rad; accurate also for tiny angles.
+/// Returns the angle of the rotation from one orientation to another, rad. Tiny angles are accurate, too.
 fn angle(one: DQuat, two: DQuat) -> f64 {
     let turn = one.conjugate() * two;
     2.0 * libm::atan2(turn.xyz().length(), turn.w.abs())

@@ -1,20 +1,20 @@
-//! The accuracy of a run: it is compared with itself at smaller steps, with a twin from a slightly different start, and with other
-//! methods.
+//! Measures the accuracy of a run: compares it with the same run at smaller timesteps, with a twin (a run from a slightly different
+//! start), and with other integration methods.
 //!
 //! | what | where |
 //! | --- | --- |
-//! | a method and its step | `setting` |
+//! | a method and its timestep | `setting` |
 //! | several runs side by side, frame by frame | `lockstep` |
-//! | the distance between two moments | `measure` |
-//! | the run, half its step, a quarter of it, and the twin | `compare` |
+//! | the distance between two runs at one time | `measure` |
+//! | the run, the run at half and at a quarter of its timestep, and the twin | `compare` |
 //! | error, order, momenta, the time until which the film is accurate | `verdict` |
-//! | the rate at which neighbours separate | `neighbours` |
-//! | the step and method that reach an accuracy | `trials` |
+//! | the rate at which neighboring runs separate | `neighbours` |
+//! | the timestep and method that reach an accuracy | `trials` |
 //! | the report as text, and as a picture | `text`, `plot` |
 //!
-//! The error is Richardson's estimate: with a method of order p, a run at the step h has an error of about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1) (E.
-//! Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). The runs are not stored: only a few numbers per
-//! frame are.
+//! The error is Richardson's estimate: with a method of order p, a run at the timestep h has an error of about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1)
+//! (E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). The runs are not stored. Only a few numbers
+//! per frame are kept.
 
 mod compare;
 mod lockstep;
@@ -41,57 +41,58 @@ pub use neighbours::Parting;
 pub use trials::{Trial, Untried};
 pub use verdict::{BodyError, Conserved, Order, Trusted};
 
-/// The default accuracy: about a pixel of an image.
+/// The default accuracy, as a fraction of the size of the scene: about a pixel of an image.
 pub const ACCURACY: f64 = 1e-3;
 
-/// The error of a computation that the caller has stopped.
+/// The error that a computation returns after its progress callback has stopped it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
-/// The accuracy of a run.
+/// The measured accuracy of a scene's run, with advice.
 #[derive(Clone, Debug, Serialize)]
 pub struct Assessment {
-    /// The name of the method.
+    /// The name of the integration method.
     pub integrator: &'static str,
-    /// Its order.
+    /// The order of the integration method.
     pub order: u32,
-    /// The timestep, s; `None` if the method chooses it.
+    /// The timestep, s. `None` if the method is adaptive.
     pub timestep: Option<f64>,
-    /// The tolerance of an adaptive method.
+    /// The error tolerance of an adaptive method. `None` for other methods.
     pub tolerance: Option<f64>,
-    /// The timesteps from one frame to the next.
+    /// The number of timesteps from one frame to the next. It is 1 for a method whose timesteps are independent of frames.
     pub steps_per_frame: u32,
-    /// The number of bodies that forces move. If there are none, nothing is integrated, and the rest is empty.
+    /// The number of bodies that forces move. If it is 0, nothing is integrated, and there is no verdict.
     pub bodies_moved: usize,
     /// The time of the last frame, s.
     pub end: f64,
-    /// The verdict on the run. `None` if nothing is integrated.
+    /// The errors found in the run. `None` if nothing is integrated.
     pub verdict: Option<Verdict>,
-    /// The wanted accuracy, as a fraction of the size of the scene.
+    /// The requested accuracy, as a fraction of the size of the scene.
     pub accuracy: f64,
-    /// The tested methods and steps.
+    /// The results of the tested methods and timesteps.
     pub trials: Vec<Trial>,
-    /// The index of the trial that reaches the accuracy with the fewest force evaluations.
+    /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it.
     pub recommended: Option<usize>,
-    /// The methods that were not tested, or not as finely as necessary.
+    /// The methods that were not tested, or not at timesteps as small as necessary, with the reasons.
     pub untried: Vec<Untried>,
-    /// Whether there are particles, whose accuracy is unknown.
+    /// True if the scene has particles. Their errors are not measured.
     pub has_particles: bool,
 }
 
-/// The phase of the work.
+/// The phase of an assessment, for progress bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// Comparing the run with itself at smaller steps.
+    /// The run is compared with the same run at smaller timesteps.
     Comparing,
-    /// Testing other steps and methods.
+    /// Other timesteps and methods are tested.
     Trying,
 }
 
-/// Assesses the accuracy of a scene's run. `watch` receives the phase and its progress; it returns false to stop.
+/// Measures the accuracy of a scene's run. `accuracy` is the allowed error as a fraction of the size of the scene. `watch` receives the
+/// phase and its progress (0 to 1), and returns false to stop.
 ///
 /// # Errors
-/// If `watch` has stopped it.
+/// If `watch` has stopped the computation.
 pub fn assess(
     scene: &Scene,
     accuracy: f64,

@@ -1,5 +1,5 @@
-//! The separation of neighbours: a twin of the run starts very near it, and the growth of their distance distinguishes regular motion
-//! from chaos.
+//! Measures how fast neighboring runs separate. A twin of the run starts very close to it; the growth of the distance between the two
+//! distinguishes regular motion from chaos.
 //!
 //! The criterion is MEGNO, the mean exponential growth of nearby orbits (P. M. Cincotta, C. Simó, *Astronomy and Astrophysics Supplement*
 //! 147, 205, 2000): with the distance d, Y(t) = (2/t) ∫ (ḋ/d) s ds, and its mean over time. If d grows like tⁿ, Y is 2n, so 2 for most
@@ -11,53 +11,53 @@ use serde::Serialize;
 use super::measure::Measured;
 use crate::scene::Scene;
 
-/// The initial distance of the twin, as a fraction of the size of the scene.
+/// The initial distance between the run and its twin, as a fraction of the size of the scene.
 pub(super) const APART: f64 = 1e-9;
 
-/// Beyond this fraction of the size of the scene, the two no longer count as neighbours.
+/// The largest distance at which the run and its twin count as neighbors, as a fraction of the size of the scene.
 const FAR: f64 = 0.02;
 
-/// Above this mean of Y the motion is chaotic: a distance that grows like t² has 4.
+/// The largest mean of MEGNO's Y that does not indicate chaos. (A distance that grows like t² gives 4.)
 const CHAOTIC: f64 = 5.0;
 
-/// Below this mean of Y the motion is regular.
+/// The largest mean of MEGNO's Y that indicates regular motion.
 const REGULAR: f64 = 3.5;
 
-/// If the distance grows by more than this factor, the motion is not regular, whatever the mean of Y.
+/// The largest growth factor of the distance in regular motion. Beyond it, the motion is not regular, whatever the mean of Y.
 const LARGE: f64 = 1e4;
 
-/// The separation of neighbours.
+/// How a run and its twin, which starts very close to it, separate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Parting {
-    /// Unknown: nothing could be displaced, or there were too few frames.
+    /// The separation is unknown, because no body could be displaced or there were too few frames.
     Unknown,
-    /// No faster than in regular motion.
+    /// The run and its twin separate no faster than in regular motion.
     Regular {
-        /// The ratio of their final distance to their initial one.
+        /// The ratio of the final distance between the run and its twin to the initial one.
         growth: f64,
     },
-    /// Faster than in regular motion, but the run is too short to tell whether this continues.
+    /// The run and its twin separate faster than in regular motion, but the run is too short to show chaos.
     Unclear {
-        /// The ratio of their final distance to their initial one.
+        /// The ratio of the final distance between the run and its twin to the initial one.
         growth: f64,
     },
-    /// Within a short time, by impacts.
+    /// The run and its twin separate within a short time, by impacts.
     Sudden {
-        /// The time at which they stop being neighbours, s.
+        /// The time at which the run and its twin stop being neighbors, s.
         time: f64,
     },
-    /// Exponentially.
+    /// The run and its twin separate exponentially: the motion is chaotic.
     Chaotic {
-        /// The time in which the distance grows by the factor e, s.
+        /// The Lyapunov time, in which the distance grows by the factor e, s.
         lyapunov_time: f64,
-        /// The time in which it doubles, s.
+        /// The time in which the distance doubles, s.
         doubling_time: f64,
     },
 }
 
-/// The scene of the twin: moving bodies start at slightly different positions with slightly different velocities. Bodies with contacts
-/// get only different velocities, so that none overlap. Plane motion stays in its plane.
+/// Returns the scene of the twin: the bodies that forces move start at slightly different positions with slightly different velocities. In
+/// a scene with contacts, only the velocities differ, so that no bodies overlap. A plane motion stays in its plane.
 pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
     let mut twin = scene.clone();
     let starts = || scene.bodies.iter().map(|body| body.start.location);
@@ -67,7 +67,8 @@ pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
     let fastest = scene.bodies.iter().map(|body| body.start.velocity.length()).fold(0.0, f64::max);
     let widest = scene.bodies.iter().filter_map(|body| body.shape.bounding_radius()).fold(0.0, f64::max);
     let pull = scene.simulation.gravity.length();
-    // The speeds are not known yet; an order of magnitude is enough.
+    // If all bodies start at one point, the size follows from the distance that they can travel. Speeds during the run are unknown at this
+    // time; an order of magnitude is enough.
     let size = match (max - min).length() {
         0.0 => widest + (fastest + pull * end) * end,
         size => size,
@@ -81,22 +82,22 @@ pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
         }
         let faster = apart / end;
         start.velocity += faster * direction(3 * number + 1, free);
-        // In plane motion, bodies rotate only about its normal.
+        // In a plane motion, bodies rotate only about the normal of the plane.
         let about = if free == DVec3::ONE { free } else { DVec3::ONE - free };
         start.angular_velocity += APART / end * direction(3 * number + 2, about);
     }
     twin
 }
 
-/// The axes of a plane motion, 1 each, and 0 for the normal: axes along which something moves, is pulled, or differs in position. All are
-/// 1 if the motion is not plane.
+/// Returns 1 for each coordinate axis along which bodies can move, and 0 for the normal of a plane motion. Bodies move along an axis if
+/// their positions differ along it or a velocity or force has a component along it. All components are 1 if the motion is not plane.
 fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
     let mut free = DVec3::ZERO;
     let mut first = None;
     for &id in &measured.bodies {
         let start = &scene.bodies[id].start;
         let from = start.location - *first.get_or_insert(start.location);
-        // Only a body with an orientation and a rotation about one axis stays in a plane.
+        // A body stays in a plane only if it rotates about the normal of the plane, so a rotation about one axis adds the two other axes.
         let turns = start.angular_velocity;
         let in_plane = DVec3::new(turns.y.abs() + turns.z.abs(), turns.x.abs() + turns.z.abs(), 0.0)
             + DVec3::Z * (turns.x.abs() + turns.y.abs());
@@ -104,12 +105,13 @@ fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
     }
     free += scene.simulation.gravity.abs();
     let free = DVec3::from_array(free.to_array().map(|extent| f64::from(u8::from(extent > 0.0))));
-    // A body with a given motion may lead others anywhere, and a body that moves along a line lies in many planes.
+    // A body with a prescribed motion may push others anywhere, and a motion along a line lies in many planes.
     let is_led = scene.bodies.iter().any(|body| body.motion.is_some());
     if is_led || free.element_sum() < 2.0 { DVec3::ONE } else { free }
 }
 
-/// Directions that are spread over the sphere, within the free axes; the same in every run.
+/// Returns the unit vector with this number in a fixed sequence of vectors that are spread over the sphere. Components along axes with
+/// `free` = 0 are removed first.
 fn direction(number: usize, free: DVec3) -> DVec3 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     #[allow(clippy::cast_precision_loss, reason = "any number will do")]
@@ -120,10 +122,10 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
     (DVec3::new(around * cos, height, around * sin) * free).normalize_or_zero()
 }
 
-/// The separation of neighbours from their distances at some times, s; a distance of 1 is the size of the scene. Also returns the mean of
-/// Y, which is 0 if unknown.
+/// Classifies the separation of a run and its twin. `times` are in s; `distances` are fractions of the size of the scene. Also returns the
+/// mean of MEGNO's Y, 0 if unknown.
 pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
-    /// With fewer moments than this, the result is unknown.
+    /// The smallest number of frames from which the separation can be classified.
     const FEW: usize = 8;
     let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
     let begin = distances.iter().position(|distance| *distance > 0.0).unwrap_or(near);
@@ -149,7 +151,8 @@ pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
     (found, mean)
 }
 
-/// The mean of Y over time, and over the second half of it, from times from 0 on (s) and logarithms of distances.
+/// Returns the mean of MEGNO's Y over all times, and over the second half of them. `seen` holds times from 0 (s) with the logarithms of
+/// the distances.
 fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
     let end = seen.last().map_or(0.0, |last| last.0);
     let (mut integral, mut sum, mut late) = (0.0, 0.0, 0.0);
@@ -163,7 +166,7 @@ fn megno(seen: &[(f64, f64)]) -> (f64, f64) {
     if end > 0.0 { (sum / end, 2.0 * late / end) } else { (0.0, 0.0) }
 }
 
-/// The slope of the best-fitting line, 1/s.
+/// Returns the slope of the least-squares line through points of times (s) and logarithms, 1/s.
 fn slope(seen: &[(f64, f64)]) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
     let count = seen.len() as f64;
@@ -188,7 +191,7 @@ mod tests {
     fn exponential_growth_is_told_from_powers_of_time() {
         assert!(matches!(of(|_| 1.0), Parting::Regular { growth: 1.0 }));
         assert!(matches!(of(|t| 1.0 + 50.0 * t), Parting::Regular { .. }));
-        // An orbit: the distance grows with time, and is a hundred times larger near the sun.
+        // A planet's orbit: the distance between the twins grows in proportion to time, and is a hundred times larger near the sun.
         let orbit = |t: f64| (1.0 + 30.0 * t) * (1.0 + 99.0 * libm::pow(libm::cos(t), 20.0));
         assert!(matches!(of(orbit), Parting::Regular { .. }), "{:?}", of(orbit));
         assert!(matches!(of(|t| 1.0 + 30.0 * t * t), Parting::Regular { .. } | Parting::Unclear { .. }));

@@ -1,26 +1,26 @@
-//! The settings of a run: its method, and its fineness.
+//! The settings of a run that determine its accuracy: the integration method, and its timestep or tolerance.
 
 use crate::dynamics::{Method, World};
 use crate::scene::{ContactLaw, Scene, Simulation};
 use crate::simulate::{evaluations, world};
 
-/// The smallest tolerance that is tested. Below it, rounding errors dominate.
+/// The smallest error tolerance that is tested. With a smaller one, rounding errors dominate.
 const LEAST_TOLERANCE: f64 = 1e-13;
 
-/// A method with its step, or with its tolerance if it chooses its steps.
+/// An integration method with its timestep, or with its tolerance if it is adaptive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     pub(super) method: &'static Method,
-    /// The timesteps from one frame to the next. For a method with steps independent of frames, the factor by which it is finer than in
-    /// the scene.
+    /// The number of timesteps from one frame to the next. For a method whose timesteps are independent of frames, the factor by which
+    /// they are finer than in the scene.
     pub(super) steps: u32,
-    /// The step and the tolerance of such a method in the scene.
+    /// The timestep (s) and the tolerance in the scene. They are used for methods whose timesteps are independent of frames.
     step: f64,
     tolerance: f64,
 }
 
 impl Setting {
-    /// The setting of a scene.
+    /// Returns the method and the timestep of a scene.
     pub(super) fn of(scene: &Scene) -> Setting {
         let interval = 1.0 / scene.simulation.frame_rate;
         let method = scene.simulation.method;
@@ -28,18 +28,19 @@ impl Setting {
         Setting::new(method, steps, scene)
     }
 
-    /// The setting of a scene with another method.
+    /// Returns a setting with this method and this number of timesteps per frame. The tolerance comes from the scene.
     pub(super) fn new(method: &'static Method, steps: u32, scene: &Scene) -> Setting {
         let Simulation { step, tolerance, .. } = scene.simulation;
         Setting { method, steps, step, tolerance }
     }
 
-    /// The same with this many times the steps. For an adaptive method, a tenth of the tolerance counts as twice the steps.
+    /// Returns the same method with `times` as many timesteps. For an adaptive method, a tenth of the tolerance counts as twice the
+    /// timesteps.
     pub(super) fn finer(self, times: u32) -> Setting {
         Setting { steps: self.steps.saturating_mul(times), ..self }
     }
 
-    /// The timestep, s; `None` if the method chooses it.
+    /// Returns the timestep, s. `None` if the method is adaptive.
     pub(super) fn timestep(self, scene: &Scene) -> Option<f64> {
         match (self.method.adaptive, self.method.ahead) {
             (true, _) => None,
@@ -48,13 +49,13 @@ impl Setting {
         }
     }
 
-    /// The tolerance; `None` if the method has none.
+    /// Returns the error tolerance of an adaptive method. `None` for other methods.
     pub(super) fn tolerance(self) -> Option<f64> {
         let finer = self.tolerance / libm::pow(10.0, f64::from(self.steps.max(1).ilog2()));
         self.method.adaptive.then(|| finer.max(LEAST_TOLERANCE.min(self.tolerance)))
     }
 
-    /// The scene with this setting. The scene's own setting changes nothing.
+    /// Returns a copy of the scene with this method and timestep. The copy is unchanged if this setting equals the scene's `own`.
     pub(super) fn applied(self, scene: &Scene, own: Setting) -> Scene {
         let mut scene = scene.clone();
         if !std::ptr::eq(self.method, own.method) || self.steps != own.steps {
@@ -65,15 +66,15 @@ impl Setting {
         scene
     }
 
-    /// The number of force evaluations of a run; approximate if impacts divide steps.
+    /// Returns the number of force evaluations of a run with this setting. It is approximate if impacts divide timesteps.
     #[allow(clippy::cast_precision_loss, reason = "two digits of it are needed")]
     pub(super) fn cost(self, scene: &Scene) -> f64 {
         let intervals = scene.simulation.frames().saturating_sub(1) as f64;
         intervals * f64::from(self.steps) * evaluations(self.method) as f64
     }
 
-    /// The step to write into a scene, s: the fewest digits that give the same number of steps. `None` if the method chooses its own
-    /// steps.
+    /// Returns the value of the key `step` for a scene, s: the number with the fewest digits that gives the same number of timesteps per
+    /// frame. `None` if the method is adaptive.
     pub(super) fn written(self, scene: &Scene) -> Option<f64> {
         let step = self.timestep(scene)?;
         if self.method.ahead.is_some() {
@@ -89,7 +90,7 @@ impl Setting {
     }
 }
 
-/// The reason why a scene cannot use a method; `None` if it can.
+/// Returns the reason why a scene cannot use an integration method. `None` if it can.
 pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
     let simulation = &scene.simulation;
     if std::ptr::eq(simulation.method, method) {
@@ -109,14 +110,15 @@ pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
     }
 }
 
-/// A positive number, rounded up to this many digits; rounding errors are ignored.
+/// Rounds a positive number up to this many significant digits. A number that exceeds a rounded one by a rounding error alone is rounded
+/// down.
 fn rounded_up(number: f64, digits: usize) -> f64 {
     let text = format!("{number:.*e}", digits - 1);
     let near: f64 = text.parse().unwrap_or(number);
     let exponent: Option<i64> = text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok());
     let (Some(exponent), true) = (exponent, near < number * (1.0 - 1e-12)) else { return near };
     let unit: f64 = format!("1e{}", exponent + 1 - digits as i64).parse().unwrap_or_default();
-    // By text, so that 0.0016 + 0.0001 is 0.0017.
+    // The sum goes through text, so that 0.0016 + 0.0001 is exactly the number 0.0017.
     format!("{:.*e}", digits - 1, near + unit).parse().unwrap_or(number)
 }
 

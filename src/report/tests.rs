@@ -1,4 +1,4 @@
-//! Reports of runs with a known solution.
+//! Tests of reports about runs with a known solution.
 
 use glam::DVec3;
 
@@ -15,7 +15,8 @@ fn assessed(scene: &Scene, accuracy: f64) -> (Assessment, Verdict) {
     (assessment, verdict)
 }
 
-/// A mass of 1 kg on a spring of 4 N/m, which starts at 1 m with 2 m/s sideways: ω = 2/s, and the orbit is a circle.
+/// Makes a scene with a mass of 1 kg on a spring of 4 N/m. The mass starts at 1 m from the anchor with 2 m/s sideways, so its orbit is a
+/// circle with the angular frequency ω = 2 rad/s.
 fn oscillator(integrator: &str, step: f64) -> Scene {
     scene(&format!(
         "simulation = {{ duration = 6, step = {step}, integrator = '{integrator}' }}\n\
@@ -29,7 +30,7 @@ fn on_circle(time: f64) -> DVec3 {
     DVec3::new(libm::cos(2.0 * time), 0.0, -libm::sin(2.0 * time))
 }
 
-/// An orbit of semi-major axis 1 and eccentricity 0.5 around a fixed sun with GM = 1.
+/// Makes a scene with a planet around a fixed sun with GM = 1. The orbit has the semi-major axis 1 and the eccentricity 0.5.
 fn kepler(integrator: &str, step: f64) -> Scene {
     scene(&format!(
         "simulation = {{ duration = 12.6, step = {step}, integrator = '{integrator}' }}\n\
@@ -40,7 +41,7 @@ fn kepler(integrator: &str, step: f64) -> Scene {
     ))
 }
 
-/// The position of the planet, by Kepler's equation E − e sin E = t.
+/// Returns the exact position of the planet in [`kepler`]'s scene, by Kepler's equation E − e sin E = t.
 fn on_ellipse(time: f64) -> DVec3 {
     let mut anomaly = time;
     for _ in 0..50 {
@@ -49,7 +50,7 @@ fn on_ellipse(time: f64) -> DVec3 {
     DVec3::new(libm::cos(anomaly) - 0.5, 0.75_f64.sqrt() * libm::sin(anomaly), 0.0)
 }
 
-/// The largest true error of a body in a run.
+/// Returns the largest distance of a body from its exact position during a run.
 fn true_error(scene: &Scene, body: usize, truth: fn(f64) -> DVec3) -> f64 {
     let distance = |at: Result<_, SimulateError>| {
         let at: crate::dynamics::Snapshot = at.unwrap();
@@ -80,7 +81,7 @@ fn the_estimated_error_is_the_true_one_within_a_factor_of_two() {
 fn what_is_recommended_reaches_the_accuracy() {
     let scene = oscillator("explicit-euler", 0.02);
     let (assessment, verdict) = assessed(&scene, 1e-3);
-    // Its energy grows by the factor 1 + (ω dt)² in each step.
+    // Explicit Euler multiplies the energy by the factor 1 + (ω dt)² in each step.
     let grown = libm::pow(1.0 + 0.04 * 0.04, 300.0) - 1.0;
     assert!(verdict.drift > 0.5 * grown, "{}", verdict.drift);
     assert!(!verdict.trusted.to_the_end && verdict.trusted.until.unwrap() < 1.0);
@@ -94,7 +95,7 @@ fn what_is_recommended_reaches_the_accuracy() {
     let size = 2.0 * (1.1 * 1.1 + 1.1 * 1.1 + 0.1 * 0.1_f64).sqrt();
     let error = true_error(&cured, 1, on_circle);
     assert!(error <= 1e-3 * size, "{} {step}: {error}", best.integrator);
-    // It is not much finer than necessary: a step four times as long fails.
+    // The recommended timestep is not much smaller than necessary: one four times as long fails.
     let coarser = oscillator(best.integrator, 4.0 * step);
     assert!(true_error(&coarser, 1, on_circle) > 1e-3 * size, "{} {step}", best.integrator);
 }
@@ -115,7 +116,7 @@ fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
     let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else {
         panic!("{:?}", verdict.neighbours)
     };
-    // It is of the order of the period of a small oscillation, 2 s, over 2π.
+    // The Lyapunov time is of the order of the period of a small oscillation, 2 s, divided by 2π.
     assert!((0.1..2.0).contains(&lyapunov_time), "{lyapunov_time}");
     assert!(assessment.untried.iter().any(|untried| untried.integrator == "yoshida4"));
 }
@@ -160,7 +161,7 @@ fn where_nothing_is_integrated_that_is_said() {
 
 #[test]
 fn a_run_that_breaks_down_is_told_with_its_time() {
-    // Explicit Euler on a stiff spring: each step multiplies the amplitude by about ten thousand.
+    // On a spring this stiff, explicit Euler multiplies the amplitude by about a thousand in each step.
     let text = "simulation = { duration = 20, step = 0.04, integrator = 'explicit-euler' }\n\
                 [body.a]\nshape.sphere.radius = 0.1\nfixed = true\n\
                 [body.b]\nshape.sphere.radius = 0.1\nmass = 1\nlocation = [1, 0, 0]\nvelocity = [0, 1, 0]\n\

@@ -1,4 +1,4 @@
-//! The report as text.
+//! Writes the report as text.
 
 use std::fmt::Write;
 
@@ -7,14 +7,14 @@ use super::verdict::{Conserved, Order, Trusted, Verdict};
 use super::{Assessment, Parting, Trial, Untried};
 use crate::dynamics::Method;
 
-/// The largest number of bodies that are named.
+/// The largest number of bodies in the table of errors.
 const NAMED: usize = 5;
 
-/// The indent of lines without a heading.
+/// The indent of the rows of tables and of continued lines.
 const INDENT: &str = "          ";
 
 impl Assessment {
-    /// The whole report as text. `shown` is the name of the scene in suggested commands, quoted for a shell.
+    /// Returns the whole report as text. `shown` is the name of the scene in suggested commands, quoted for a shell.
     pub fn to_text(&self, shown: &str) -> String {
         let mut out = format!("{shown}: {}, {}\n", self.integrator, self.fineness());
         match &self.verdict {
@@ -35,7 +35,8 @@ impl Assessment {
         out
     }
 
-    /// The tolerance, or the timestep with the number of timesteps per frame if that is an integer.
+    /// Returns the tolerance of an adaptive method as text. For other methods, returns the timestep, with the number of timesteps per
+    /// frame unless they are independent of frames.
     fn fineness(&self) -> String {
         if let Some(tolerance) = self.tolerance {
             return format!("tolerance {}", digits(tolerance, 3));
@@ -87,7 +88,7 @@ impl Assessment {
 
     fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
         let named: Vec<&super::BodyError> = verdict.bodies.iter().take(NAMED).collect();
-        // Smaller differences are rounding errors.
+        // Distances up to this limit are rounding errors; a percentage of the path would mean nothing.
         let is_seen = |place: f64| place > 1e-12 * verdict.size;
         let mut rows = vec![["body", "place off by", "of its way", "turned by", "at t"].map(str::to_owned)];
         rows.extend(named.iter().map(|body| {
@@ -128,7 +129,7 @@ impl Assessment {
                     digits(doubling_time, 2),
                     digits(lyapunov_time, 2)
                 );
-                // Starting from rounding errors, up to 1 % of the size of the scene.
+                // The time in which rounding errors grow to 1 % of the size of the scene.
                 let by_rounding = lyapunov_time * libm::log(0.01 / f64::EPSILON);
                 match by_rounding < self.end {
                     true => format!(
@@ -227,12 +228,12 @@ impl Assessment {
         }
     }
 
-    /// Whether a trial is the unchanged run.
+    /// Returns true for the trial with the scene's own method and timestep.
     fn is_own(&self, trial: &Trial) -> bool {
         trial.integrator == self.integrator && trial.steps_per_frame == self.steps_per_frame
     }
 
-    /// The lines to write into the scene for a trial.
+    /// Returns the lines of TOML that set a trial's method and timestep, or tolerance, in a scene.
     fn lines_to_write(&self, trial: &Trial) -> [String; 3] {
         [
             "[simulation]".to_owned(),
@@ -276,7 +277,7 @@ impl Verdict {
     }
 }
 
-/// The time at which a trial broke down.
+/// Returns a text that says when a trial broke down.
 fn broke_down(trial: &Trial) -> String {
     match trial.ended.as_ref().and_then(|ended| ended.after) {
         Some(after) => format!("breaks down after {} s", digits(after, 3)),
@@ -284,7 +285,7 @@ fn broke_down(trial: &Trial) -> String {
     }
 }
 
-/// The growth of the distance of neighbours.
+/// Describes the growth of the distance between a run and its twin. `growth` is the ratio of the final distance to the initial one.
 fn apart(growth: f64) -> String {
     match growth {
         growth if growth < 2.0 => "neighbours stay together".to_owned(),
@@ -333,7 +334,7 @@ fn line(out: &mut String, about: &str, what: &str) {
     let _ = writeln!(out, "{about:<10}{what}");
 }
 
-/// A table; the first column is text, the others are numbers.
+/// Appends a table. The first column is text, aligned left; the other columns are numbers, aligned right, except words in the last column.
 fn table<const N: usize>(out: &mut String, rows: &[[String; N]]) {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     for row in rows {
@@ -357,7 +358,7 @@ fn percent(part: f64) -> String {
     if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", digits(percent, 2)) }
 }
 
-/// A number with this many digits.
+/// Formats a number with at most this many significant digits.
 pub(super) fn digits(number: f64, digits: usize) -> String {
     if number == 0.0 {
         return "0".to_owned();

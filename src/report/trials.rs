@@ -1,4 +1,4 @@
-//! Finds the step and the method that reach a wanted accuracy. Each is tested before it is recommended.
+//! Searches for the timestep and the integration method that reach a requested accuracy. Each is tested before it is recommended.
 
 use serde::Serialize;
 
@@ -12,61 +12,63 @@ use crate::dynamics::Method;
 use crate::scene::Scene;
 use crate::simulate::evaluations;
 
-/// The result of a tested method and step.
+/// The result of a test run with one method and one timestep.
 #[derive(Clone, Debug, Serialize)]
 pub struct Trial {
-    /// The name of the method.
+    /// The name of the integration method.
     pub integrator: &'static str,
-    /// The step to write into the scene, s; `None` if the method chooses it.
+    /// The value of the key `step` that gives this timestep in the scene, s. `None` if the method is adaptive.
     pub step: Option<f64>,
-    /// The resulting timestep, s.
+    /// The timestep of the test run, s. `None` if the method is adaptive.
     pub timestep: Option<f64>,
-    /// The tolerance to write into the scene, for an adaptive method.
+    /// The value of the key `tolerance` for the scene, if the method is adaptive. `None` otherwise.
     pub tolerance: Option<f64>,
-    /// The timesteps from one frame to the next.
+    /// The number of timesteps from one frame to the next. For a method whose timesteps are independent of frames, the factor by which
+    /// they are finer than in the scene.
     pub steps_per_frame: u32,
-    /// The timesteps of the run.
+    /// The total number of timesteps of the test run.
     pub steps: u64,
-    /// The number of force evaluations; slightly more if impacts divide steps.
+    /// The number of force evaluations of the test run. The true number is slightly larger if impacts divide timesteps.
     pub evaluations: u64,
-    /// The largest error of any point of a body, m, from a run at half the step. `None` if one of the two broke down.
+    /// The largest error of any point of a body, m, estimated from a run at half the timestep. `None` if one of the two runs broke down.
     pub error: Option<f64>,
-    /// The largest energy error, relative to the largest kinetic energy.
+    /// The largest energy error of the test run, relative to the largest kinetic energy.
     pub drift: f64,
-    /// Whether it reaches the wanted accuracy.
+    /// True if the test run reaches the requested accuracy.
     pub reaches: bool,
     #[serde(skip)]
     pub(super) ended: Option<Ended>,
     #[serde(skip)]
     pub(super) setting: Setting,
-    /// The diagonal of the box around the motion of bodies, m.
+    /// The diagonal of the box around the motion of all bodies in the test run, m.
     #[serde(skip)]
     pub(super) size: f64,
 }
 
-/// A method that was not tested, or not as finely as necessary.
+/// A method that was not tested, or not at a timestep as small as necessary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Untried {
-    /// Its name.
+    /// The name of the integration method.
     pub integrator: &'static str,
-    /// The reason.
+    /// The reason why the method, or a smaller timestep, was not tested.
     pub why: String,
 }
 
-/// The trials, in order of methods and falling steps, and the methods that were not tested.
+/// The results of all test runs, ordered by method and then by decreasing timestep, and the methods that were not tested.
 #[derive(Debug, Default)]
 pub(super) struct Trials {
     pub(super) tried: Vec<Trial>,
     pub(super) untried: Vec<Untried>,
 }
 
-/// Halving the step changes a run by less than the error of the coarser run. This is the ratio of the error to the change.
+/// Returns the ratio of a run's error to its difference from the run at half the timestep, for a method of this order: 2ᵖ/(2ᵖ−1).
 pub(super) fn factor(order: f64) -> f64 {
     let ratio = libm::exp2(order);
     ratio / (ratio - 1.0)
 }
 
-/// The methods to test with a scene, its own first. Other first-order methods would not help.
+/// Returns the methods to test with a scene, its own first, and the methods that the scene cannot use. Other methods of first order are
+/// left out, since they would not be more accurate.
 fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     let own = scene.simulation.method;
     let of_use = |method: &&&Method| method.order > 1 && !method.is_of_planets();
@@ -78,27 +80,27 @@ fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
     (tried.collect(), untried.collect())
 }
 
-/// The budget of the search, in force evaluations: this many times the run itself,
+/// The budget of the search, in force evaluations, as a multiple of those of the run itself.
 const RUNS: f64 = 4.0;
 
-/// or this many evaluations of a single body, if that is more: about two seconds.
+/// The smallest budget of the search, in force evaluations of a single body: about two seconds.
 const EVALUATIONS: f64 = 6e6;
 
-/// The goal of a trial.
+/// The goal of the search for a method and a timestep.
 pub(super) struct Goal<'a> {
     pub(super) scene: &'a Scene,
     pub(super) measured: &'a Measured,
     pub(super) own: Setting,
-    /// The allowed error of a point, as a fraction of the size of the scene.
+    /// The allowed error of any point, as a fraction of the size of the scene.
     pub(super) accuracy: f64,
-    /// The observed order of the scene's own method.
+    /// The measured order of the scene's own method.
     pub(super) order: Order,
-    /// The size of the scene, m; 0 if the run is too inaccurate to tell.
+    /// The size of the scene, m: the diagonal of the box around the motion. It is 0 if the run is too inaccurate to show its size.
     pub(super) size: f64,
 }
 
 impl Goal<'_> {
-    /// The budget of the search, in force evaluations.
+    /// Returns the budget of the search, in force evaluations.
     pub(super) fn budget(&self) -> f64 {
         let (scene, bodies) = (self.scene, self.measured.bodies.len() as f64);
         let pairs = scene.forces.iter().flat_map(|force| force.kind.acting()).map(|force| force.pairs());
@@ -113,7 +115,7 @@ impl Goal<'_> {
         trial.error.is_some_and(|error| error <= self.accuracy * size)
     }
 
-    /// Tests methods and steps within the budget. `known` are the results of the scene's own setting.
+    /// Tests methods and timesteps within the budget. `known` holds the results that are already known of the scene's own method.
     pub(super) fn search(&self, known: Vec<Trial>, watch: &mut Watch<'_>) -> Result<Trials, Stopped> {
         let mut left = self.budget();
         let (methods, untried) = methods(self.scene);
@@ -124,7 +126,7 @@ impl Goal<'_> {
             let is_own = std::ptr::eq(*method, self.own.method);
             let known = if is_own { own.take().unwrap_or_default() } else { Vec::new() };
             if is_own && matches!(self.order, Order::None { .. }) {
-                // Smaller steps do not help.
+                // The differences between the runs do not decrease with the timestep, so smaller timesteps would not help.
                 trials.tried.extend(known);
                 continue;
             }
@@ -144,7 +146,8 @@ impl Goal<'_> {
         Ok(trials)
     }
 
-    /// Tests steps of a method until one reaches the accuracy and no much longer one does. Otherwise gives the reason.
+    /// Tests timesteps of a method until one reaches the accuracy and no much longer one is expected to reach it. If the search ends
+    /// before, the text gives the reason.
     fn search_method(
         &self,
         method: &'static Method,
@@ -152,12 +155,12 @@ impl Goal<'_> {
         left: &mut f64,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Trial>, Option<String>), Stopped> {
-        /// The largest number of steps tested with each method.
+        /// The largest number of timesteps tested with each method.
         const TRIES: usize = 5;
         for _ in 0..TRIES {
             let Some(steps) = self.next_steps(method, &tried) else { return Ok((tried, None)) };
             let setting = Setting::new(method, steps, self.scene);
-            // The run, and the run at half its step.
+            // The test makes two runs. The run at half the timestep costs twice as much as the other.
             let cost = 3.0 * setting.cost(self.scene);
             if cost > *left {
                 let is_reached = tried.iter().any(|trial| self.reaches(trial));
@@ -174,14 +177,14 @@ impl Goal<'_> {
                 *left *= 0.5;
                 return Ok((tried, Some("it takes more steps than are tried here".to_owned())));
             };
-            // The number of steps of an adaptive method is only known afterwards.
+            // The number of timesteps of an adaptive method is known only after the run.
             *left -= cost.max(3.0 * trial.evaluations as f64 * f64::from(u8::from(method.adaptive)));
             tried.push(trial);
         }
         Ok((tried, None))
     }
 
-    /// The next number of steps per frame to test. `None` if the right number is known.
+    /// Returns the next number of timesteps per frame to test with a method. `None` if the search of this method is finished.
     fn next_steps(&self, method: &'static Method, tried: &[Trial]) -> Option<u32> {
         if method.adaptive {
             return match tried.last() {
@@ -190,7 +193,7 @@ impl Goal<'_> {
             };
         }
         let Some(last) = tried.last() else {
-            // The number that takes as long as the run.
+            // The first test has the number of timesteps that costs as many force evaluations as the scene's run.
             let each = evaluations(method).max(1) as f64 / evaluations(self.own.method).max(1) as f64;
             return Some(nice(f64::from(self.own.steps) / each));
         };
@@ -202,7 +205,7 @@ impl Goal<'_> {
         let wanted = self.accuracy * size;
         let from = coarsest_good.unwrap_or(last);
         let steps = f64::from(from.steps_per_frame);
-        // With a margin, from the order of the method.
+        // The factor of 1.5 is a safety margin. The order of the method relates the error to the timestep.
         let by_order = |error: f64| libm::pow(1.5 * error / wanted, 1.0 / f64::from(method.order));
         match (coarsest_good, from.error) {
             (Some(good), Some(error)) => {
@@ -212,7 +215,7 @@ impl Goal<'_> {
                 is_new.then_some(coarser)
             }
             (_, Some(error)) => {
-                // An error as large as the scene cannot grow further, so it gives little information.
+                // An error as large as the scene cannot grow further, so it says little about the necessary timestep.
                 let least = if error > 0.05 * size { 4.0 } else { 1.2 };
                 Some(nice(steps * by_order(error).clamp(least, 64.0)))
             }
@@ -221,7 +224,8 @@ impl Goal<'_> {
         .filter(|steps| *steps < u32::MAX / 4)
     }
 
-    /// Makes a run, and the same at half its step. `None` if an adaptive method takes more than half of the remaining force evaluations.
+    /// Makes a test run, and the same run at half the timestep, to estimate the error. `None` if an adaptive method exceeds its share of
+    /// the remaining force evaluations `left`.
     fn attempt(&self, setting: Setting, left: f64, watch: &mut Watch<'_>) -> Result<Option<Trial>, Stopped> {
         let scene = self.scene;
         let settings = [setting, setting.finer(2)];
@@ -280,13 +284,13 @@ impl Goal<'_> {
     }
 }
 
-/// The cheapest trial that reaches the accuracy.
+/// Returns the index of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it.
 pub(super) fn cheapest(trials: &[Trial]) -> Option<usize> {
     let good = trials.iter().enumerate().filter(|(_, trial)| trial.reaches);
     good.min_by_key(|(_, trial)| (trial.evaluations, trial.steps)).map(|(place, _)| place)
 }
 
-/// The smallest of 1, 2, 4, 5, 8, 10, 20, 40 … that is at least the given number.
+/// Returns the smallest of 1, 2, 4, 5, 8, 10, 20, 40, 50, 80 … that is at least the given number.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

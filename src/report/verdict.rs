@@ -1,4 +1,5 @@
-//! The verdict on a run, from the comparison of runs: its error, its order, its momenta, and how long it is accurate.
+//! Judges a run by its comparison with other runs: finds its error, the order of its method, the conservation of momentum, and the time
+//! until which the run is accurate.
 
 use serde::Serialize;
 
@@ -12,104 +13,105 @@ use crate::dynamics::{Accounts, Method};
 use crate::scene::Scene;
 use crate::simulate::evaluations;
 
-/// The verdict on an integrated run.
+/// The measured errors of an integrated run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// The largest energy error, relative to the largest kinetic energy.
+    /// The largest energy error of the run, relative to the largest kinetic energy.
     pub drift: f64,
-    /// The energy in each account at the end, J; empty accounts are left out.
+    /// The energy that each influence without a potential has brought in by the end, by name, J. Negligible amounts are left out.
     pub accounts: Vec<(&'static str, f64)>,
-    /// Linear momentum.
+    /// The conservation of the total linear momentum.
     pub linear_momentum: Conserved,
-    /// Angular momentum about the origin.
+    /// The conservation of the total angular momentum about the origin.
     pub angular_momentum: Conserved,
-    /// The size of the scene: the diagonal of the box around the motion of bodies, m.
+    /// The size of the scene: the diagonal of the box around the motion of all bodies, m.
     pub size: f64,
     /// The largest error of any point of a body, m.
     pub error: f64,
-    /// The error of each body that forces move, the largest first.
+    /// The errors of all bodies that forces move, the largest first.
     pub bodies: Vec<BodyError>,
-    /// The observed order of the method.
+    /// The measured order of the method: how fast the error decreases with the timestep.
     pub order: Order,
-    /// The separation of neighbours.
+    /// The separation of the run and its twin: regular or chaotic.
     pub neighbours: Parting,
-    /// The mean exponential growth of their distance, which is its criterion: 2 for most regular motion; 0 if unknown.
+    /// MEGNO, the mean exponential growth of the distance between the run and its twin: 2 for most regular motion, 0 if unknown.
     pub megno: f64,
-    /// The time until which the run reaches the wanted accuracy.
+    /// The time until which the run reaches the requested accuracy.
     pub trusted: Trusted,
     /// The time until which no point has an error above 1 % of the size of the scene.
     pub trusted_to_a_percent: Trusted,
-    /// The runs that broke down.
+    /// The runs that broke down: this run, its repetitions at smaller timesteps, and its twin.
     pub broken: Vec<Broken>,
-    /// The curves of a plot.
+    /// The curves of a plot of the errors over time.
     #[serde(skip)]
     pub(super) curves: Curves,
 }
 
-/// The curves of a plot, frame by frame.
+/// The curves of a plot of the errors over time, with one value per frame. A curve ends early if a run broke down.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Curves {
-    /// The times, s.
+    /// The times of the frames, s.
     pub(super) times: Vec<f64>,
-    /// The energy error, relative to the largest kinetic energy.
+    /// The energy error at each frame, relative to the largest kinetic energy.
     pub(super) drift: Vec<f64>,
-    /// The largest error of any point, as a fraction of the size of the scene.
+    /// The largest error of any point at each frame, as a fraction of the size of the scene.
     pub(super) error: Vec<f64>,
-    /// The distance of the twin, as a fraction of the largest possible distance.
+    /// The distance between the run and its twin at each frame, in phase space: positions relative to the size of the scene, velocities
+    /// relative to the largest speed, and angles in rad.
     pub(super) neighbours: Vec<f64>,
 }
 
-/// The conservation of a momentum.
+/// The result of testing whether a run conserves its total momentum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Conserved {
-    /// No body has any.
+    /// All bodies have zero momentum during the whole run.
     Still,
-    /// External forces change it, at any step.
+    /// External forces change the momentum: it changes equally at a smaller timestep.
     Changed,
-    /// It should be conserved; this is its error.
+    /// The momentum should be constant. Each change of it is an integration error.
     Kept {
-        /// The largest change, relative to the largest sum of the magnitudes of all momenta.
+        /// The largest change of the momentum, relative to the largest sum of the magnitudes of all bodies' momenta.
         drift: f64,
     },
 }
 
-/// The error of a body.
+/// The largest errors of a body during a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodyError {
-    /// Its name.
+    /// The name of the body.
     pub body: String,
-    /// The largest error of its centre, m.
+    /// The largest error of the position of the body's center, m.
     pub place: f64,
-    /// The time of the largest error, s.
+    /// The time of the body's largest error, s.
     pub time: f64,
-    /// The length of its path, m.
+    /// The length of the body's path, m.
     pub way: f64,
-    /// The largest error of its orientation, degrees.
+    /// The largest error of the body's orientation, degrees.
     pub orientation: f64,
 }
 
-/// The decrease of the error with the step.
+/// The order of convergence, measured from three runs: how fast the error decreases with the timestep.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Order {
-    /// The runs differ only by rounding errors.
+    /// The runs differ only by rounding errors, so the order cannot be measured.
     Rounding,
-    /// Too few frames can be compared.
+    /// Too few frames can be compared to measure the order.
     Unknown,
-    /// The error decreases with the order of the method.
+    /// The measured order agrees with the order of the method.
     Nominal {
         /// The measured order.
         measured: f64,
     },
-    /// The error decreases with another order.
+    /// The error decreases with the timestep, with another order than that of the method.
     Other {
         /// The measured order.
         measured: f64,
     },
-    /// The method chooses its steps, and the error falls with its tolerance.
+    /// The method is adaptive, and the error decreases with its tolerance.
     Adaptive,
-    /// The differences of the runs do not decrease with the step, so the error is unknown.
+    /// The differences between the runs do not decrease with the timestep, so the error is unknown.
     None {
         /// The measured order.
         measured: f64,
@@ -119,22 +121,22 @@ pub enum Order {
 /// The time until which a run reaches an accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Trusted {
-    /// The time of the last such frame, s; `None` if not even the first frame after the start is accurate.
+    /// The time of the last accurate frame, s. `None` if even the first frame after the start is inaccurate.
     pub until: Option<f64>,
-    /// Its number.
+    /// The number of the last accurate frame.
     pub frame: usize,
-    /// Whether it is the last frame of the run.
+    /// True if the run is accurate up to its last frame.
     pub to_the_end: bool,
 }
 
-/// A run that broke down.
+/// A run that broke down before its last frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Broken {
-    /// Its name.
+    /// The name of the run in the report: `the run at half the step`.
     pub run: &'static str,
-    /// The time of the last frame, s.
+    /// The time of the last computed frame, s. `None` if the run has no frame.
     pub after: Option<f64>,
-    /// The reason.
+    /// The error message that tells why the run broke down.
     pub why: String,
 }
 
@@ -145,13 +147,14 @@ impl Broken {
 }
 
 impl Order {
-    /// The observed order. It uses only times at which the runs are close to each other; elsewhere, their difference is meaningless.
+    /// Measures the order of convergence from the three runs. It uses only the frames before the runs differ strongly, since their later
+    /// differences do not show the order.
     fn of(compared: &Compared, method: &Method) -> Order {
-        /// Differences below this fraction of the size count as rounding.
+        /// Differences below this fraction of the size of the scene count as rounding errors.
         const ROUNDING: f64 = 1e-11;
-        /// The runs count as close up to this fraction of the size,
+        /// The largest difference of runs whose order can be compared, as a fraction of the size of the scene.
         const NEAR: f64 = 0.05;
-        /// and orders that differ by less than this count as equal.
+        /// The largest difference between the measured and the method's order that counts as agreement.
         const SAME: f64 = 0.35;
         let far = |moment: &&Moment| moment.off.is_some_and(|off| off <= NEAR * compared.size);
         let near = compared.moments.iter().skip(1).take_while(far).filter_map(|moment| moment.squares);
@@ -173,10 +176,10 @@ impl Order {
         }
     }
 
-    /// The factor from the difference of two runs to the error.
+    /// Returns the ratio of a run's error to its difference from the run at half the timestep.
     pub(super) fn factor(self, method: &Method) -> f64 {
         match self {
-            // A tenth of the tolerance leaves about a tenth of the error.
+            // The finer run of an adaptive method has a tenth of the tolerance, so about a tenth of the error.
             _ if method.adaptive => 10.0 / 9.0,
             Order::Other { measured } => factor(measured.min(f64::from(method.order) + 4.0)),
             Order::None { .. } => factor(1.0),
@@ -239,12 +242,12 @@ impl Verdict {
         }
     }
 
-    /// Whether the run is accurate enough to know its size.
+    /// Returns true if the run is accurate enough to show the size of the scene.
     pub(super) fn knows_the_size(&self) -> bool {
         self.error < 0.1 * self.size && self.broken.is_empty()
     }
 
-    /// The known trials of the scene's own method: at its step, and at half of it.
+    /// Returns the results that the comparison gives for the scene's own method: at its timestep, and at half of it.
     pub(super) fn known(&self, scene: &Scene, own: Setting, compared: &Compared) -> Vec<Trial> {
         let factor = self.order.factor(own.method);
         let errors = [self.error, factor * compared.off_at_half];
@@ -274,9 +277,10 @@ impl Verdict {
     }
 }
 
-/// Whether a momentum is conserved. A change from outside is the same at half the step; an error becomes smaller.
+/// Decides whether a run conserves a momentum (`kind`: 0 linear, 1 angular). A change by external forces is equally large at half the
+/// timestep; an integration error becomes smaller.
 fn conserved(compared: &Compared, kind: usize) -> Conserved {
-    /// A change below this fraction is an error, even if it is the same at half the step.
+    /// Relative changes up to this limit count as errors, even if they are equally large at half the timestep.
     const SMALL: f64 = 1e-9;
     let most = compared.momenta[kind];
     if most == 0.0 {
@@ -294,7 +298,8 @@ fn conserved(compared: &Compared, kind: usize) -> Conserved {
 }
 
 impl Trusted {
-    /// The time until which a run's error is at most `most` metres.
+    /// Finds the time until which a run's error is at most `most` meters. `factor` converts the difference of two runs to the error;
+    /// `ended` is true if the run broke down.
     fn of(compared: &Compared, factor: f64, most: f64, ended: bool) -> Trusted {
         let is_right = |moment: &&Moment| moment.off.is_some_and(|off| factor * off <= most);
         let frames = compared.moments.iter().take_while(is_right).count();

@@ -1,27 +1,27 @@
-//! An axis: it maps values to fractions of its length, and chooses its labels.
+//! The axis of a plot: it maps values to positions along its length, and chooses the labeled values.
 
 use super::text::digits;
 
-/// An axis of a plot.
+/// An axis of a plot, from a smallest to a largest value. For a logarithmic axis, `min` and `max` are powers of ten.
 pub(super) struct Axis {
     min: f64,
     max: f64,
     is_logarithmic: bool,
 }
 
-/// The largest number of steps between labels.
+/// The largest number of intervals between labels.
 const TICKS: f64 = 6.0;
 
-/// Smaller values count as zero.
+/// The smallest value of a logarithmic axis. Smaller values count as zero.
 const LEAST: f64 = 1e-18;
 
 impl Axis {
-    /// From one value to another.
+    /// Makes a linear axis from `min` to `max`.
     pub(super) fn linear(min: f64, max: f64) -> Axis {
         Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: false }
     }
 
-    /// Around all values and zero, with a small margin.
+    /// Makes a linear axis that includes all finite values and zero, with a small margin.
     pub(super) fn around<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
         let finite = values.filter(|value| value.is_finite());
         let (min, max) =
@@ -32,7 +32,7 @@ impl Axis {
         }
     }
 
-    /// In whole powers of ten around all values that do not count as zero.
+    /// Makes a logarithmic axis that includes all positive finite values, and begins and ends at whole powers of ten.
     pub(super) fn logarithmic<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
         let positive = values.filter(|value| value.is_finite() && **value > LEAST).map(|v| libm::log10(*v));
         let range = positive.fold(None, |range: Option<[f64; 2]>, value| match range {
@@ -44,13 +44,13 @@ impl Axis {
         Axis { min, max: if max > min { max } else { min + 1.0 }, is_logarithmic: true }
     }
 
-    /// The position of a value along the axis, 0 to 1.
+    /// Returns the position of a value along the axis, as a fraction of its length: 0 at `min`, 1 at `max`.
     pub(super) fn part(&self, value: f64) -> f64 {
         let place = if self.is_logarithmic { libm::log10(value.max(LEAST)) } else { value };
         (place - self.min) / (self.max - self.min)
     }
 
-    /// The labelled values with their labels.
+    /// Returns the values to label, each with its label.
     pub(super) fn ticks(&self) -> Vec<(f64, String)> {
         let range = self.max - self.min;
         if self.is_logarithmic {
@@ -69,7 +69,7 @@ impl Axis {
     }
 }
 
-/// Equidistant values up to the last.
+/// Yields equidistant values from `first` up to `last`, at most 20.
 fn steps(first: f64, every: f64, last: f64) -> impl Iterator<Item = f64> {
     (0..20).map(move |k| first + f64::from(k) * every).take_while(move |value| *value <= last + 1e-9 * every)
 }

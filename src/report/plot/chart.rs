@@ -1,9 +1,9 @@
-//! Charts of several curves with logarithmic axes: errors over costs.
+//! Draws charts of several curves with logarithmic axes, such as errors over costs.
 
 use super::axis::Axis;
 use super::{Anchor, FAINT_INK, GRID, INK, Picture, Rgb};
 
-/// The colors of curves, which people with red–green color blindness can distinguish. Source: M. Okabe & K. Ito, *Color Universal Design*
+/// The colors of curves. People with red–green color blindness can distinguish them. Source: M. Okabe & K. Ito, *Color Universal Design*
 /// (2008), with a darker yellow.
 const COLORS: [Rgb; 8] = [
     [0, 0, 0],
@@ -23,32 +23,32 @@ const GAP: [f64; 2] = [100.0, 96.0];
 const SIZE: [f64; 2] = [430.0, 330.0];
 /// The number of charts in a row.
 const COLUMNS: usize = 2;
-/// The width of a letter, and of the sample line before a name.
+/// The width of a letter in the legend, and of the sample line before a curve's name, pixels.
 const LETTER: f64 = 9.0;
 const SAMPLE: f64 = 26.0;
 
-/// A curve through points: costs and errors.
+/// A curve of a chart, through points of costs and errors.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Its name. Curves with the same name have the same color in all charts.
+    /// The name of the curve in the legend. Curves with the same name have the same color in all charts.
     pub name: String,
-    /// Its points.
+    /// The points of the curve: horizontal and vertical value.
     pub points: Vec<[f64; 2]>,
 }
 
-/// Curves over common axes, both logarithmic.
+/// A chart: several curves over common axes, both logarithmic.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// The title.
+    /// The title above the chart.
     pub title: String,
     /// The labels of the horizontal and the vertical axis.
     pub axes: [String; 2],
-    /// The curves.
+    /// The curves of the chart.
     pub curves: Vec<Curve>,
 }
 
 impl Picture {
-    /// Charts side by side under a title, with the names of the curves.
+    /// Draws charts side by side under a common title, with a legend of the curves' names.
     #[must_use]
     pub fn of_charts(title: &str, charts: &[Chart]) -> Picture {
         let rows = f64::from(u8::try_from(charts.len().div_ceil(COLUMNS)).unwrap_or(u8::MAX));
@@ -139,7 +139,7 @@ mod tests {
             .collect();
         assert_eq!(curves.len(), 3);
         assert!(curves[0].1 == curves[2].1 && curves[0].1 != curves[1].1);
-        // A power law is a straight line.
+        // A power law is a straight line between logarithmic axes.
         let points = &curves[0].0;
         assert!((points[0][1] + points[2][1] - 2.0 * points[1][1]).abs() < 1e-9);
         assert_eq!((points[0], points[2][0] - points[0][0]), ([LEFT, TOP + 26.0], SIZE[0]));

@@ -1,6 +1,6 @@
-//! An assessment as a picture: the energy drift, the error and the distance of neighbours over time.
+//! Plots an assessment: the energy drift, the error and the distance of neighboring runs over time.
 //!
-//! The picture is a list of lines and texts in pixels; an SVG and a PNG are made from the same list.
+//! A picture is a list of lines and texts with positions in pixels. An SVG and a PNG are made from the same list.
 
 mod axis;
 mod chart;
@@ -17,7 +17,7 @@ pub use chart::{Chart, Curve};
 pub use png::png;
 pub use svg::svg;
 
-/// Red, green and blue, 0 to 255.
+/// A color: red, green and blue, 0 to 255.
 type Rgb = [u8; 3];
 
 const GROUND: Rgb = [255, 255, 255];
@@ -32,11 +32,11 @@ const WIDTH: f64 = 1100.0;
 const LEFT: f64 = 120.0;
 const RIGHT: f64 = 40.0;
 const TOP: f64 = 92.0;
-/// The height of a panel, and the distance between two panels.
+/// The height of a panel, and the vertical gap between two panels, pixels.
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 66.0;
 
-/// The point of a text at its position: start, middle or end.
+/// The part of a text that lies at its position: start, middle or end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Anchor {
     Start,
@@ -44,7 +44,7 @@ enum Anchor {
     End,
 }
 
-/// An element of a picture. Positions are in pixels, from the upper left corner.
+/// A line or a text of a picture. Positions are in pixels, from the upper left corner of the picture.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Line {
@@ -52,7 +52,7 @@ enum Item {
         width: f64,
         color: Rgb,
     },
-    /// `at` is the middle of its height.
+    /// A text in one line. `at` is the position of its anchor, at half the height of the letters.
     Text {
         at: [f64; 2],
         text: String,
@@ -62,7 +62,7 @@ enum Item {
     },
 }
 
-/// A picture in the form of its elements.
+/// A picture as a list of lines and texts. Its width and height are in pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     width: f64,
@@ -70,19 +70,19 @@ pub struct Picture {
     items: Vec<Item>,
 }
 
-/// A curve over time, in a panel of its own.
+/// A panel of the plot, which shows one curve over time.
 struct Panel<'a> {
     title: String,
     times: &'a [f64],
     values: Vec<f64>,
     is_logarithmic: bool,
-    /// A marked value.
+    /// The value at which the panel has a horizontal line, such as the requested accuracy.
     mark: Option<f64>,
     color: Rgb,
 }
 
 impl Picture {
-    /// The picture of an assessment, under a title. `None` if nothing is integrated.
+    /// Draws the plot of an assessment, under a title. `None` if nothing is integrated.
     pub fn of(assessment: &Assessment, title: &str) -> Option<Picture> {
         let verdict = assessment.verdict.as_ref()?;
         let panels = panels(assessment, verdict);
@@ -115,7 +115,7 @@ impl Picture {
         LEFT + times.part(time) * (self.width - LEFT - RIGHT)
     }
 
-    /// A thin line along an axis, aligned to pixels.
+    /// Draws a thin line along one axis or both, aligned to pixels.
     fn rule(&mut self, points: Vec<[f64; 2]>, color: Rgb) {
         let onto_pixels = |point: [f64; 2]| point.map(|place| place.floor() + 0.5);
         self.line(points.into_iter().map(onto_pixels).collect(), 1.0, color);
@@ -152,7 +152,7 @@ impl Picture {
             self.rule(vec![[left, y(mark)], [right, y(mark)]], FAINT_INK);
         }
         let points = panel.times.iter().zip(&panel.values);
-        // Zero cannot be shown on a logarithmic axis.
+        // A logarithmic axis cannot show zero, so points with the value 0 are left out.
         let points =
             points.filter(|(_, value)| value.is_finite() && (!panel.is_logarithmic || **value > 0.0));
         let points = points.map(|(time, value)| [self.across(times, *time), y(*value).clamp(top, bottom)]);
@@ -204,7 +204,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
     ]
 }
 
-/// A curve without invisible points: within a pixel's width, the first, highest, lowest and last point remain.
+/// Removes invisible points of a curve. Within the width of a pixel, the first, highest, lowest and last point remain.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     let mut rest = points;

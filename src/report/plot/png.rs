@@ -1,13 +1,13 @@
-//! A picture as PNG.
+//! Draws a picture of lines and texts into a PNG.
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 use super::{Anchor, GROUND, Item, Picture, Rgb};
 
-/// The bytes of the file.
+/// Returns the picture as the bytes of a PNG file.
 ///
 /// # Errors
-/// If it cannot be encoded.
+/// If the picture cannot be encoded.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -49,7 +49,7 @@ struct Canvas {
     reason = "places are within some thousand pixels"
 )]
 impl Canvas {
-    /// Draws a polyline. The coverage of a pixel depends on the distance of its centre from the nearest segment.
+    /// Draws a polyline. The opacity of a pixel follows from the distance of its center from the nearest segment.
     fn line(&mut self, points: &[[f64; 2]], width: f64, color: Rgb) {
         let reach = width / 2.0 + 1.0;
         let bound = |axis: usize, end: usize| {
@@ -90,7 +90,7 @@ impl Canvas {
         }
     }
 
-    /// Writes a text in ASCII letters; a question mark replaces each other letter.
+    /// Draws a text in one line. A question mark replaces each character that the font lacks.
     fn text(&mut self, [x, y]: [f64; 2], text: &str, (anchor, large): (Anchor, bool), color: Rgb) {
         let letters = if large { RasterHeight::Size20 } else { RasterHeight::Size16 };
         let advance = get_raster_width(FontWeight::Regular, letters) as f64;
@@ -123,7 +123,7 @@ impl Canvas {
     }
 }
 
-/// Blends a color into a pixel, with a weight of up to 255.
+/// Blends a color into a pixel. `part` is the opacity of the color, 0 to 255.
 fn mix(pixel: &mut [u8; 3], color: Rgb, part: u8) {
     for (byte, ink) in pixel.iter_mut().zip(color) {
         let (ground, ink, part) = (u32::from(*byte), u32::from(ink), u32::from(part));

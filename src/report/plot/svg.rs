@@ -1,10 +1,10 @@
-//! A picture as SVG.
+//! Writes a picture of lines and texts as SVG.
 
 use std::fmt::Write;
 
 use super::{Anchor, GROUND, Item, Picture, Rgb};
 
-/// The text of the file.
+/// Returns the picture as the text of an SVG file.
 pub fn svg(picture: &Picture) -> String {
     let (width, height) = (picture.width, picture.height);
     let mut out = format!(
@@ -49,7 +49,7 @@ fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Text between tags. Characters that XML does not allow are left out.
+/// Escapes a text for use between XML tags. Control characters are removed.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().filter(|c| !c.is_control()) {
