@@ -1,16 +1,16 @@
-//! Finds angles that are probably in the wrong unit. Functions take radians; orientations are in degrees.
+//! Detects angles in formulas that are probably in the wrong unit. Functions take radians, but the orientations of bodies are in degrees.
 
 use std::ops::Range;
 
 use super::Formula;
 use super::parser::Part;
 
-/// Functions whose values are angles in radians.
+/// The functions that return an angle in radians.
 const GIVES_RADIANS: [&str; 5] = ["asin", "acos", "atan", "atan2", "rad"];
 
 impl Formula {
-    /// Finds the argument of `sin`, `cos` or `tan` that looks like degrees, as in `cos(45)`. `value` returns the value
-    /// of a name.
+    /// Finds an argument of `sin`, `cos` or `tan` that is probably in degrees, as in `cos(45)`. Returns the argument's byte range. `value`
+    /// returns the value of a variable.
     pub(in crate::scene) fn degrees_for_radians(
         &self,
         value: impl Fn(&str) -> Option<f64>,
@@ -30,15 +30,15 @@ impl Formula {
         })
     }
 
-    /// Whether the value of the formula looks like an angle in radians: the formula uses `pi`, `tau` or a function that
-    /// returns radians, and does not use `deg`.
+    /// Returns true if the value of the formula is probably an angle in radians: the formula uses `pi`, `tau` or a function that returns
+    /// radians, and does not use `deg`.
     pub(in crate::scene) fn is_in_radians(&self) -> bool {
         let calls = |names: &[&str]| {
             self.nodes
                 .iter()
                 .any(|node| matches!(&node.part, Part::Call(function, _) if names.contains(&function.name)))
         };
-        // The argument of a sine is in radians, as it must be.
+        // The `pi` in `sin(2*pi*t)` belongs to the argument of the sine. It says nothing about the unit of the result.
         let has_sine = calls(&["sin", "cos", "tan", "sinh", "cosh", "tanh"]);
         let has_pi = self.names().any(|(name, _)| matches!(name, "pi" | "tau"));
         let divides_by_it = self.text().contains("/pi") || self.text().contains("/ pi");

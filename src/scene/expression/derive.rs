@@ -1,4 +1,4 @@
-//! Differentiates a formula with respect to one of its names. The derivative is a formula too.
+//! Differentiates a formula symbolically with respect to one of its inputs.
 
 use std::f64::consts::{LN_2, LN_10};
 use std::ops::Range;
@@ -9,10 +9,10 @@ use super::parser::Id;
 use super::resolve::{Resolved, Value};
 
 impl Resolved {
-    /// The derivative with respect to the name in `slot`. At a kink or a jump of the formula, it is the derivative of
-    /// one side.
+    /// Returns the derivative with respect to the input `slot`, as another formula. Where the formula has a kink or a jump, the result is
+    /// a one-sided derivative.
     ///
-    /// The formula must have no random draws left: see [`Resolved::with_draws`].
+    /// All random numbers of the formula must have been drawn before: see [`Resolved::with_draws`].
     #[must_use]
     pub fn derivative(&self, slot: usize) -> Resolved {
         let mut deriver = Deriver {
@@ -21,7 +21,7 @@ impl Resolved {
             range: 0..0,
             slopes: Vec::with_capacity(self.nodes.len()),
         };
-        // The derivative contains parts of the formula. Copying all nodes keeps the ids of the parts.
+        // The derivative contains subexpressions of the formula. All nodes are copied first, so that these keep their ids.
         deriver.builder.nodes.clone_from(&self.nodes);
         for node in &self.nodes {
             deriver.range = node.range.clone();
@@ -35,8 +35,8 @@ impl Resolved {
 }
 
 impl Resolved {
-    /// The number of operations in the compiled program. A part that is used several times is counted each time, since
-    /// the program computes it each time.
+    /// Returns the number of operations in the compiled program. A subexpression that is used several times counts each time, because the
+    /// program computes it each time.
     #[must_use]
     pub(in crate::scene) fn operations(&self) -> u64 {
         let mut sizes: Vec<u64> = Vec::with_capacity(self.nodes.len());
@@ -57,9 +57,9 @@ impl Resolved {
 struct Deriver {
     builder: Builder,
     slot: usize,
-    /// The place, in the text, of the part that is being differentiated.
+    /// The byte range, in the text of the formula, of the subexpression that is being differentiated.
     range: Range<usize>,
-    /// The derivative of each part. `None` for a derivative that is zero.
+    /// The derivative of each subexpression, by its id. `None` for a derivative that is zero.
     slopes: Vec<Option<Id>>,
 }
 
@@ -81,7 +81,7 @@ impl Deriver {
         }
     }
 
-    /// Differentiates a function of u: (f(u))' = f'(u) u'. `slope` is u'.
+    /// Differentiates a function of one argument by the chain rule: (f(u))' = f'(u) u'. `slope` is u'.
     fn unary(&mut self, operation: Unary, u: Id, slope: Id) -> Option<Id> {
         let outer = match operation {
             Unary::Not | Unary::Sign | Unary::Floor | Unary::Ceil | Unary::Round | Unary::Trunc => {
@@ -200,7 +200,7 @@ impl Deriver {
         }
     }
 
-    /// Differentiates a power: (uᵛ)' = v uᵛ⁻¹ u' + uᵛ ln(u) v'. `du` is u', and `dv` is v'.
+    /// Differentiates a power: (uᵛ)' = v uᵛ⁻¹ u' + uᵛ ln(u) v'. `du` is u' and `dv` is v'; `None` means zero.
     fn power(&mut self, u: Id, v: Id, du: Option<Id>, dv: Option<Id>) -> Option<Id> {
         let left = du.map(|du| {
             let one = self.constant(1.0);
@@ -271,7 +271,7 @@ impl Deriver {
         self.two(Binary::Divide, a, b)
     }
 
-    /// The quotient a / b, or 0 where a is 0. So the derivative of √u is 0 where both u and u' are 0.
+    /// Returns the quotient a / b, or 0 where a is 0. This makes the derivative of √u, which is u'/(2√u), 0 where both u and u' are 0.
     fn quotient_or_zero(&mut self, a: Id, b: Id) -> Id {
         let (quotient, zero) = (self.quotient(a, b), self.constant(0.0));
         self.builder.choice(a, quotient, zero, self.range.clone())
@@ -297,7 +297,7 @@ impl Deriver {
         self.two(Binary::Subtract, number, a)
     }
 
-    /// The sum of two derivatives. `None` stands for zero.
+    /// Returns the sum of two derivatives. `None` means zero.
     fn sum(&mut self, a: Option<Id>, b: Option<Id>) -> Option<Id> {
         match (a, b) {
             (Some(a), Some(b)) => Some(self.two(Binary::Add, a, b)),

@@ -1,4 +1,4 @@
-//! Compiles the tree of a resolved formula into a program.
+//! Compiles the expression tree of a formula into a program for a machine with an accumulator and a stack.
 
 use super::error::{ExpressionError, syntax};
 use super::operation::{Binary, Unary, whole_exponent};
@@ -7,7 +7,7 @@ use super::program::{Code, Instruction as I, MAX_STACK, Program};
 use super::resolve::{Resolved, Value};
 
 impl Resolved {
-    /// Compiles the formula into a program.
+    /// Compiles the formula into a program that also keeps the tree, to explain non-finite values.
     ///
     /// # Errors
     /// If the formula is nested too deeply.
@@ -15,7 +15,7 @@ impl Resolved {
         Ok(Program::new(self.code()?, self))
     }
 
-    /// Compiles the formula into code alone. Code cannot explain a non-finite value.
+    /// Compiles the formula into bare code, without the tree. Bare code needs less memory, but cannot explain a non-finite value.
     ///
     /// # Errors
     /// If the formula is nested too deeply.
@@ -24,7 +24,7 @@ impl Resolved {
             needs: needs(self),
             resolved: self,
             code: Vec::new(),
-            // The remaining tasks, the next one last. A list instead of recursion: the tree of a long sum is deep.
+            // The remaining tasks; the last one is done next. This list replaces recursion, because the tree of a long sum is deep.
             tasks: vec![Task::Value { id: self.root, depth: 0, to: 0 }],
             jumps: Vec::new(),
             deepest: 0,
@@ -42,26 +42,26 @@ impl Resolved {
     }
 }
 
-/// A remaining task.
+/// A remaining task of the compiler.
 #[derive(Clone, Copy)]
 enum Task {
-    /// Emits code that computes a part into the accumulator. The first `depth` places of the stack are taken. The code
-    /// first saves the old accumulator at the place `to` of the stack.
+    /// Emits code that computes a subexpression into the accumulator. The first `depth` stack entries are in use. The code first saves the
+    /// old accumulator in the stack entry `to`.
     Value {
         id: Id,
         depth: usize,
         to: usize,
     },
     Instruction(I),
-    /// Follows a condition: emits a jump to the second branch, for a condition that is zero.
+    /// After the code of a condition: emits a jump to the second branch, taken if the condition is zero.
     Then,
-    /// Follows the first branch: emits a jump past the second branch.
+    /// After the first branch: emits a jump to the end of the second branch.
     Otherwise,
-    /// Follows the second branch: sets the target of the jump past that branch.
+    /// After the second branch: sets the target of the jump at the end of the first branch.
     End,
 }
 
-/// An operand that fits into an instruction: the number of an input, or a constant.
+/// An operand that an instruction contains: the index of an input (`V`) or a constant (`C`).
 #[derive(Clone, Copy)]
 enum Leaf {
     V(u32),
@@ -69,18 +69,18 @@ enum Leaf {
 }
 
 struct Emitter<'a> {
-    /// The number of stack places that each part needs.
+    /// The number of stack entries that the code of each subexpression needs, by id.
     needs: Vec<usize>,
     resolved: &'a Resolved,
     code: Vec<I>,
     tasks: Vec<Task>,
-    /// The places of jump instructions whose targets are not known yet.
+    /// The positions, in `code`, of jump instructions whose targets are not known yet.
     jumps: Vec<usize>,
     deepest: usize,
 }
 
-/// The number of stack places that each part needs. Of two operands, the one that needs more places is computed first,
-/// which keeps the numbers low (Sethi and Ullman).
+/// Computes the number of stack entries that the code of each subexpression needs (Sethi–Ullman numbers). Of two operands, the one that
+/// needs more entries is computed first, which keeps the stack small.
 fn needs(resolved: &Resolved) -> Vec<usize> {
     let mut needs: Vec<usize> = Vec::with_capacity(resolved.nodes.len());
     for node in &resolved.nodes {
@@ -119,14 +119,14 @@ impl Emitter<'_> {
         }
     }
 
-    /// Replaces the last jump without a target by `jump`.
+    /// Replaces the most recent jump without a target by `jump`, which has one.
     fn aim(&mut self, jump: I) {
         if let Some(place) = self.jumps.pop() {
             self.code[place] = jump;
         }
     }
 
-    /// Puts tasks before all other remaining tasks. The tasks run in the given order.
+    /// Schedules tasks before all remaining tasks. The new tasks run in the given order.
     fn next<const N: usize>(&mut self, tasks: [Task; N]) {
         self.tasks.extend(tasks.into_iter().rev());
     }
@@ -140,7 +140,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The two factors of a part that multiplies an input by an input or a constant.
+    /// Returns the two factors of a subexpression that multiplies an input by another input or by a constant. `None` for all other
+    /// subexpressions.
     fn product(&self, id: Id) -> Option<(u32, Leaf)> {
         let Value::Binary(Binary::Multiply, a, b) = self.resolved.nodes[id].value else { return None };
         match (self.leaf(a)?, self.leaf(b)?) {
@@ -200,7 +201,7 @@ impl Emitter<'_> {
         self.next([Task::Value { id: a, depth, to }, Task::Instruction(instruction)]);
     }
 
-    /// Emits any operation on two operands. The operand that needs more stack places is computed first.
+    /// Emits code for an operation on two operands of any kind. The operand that needs more stack entries is computed first.
     #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
     fn binary(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) {
         let at = depth as u8;
@@ -230,8 +231,8 @@ impl Emitter<'_> {
         ]);
     }
 
-    /// Emits arithmetic on an operand that fits into the instruction. Returns `false`, and emits nothing, if no operand
-    /// fits.
+    /// Emits an arithmetic operation if an input or a constant among its operands fits into the instruction. Returns `false`, and emits
+    /// nothing, if neither operand does.
     fn arithmetic(&mut self, operation: Binary, a: Id, b: Id, depth: usize, to: usize) -> bool {
         let (left, right) = (self.leaf(a), self.leaf(b));
         if let Some(instruction) = both(operation, left, right, to) {
@@ -270,7 +271,8 @@ impl Emitter<'_> {
         true
     }
 
-    /// The part x and the instruction for `x*v + c`, if x itself is neither an input nor a constant.
+    /// Returns the subexpression x and the instruction for `x*v + c`, if `a` and `b` are the operands of that form, and x is neither an
+    /// input nor a constant.
     fn horner(&self, operation: Binary, a: Id, b: Id) -> Option<(Id, I)> {
         let (sum, c) = match (operation, self.leaf(a), self.leaf(b)) {
             (Binary::Add, _, Some(Leaf::C(c))) => (a, c),
@@ -287,7 +289,8 @@ impl Emitter<'_> {
     }
 }
 
-/// The instruction that contains both operands. It subtracts a constant by adding the negative constant.
+/// Returns the single instruction for an operation on two inputs, or on an input and a constant. Subtracting a constant becomes adding its
+/// negative.
 #[allow(clippy::cast_possible_truncation, reason = "deeper than the stack is an error in the end")]
 fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -> Option<I> {
     let to = to as u8;
@@ -310,7 +313,7 @@ fn both(operation: Binary, left: Option<Leaf>, right: Option<Leaf>, to: usize) -
     })
 }
 
-/// The operand to compute first, and the instruction that contains the other operand.
+/// Returns the operand to compute into the accumulator, and the instruction that contains the other operand (an input or a constant).
 fn one(operation: Binary, a: Id, b: Id, left: Option<Leaf>, right: Option<Leaf>) -> Option<(Id, I)> {
     Some(match (operation, left, right) {
         (Binary::Add, _, Some(Leaf::V(v))) => (a, I::AddV { v }),

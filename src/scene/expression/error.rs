@@ -6,31 +6,31 @@ use std::ops::Range;
 /// One mistake in a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// The kind of mistake: `formula-syntax`.
+    /// The code of the error, such as `formula-syntax`.
     pub code: Code,
-    /// The bytes of the formula that are wrong.
+    /// The byte range of the mistake within the formula.
     pub range: Range<usize>,
-    /// The mistake, in one line.
+    /// The description of the mistake, in one line.
     pub message: String,
-    /// The remark at the place; may be empty.
+    /// The remark that is shown below the marked text. May be empty.
     pub label: String,
-    /// How to mend it, if there is more to say.
+    /// Advice on how to correct the formula, if there is more to say than in the label.
     pub help: Option<String>,
-    /// The text that belongs in the place of those bytes, if it is known.
+    /// The text that should replace the bytes in `range`, if a correction is known.
     pub fix: Option<Box<str>>,
 }
 
-/// Creates an error with a code, the wrong bytes of the formula, and a message. It has no label, help or fix yet.
+/// Creates an error from a code, the byte range of the mistake, and a message. The error has no label, help or fix yet.
 pub(super) fn error(code: Code, range: Range<usize>, message: impl Into<String>) -> ExpressionError {
     ExpressionError { code, range, message: message.into(), label: String::new(), help: None, fix: None }
 }
 
-/// A mistake in how a formula is written.
+/// Creates an error for wrong syntax in a formula.
 pub(super) fn syntax(range: Range<usize>, message: impl Into<String>) -> ExpressionError {
     error(Code::FormulaSyntax, range, message)
 }
 
-/// The error for a formula whose consequences are too many to follow.
+/// Creates the error for a formula of a motion that is too complicated to analyze.
 pub(in crate::scene) fn too_intricate(range: Range<usize>, message: &str) -> ExpressionError {
     syntax(range, message).help("write it in a simpler way, or give the motion by keyframes or a file")
 }

@@ -1,4 +1,4 @@
-//! Evaluates a formula strictly, and finds the first operation whose value is not finite.
+//! Evaluates a formula step by step and finds the first operation whose value is not finite.
 
 use super::error::{ExpressionError, error};
 use super::operation::{Binary, Ternary, Unary};
@@ -7,10 +7,11 @@ use super::resolve::{Resolved, Value};
 use crate::diagnostic::Code;
 
 impl Resolved {
-    /// The value of the formula. `inputs` are the numbers for the slots of the scope, then the numbers for the draws.
+    /// Returns the value of the formula. `inputs` are the numbers for the slots of the scope, followed by the random numbers.
     ///
     /// # Errors
-    /// The first operation with a non-finite value, even if the result is finite: `min(1/0, 5)` is an error.
+    /// If any operation has a non-finite value, even if the result is finite: `min(1/0, 5)` is an error. The error describes the first of
+    /// these operations.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -24,7 +25,7 @@ impl Resolved {
         }
     }
 
-    /// The values of all parts, including the parts that the result does not use.
+    /// Computes the values of all subexpressions, including those that the result does not depend on.
     pub(super) fn values(&self, inputs: &[f64]) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
@@ -41,7 +42,7 @@ impl Resolved {
         values
     }
 
-    /// Explains why the value is not finite, with the place in the formula. `None` if the value is finite.
+    /// Explains why the value of the formula is not finite, with the position in the text. `None` if all steps have finite values.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -49,7 +50,7 @@ impl Resolved {
         self.culprit(&self.values(inputs))
     }
 
-    /// Explains the first non-finite value among the parts that the result depends on.
+    /// Explains the first non-finite value among the subexpressions that the result depends on. `None` if all of them are finite.
     fn culprit(&self, values: &[f64]) -> Option<ExpressionError> {
         let mut is_used = vec![false; self.nodes.len()];
         is_used[self.root] = true;
@@ -72,7 +73,7 @@ impl Resolved {
                 }
             }
         }
-        // Operands have smaller ids than the operations that use them. So the operands of the first non-finite part are
+        // Operands have smaller ids than the operations that use them. Therefore, the operands of the first non-finite subexpression are
         // finite.
         first.map(|id| self.explain(id, values))
     }
@@ -145,7 +146,7 @@ fn sign(operation: Binary) -> Option<char> {
     }
 }
 
-/// Writes a number as in a formula. Very large and very small numbers get an exponent.
+/// Formats a number as it would be written in a formula. Very large and very small numbers get an exponent.
 fn figure(number: f64) -> String {
     if number == 0.0 || (1e-5..1e15).contains(&number.abs()) {
         number.to_string()

@@ -1,4 +1,4 @@
-//! Builds the tree of a resolved formula and computes its constant parts.
+//! Builds the expression tree of a formula and computes constant subexpressions (constant folding).
 
 use std::ops::Range;
 
@@ -6,10 +6,9 @@ use super::operation::{Binary, Ternary, Unary};
 use super::parser::Id;
 use super::resolve::{Node, Value};
 
-/// A tree under construction.
+/// Builds the expression tree of a formula.
 ///
-/// A constant part with a non-finite value stays an operation, so that an evaluation can name the operation that
-/// failed.
+/// A constant subexpression with a non-finite value stays an operation, so that the error of a later evaluation can name that operation.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) nodes: Vec<Node>,
@@ -32,7 +31,7 @@ impl Builder {
     pub(super) fn binary(&mut self, operation: Binary, a: Id, b: Id, range: Range<usize>) -> Id {
         let folded = self.known(a).zip(self.known(b)).map(|(a, b)| operation.apply(a, b));
         let value = match (operation, self.known(b)) {
-            // The product has the same bits as the power.
+            // x·x has the same bits as x² and needs no function call.
             (Binary::Power, Some(2.0)) if matches!(self.nodes[a].value, Value::Slot(_)) => {
                 Value::Binary(Binary::Multiply, a, a)
             }
@@ -51,7 +50,7 @@ impl Builder {
 
     pub(super) fn choice(&mut self, condition: Id, then: Id, otherwise: Id, range: Range<usize>) -> Id {
         match self.known(condition) {
-            // Copy the branch, so that the last node is the root.
+            // The chosen branch is copied to the end, because the last node must be the root of the tree.
             Some(0.0) => self.push(self.nodes[otherwise].value, range),
             Some(_) => self.push(self.nodes[then].value, range),
             None => self.push(Value::If(condition, then, otherwise), range),

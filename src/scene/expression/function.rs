@@ -4,35 +4,35 @@ use std::f64::consts;
 
 use super::operation::{Binary, Ternary, Unary};
 
-/// The constants: name, value, meaning.
+/// The constants that every formula knows, each with its name, value and meaning.
 pub static CONSTANTS: &[(&str, f64, &str)] = &[
     ("pi", consts::PI, "half the circumference of a circle of radius 1"),
     ("tau", consts::TAU, "2 pi, a full turn"),
     ("e", consts::E, "the base of the natural logarithm"),
 ];
 
-/// A function of formulas.
+/// A function that formulas can call.
 #[derive(Debug)]
 pub struct Function {
     /// The name of the function.
     pub name: &'static str,
     /// The names of the parameters, in order.
     pub parameters: &'static [&'static str],
-    /// Whether the function takes more arguments, each like the last parameter.
+    /// True if the function takes further arguments of the same kind as its last parameter, as `max(x, y, …)` does.
     pub is_open: bool,
     /// The meaning of the function, in a phrase.
     pub meaning: &'static str,
-    /// The computation of the function.
+    /// The operation that computes the function.
     pub(super) work: Work,
 }
 
-/// The computation of a function.
+/// How a function of formulas is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Work {
     One(Unary),
     Two(Binary),
     Three(Ternary),
-    /// Applies the operation to the first two arguments, then to the result and the next argument, and so on.
+    /// Applies the operation to the first two arguments, then to that result and the next argument, and so on.
     Chain(Binary),
     Clamp,
     If,
@@ -53,7 +53,7 @@ const fn one(name: &'static str, operation: Unary, meaning: &'static str) -> Fun
     new(name, &["x"], Work::One(operation), meaning)
 }
 
-/// All functions, in the order of the documentation.
+/// All functions of formulas, in the order of the documentation.
 pub static FUNCTIONS: &[Function] = &[
     one("sin", Unary::Sin, "the sine of an angle in radians"),
     one("cos", Unary::Cos, "the cosine of an angle in radians"),
@@ -104,24 +104,24 @@ pub static FUNCTIONS: &[Function] = &[
 ];
 
 impl Function {
-    /// The function with this name.
+    /// Returns the function with this name, or `None` if no function has the name.
     pub fn named(name: &str) -> Option<&'static Function> {
         FUNCTIONS.iter().find(|function| function.name == name)
     }
 
-    /// Whether the function can take `count` arguments.
+    /// Returns true if the function can be called with `count` arguments.
     pub(super) fn takes(&self, count: usize) -> bool {
         count == self.parameters.len() || (self.is_open && count > self.parameters.len())
     }
 
-    /// The function as a call: `atan2(y, x)`.
+    /// Formats the function as a call with its parameters: `atan2(y, x)`.
     pub fn usage(&self) -> String {
         let more = if self.is_open { ", …" } else { "" };
         format!("{}({}{more})", self.name, self.parameters.join(", "))
     }
 }
 
-/// The value of the constant with this name.
+/// Returns the value of the constant with this name, such as `pi`.
 pub(super) fn constant(name: &str) -> Option<f64> {
     CONSTANTS.iter().find(|(constant, ..)| *constant == name).map(|(_, value, _)| *value)
 }

@@ -1,8 +1,9 @@
-//! Symbols and functions of other programs, with the equivalents in formulas.
+//! Recognizes symbols and functions of other languages in formulas, and suggests their equivalents.
 
 use super::error::{ExpressionError, syntax};
 
-/// The error for a symbol that formulas must not contain. `rest` begins with the symbol; `start` is its place in the formula.
+/// Returns the error for a symbol that formulas must not contain. `rest` is the text from the symbol on; `start` is the symbol's byte
+/// offset in the formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     const SYMBOLS: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
@@ -54,7 +55,7 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
             None => error,
         };
     }
-    // Report a name in another alphabet as one mistake, not as one for each letter.
+    // A word in another alphabet is one mistake, not one mistake per letter.
     let first = rest.chars().next().map_or(0, char::len_utf8);
     let letters: usize = rest.chars().take_while(|c| c.is_alphanumeric()).map(char::len_utf8).sum();
     let word = &rest[..letters.max(first)];
@@ -63,7 +64,7 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
     if letters > 0 { error.label("a name is made of the letters a to z, digits and `_`") } else { error }
 }
 
-/// The error for a degree sign. Its range includes the number before the sign.
+/// Returns the error for a degree sign at the byte offset `at`. The range of the error includes the number before the sign.
 pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
     let before = text[..at].trim_end();
     let number = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
@@ -75,7 +76,7 @@ pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
     }
 }
 
-/// The equivalent of a function of another program, as advice.
+/// Returns advice on how to write a function that other languages know by this name.
 pub(super) fn function(name: &str) -> Option<&'static str> {
     const FUNCTIONS: [(&str, &str); 22] = [
         ("log", "write `ln` for the natural logarithm, `log10` or `log2`"),

@@ -10,7 +10,7 @@ use super::habits;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token {
     Number(f64),
-    /// A name. Its text is the range of the token.
+    /// A name. Its text is found by the token's range.
     Name,
     Or,
     And,
@@ -34,7 +34,7 @@ pub(super) enum Token {
     End,
 }
 
-/// Reads the tokens of a text, one at a time.
+/// Splits the text of a formula into tokens, one at a time.
 pub(super) struct Lexer<'a> {
     text: &'a str,
     place: usize,
@@ -45,7 +45,7 @@ impl<'a> Lexer<'a> {
         Lexer { text, place: 0 }
     }
 
-    /// Reads the next token. Returns the token and its range in the text.
+    /// Reads the next token. Returns the token and its byte range in the text.
     pub(super) fn next(&mut self) -> Result<(Token, Range<usize>), ExpressionError> {
         let rest = &self.text[self.place..];
         let rest = rest.trim_start();
@@ -92,7 +92,7 @@ fn name(rest: &str) -> (Token, usize) {
     (token, length)
 }
 
-/// Reads a number at the start of a text: `1`, `1.5`, `.5`, `1e-3`, `1_000`.
+/// Reads the number at the beginning of `rest`, such as `1`, `1.5`, `.5`, `1e-3` or `1_000`. Returns the token and its length in bytes.
 fn number(rest: &str, start: usize) -> Result<(Token, usize), ExpressionError> {
     let bytes = rest.as_bytes();
     let digits = |from: usize| {
@@ -106,7 +106,7 @@ fn number(rest: &str, start: usize) -> Result<(Token, usize), ExpressionError> {
     }
     if matches!(bytes.get(length), Some(b'e' | b'E')) {
         let sign = usize::from(matches!(bytes.get(length + 1), Some(b'+' | b'-')));
-        // `2e` may be an attempt to multiply by e. The parser reports the missing operator later.
+        // In `2e`, the `e` may be the constant e: the number is 2, and the parser reports that an operator is missing.
         if bytes.get(length + 1 + sign).is_some_and(u8::is_ascii_digit) {
             length += 1 + sign;
             length += digits(length);

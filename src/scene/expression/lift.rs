@@ -1,5 +1,5 @@
-//! Turns the numbers of formulas into inputs. Formulas that differ only in their numbers, as the formulas of copies do,
-//! then share one program.
+//! Turns the constants of formulas into inputs. Formulas that differ only in their constants, such as those of copies, then share one
+//! program.
 
 use std::collections::HashMap;
 
@@ -7,16 +7,16 @@ use super::operation::{Binary, whole_exponent};
 use super::parser::Id;
 use super::resolve::{Node, Resolved, Value};
 
-/// The numbers of formulas, without repetition. As inputs, they come after the inputs for the names.
+/// The distinct constants of formulas. A program takes them as inputs, after the inputs for the formulas' variables.
 #[derive(Default)]
 pub struct Constants {
     values: Vec<f64>,
-    /// The index in `values` of each number, by the bits of the number.
+    /// The index in `values` of each constant. The key is the bits of the constant.
     places: HashMap<u64, usize>,
 }
 
 impl Constants {
-    /// The numbers, in the order of the inputs.
+    /// Returns the constants, in the order in which a program takes them as inputs.
     pub fn into_values(self) -> Box<[f64]> {
         self.values.into()
     }
@@ -32,10 +32,10 @@ impl Constants {
 }
 
 impl Resolved {
-    /// The same formula with its numbers as inputs, after the inputs for the names, and without unused parts. It
-    /// computes the same bits, since instructions on constants and on inputs do the same arithmetic.
+    /// Returns the same formula with its constants as inputs, placed after the inputs for the variables, and without unused
+    /// subexpressions. The result has the same bits, because instructions on constants and on inputs do the same arithmetic.
     ///
-    /// Whole exponents stay constants, since each has its own sequence of products.
+    /// Small whole exponents stay constants, because each of them is computed by its own sequence of products.
     pub fn lifted(&self, constants: &mut Constants) -> Resolved {
         let (is_used, is_exponent) = self.uses();
         let mut nodes: Vec<Node> = Vec::new();
@@ -58,12 +58,13 @@ impl Resolved {
         lifted
     }
 
-    /// For each part, whether the value depends on the part.
+    /// Returns, for each subexpression by its id, true if the value of the formula depends on it.
     pub(super) fn parts_in_use(&self) -> Vec<bool> {
         self.uses().0
     }
 
-    /// For each part, whether the value depends on the part, and whether the part is a whole exponent.
+    /// Returns two lists with an item for each subexpression: true if the value of the formula depends on it, and true if it is a whole
+    /// exponent.
     fn uses(&self) -> (Vec<bool>, Vec<bool>) {
         let mut is_used = vec![false; self.nodes.len()];
         let mut is_exponent = vec![false; self.nodes.len()];
@@ -85,7 +86,7 @@ impl Resolved {
         (is_used, is_exponent)
     }
 
-    /// Appends the formula as words, a key for its program: formulas with the same words have the same program.
+    /// Appends an encoding of the formula to `words`. Formulas with the same encoding have the same program.
     pub fn spell(&self, words: &mut Vec<u64>) {
         for node in &self.nodes {
             let (kind, operation) = match node.value {
@@ -103,18 +104,18 @@ impl Resolved {
                 value => words.extend(operands(value).map(|operand| operand as u64)),
             }
         }
-        // No part begins with `u64::MAX`, so the word marks the end of the parts.
+        // No subexpression is encoded by a first word of `u64::MAX`, so this word marks the end of the subexpressions.
         words.extend([u64::MAX, self.root as u64]);
     }
 
-    /// The range in the text of each part: start and end, in bytes.
+    /// Returns the range of each subexpression in the text of the formula: its start and end, in bytes.
     pub fn ranges(&self) -> Box<[[u32; 2]]> {
         #[allow(clippy::cast_possible_truncation, reason = "a formula is at most ten thousand bytes long")]
         let range = |node: &Node| [node.range.start as u32, node.range.end as u32];
         self.nodes.iter().map(range).collect()
     }
 
-    /// The same formula with other ranges in a text: see [`Resolved::ranges`].
+    /// Returns the same formula, with its subexpressions at other ranges of a text: see [`Resolved::ranges`].
     #[must_use]
     pub fn at(&self, ranges: &[[u32; 2]]) -> Resolved {
         let nodes = self

@@ -1,9 +1,9 @@
-//! Formulas: compiles the text of an expression into a small program that is evaluated millions of times.
+//! The language of formulas: compiles the text of an expression into a small program that can be evaluated millions of times.
 //!
-//! This takes three steps. [`Formula::parse`] reads the text. [`Formula::resolve`] looks up the names in a [`Scope`]
-//! and computes constant parts. [`Resolved::compile`] makes a [`Program`] for an inner loop. [`Program::compile`] does
-//! all three steps. [`Resolved::value`] computes a value that is needed only once. It is strict: the first operation
-//! with a non-finite result is an error at its place.
+//! Compiling takes three steps. [`Formula::parse`] reads the text. [`Formula::resolve`] looks up the names in a [`Scope`] and computes
+//! constant subexpressions. [`Resolved::compile`] makes a [`Program`] for an inner loop. [`Program::compile`] does all three steps.
+//! [`Resolved::value`] computes a value that is needed only once. It is strict: it returns an error, with its position, for the first
+//! operation that has a non-finite result.
 //!
 //! ```
 //! use jabuka::scene::expression::{Program, Scope};

@@ -1,7 +1,7 @@
-//! The operations on numbers in formulas.
+//! The arithmetic operations of formulas.
 //!
-//! Constant folding, the search for a non-finite operation, and the compiled program all use these definitions. So all
-//! three give the same bits.
+//! Constant folding, the search for a non-finite operation, and the compiled program all use these definitions, so all three compute the
+//! same bits.
 
 /// An operation on one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub(super) enum Ternary {
 }
 
 impl Unary {
-    /// The function that computes the operation.
+    /// Returns the function that computes the operation.
     pub(super) fn function(self) -> fn(f64) -> f64 {
         match self {
             Unary::Negate => |x| -x,
@@ -104,7 +104,7 @@ impl Unary {
 }
 
 impl Binary {
-    /// The function that computes the operation.
+    /// Returns the function that computes the operation.
     pub(super) fn function(self) -> fn(f64, f64) -> f64 {
         match self {
             Binary::Add => |x, y| x + y,
@@ -121,7 +121,7 @@ impl Binary {
             Binary::NotEqual => |x, y| truth(x != y),
             Binary::Atan2 => libm::atan2,
             Binary::Hypot => libm::hypot,
-            // `f64::min` would drop a NaN. Here, the result is NaN if either number is NaN.
+            // `f64::min` and `f64::max` would ignore a NaN. These functions return NaN if either argument is NaN.
             Binary::Min => |x, y| if x < y || x.is_nan() { x } else { y },
             Binary::Max => |x, y| if x > y || x.is_nan() { x } else { y },
             Binary::Step => |edge, x| if x < edge { 0.0 } else { 1.0 },
@@ -134,7 +134,7 @@ impl Binary {
 }
 
 impl Ternary {
-    /// The function that computes the operation.
+    /// Returns the function that computes the operation.
     pub(super) fn function(self) -> fn(f64, f64, f64) -> f64 {
         match self {
             Ternary::Lerp => |from, to, part| from + (to - from) * part,
@@ -164,23 +164,24 @@ fn sign(x: f64) -> f64 {
     }
 }
 
-/// The remainder with the sign of the divisor: `mod(-1, 4)` is 3. Rust's `%` computes the remainder without rounding.
+/// Returns the remainder of x / y with the sign of the divisor y: `mod(-1, 4)` is 3. Rust's `%` takes the sign of x instead; its result is
+/// exact.
 fn modulo(x: f64, y: f64) -> f64 {
     let rest = x % y;
     if rest != 0.0 && (rest < 0.0) != (y < 0.0) { rest + y } else { rest }
 }
 
-/// The largest magnitude of an exponent for which a power is computed as a product.
+/// The largest magnitude of a whole exponent for which a power is computed by repeated multiplication.
 const MOST: f64 = 16.0;
 
-/// The exponent as an integer, if the power is computed as a product.
+/// Returns the exponent as an integer if the power is computed by repeated multiplication: a whole number from -16 to 16.
 #[allow(clippy::cast_possible_truncation, reason = "it is a whole number from -16 to 16")]
 pub(super) fn whole_exponent(y: f64) -> Option<i32> {
     (y.abs() <= MOST && y.trunc() == y).then_some(y as i32)
 }
 
-/// x to the power of y. Small whole powers are products, which are faster than `pow`, and exact if the product is
-/// exact.
+/// Computes x to the power of y. Small whole powers are computed by multiplication, which is faster than `pow`, and exact if all products
+/// are exact.
 fn power(x: f64, y: f64) -> f64 {
     match whole_exponent(y) {
         Some(exponent) => whole_power(x, exponent),
@@ -188,7 +189,7 @@ fn power(x: f64, y: f64) -> f64 {
     }
 }
 
-/// x to a whole power, as a product. For a negative exponent, the inverse of the product.
+/// Computes x to a whole power by multiplication. For a negative exponent, takes the reciprocal of the product.
 pub(super) fn whole_power(x: f64, exponent: i32) -> f64 {
     let magnitude = match exponent.unsigned_abs() {
         0 => 1.0,

@@ -1,4 +1,4 @@
-//! Parses tokens into the tree of a formula, by operator precedence (Pratt's method).
+//! Parses the tokens of a formula into an expression tree, by operator precedence (a Pratt parser).
 
 use std::ops::Range;
 
@@ -9,36 +9,36 @@ use super::lexer::{Lexer, Token};
 use super::operation::{Binary, Unary};
 use crate::diagnostic::{Code, nearest};
 
-/// The largest length of a formula, bytes.
+/// The maximum length of a formula, in bytes.
 pub const MAX_LENGTH: usize = 10_000;
-/// The largest nesting depth of operands. A parenthesis after an operator counts as two levels.
+/// The maximum nesting depth of a formula. A parenthesis after an operator counts as two levels.
 const MAX_DEPTH: usize = 200;
 
-/// A parsed formula. Its names are not looked up yet.
+/// A parsed formula, before its names are looked up.
 ///
-/// Operands come before the operations that use them, so that a loop over the nodes replaces recursion.
+/// Operands come before the operations that use them, so a loop over the nodes evaluates the tree without recursion.
 #[derive(Clone, Debug)]
 pub struct Formula {
     text: Box<str>,
-    /// The nodes of the tree. The last one is the root.
+    /// The nodes of the expression tree. The last one is the root.
     pub(super) nodes: Vec<Node>,
 }
 
-/// The index of a node in its tree.
+/// The index of a node in the list of its tree.
 pub(super) type Id = usize;
 
-/// A part of a formula, and its range in the text.
+/// A subexpression of a formula, with its byte range in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) part: Part,
     pub(super) range: Range<usize>,
 }
 
-/// A part of a formula.
+/// A subexpression of a parsed formula.
 #[derive(Clone, Debug)]
 pub(super) enum Part {
     Number(f64),
-    /// The range of a name in the text, without parentheses around the name.
+    /// The byte range of a name in the text. The range excludes parentheses around the name.
     Name(Range<usize>),
     Unary(Unary, Id),
     Binary(Binary, Id, Id),
@@ -48,7 +48,7 @@ pub(super) enum Part {
 }
 
 impl Formula {
-    /// Parses a formula.
+    /// Parses the text of a formula.
     ///
     /// # Errors
     /// If the syntax is wrong, a function is unknown, or a function has too many or too few arguments.
@@ -75,7 +75,8 @@ impl Formula {
         &self.text
     }
 
-    /// The names in the formula and their ranges, in order and with repetitions. Names of functions are not included.
+    /// Iterates over the variables and constants that the formula names, with their byte ranges. Repeated names are repeated; functions
+    /// are not included.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
         self.nodes.iter().filter_map(|node| match &node.part {
             Part::Name(range) => Some((&self.text[range.clone()], range.clone())),
@@ -87,18 +88,18 @@ impl Formula {
 struct Parser<'a> {
     text: &'a str,
     lexer: Lexer<'a>,
-    /// The next token. `range` is its range in the text.
+    /// The next token of the formula. `range` is its byte range.
     token: Token,
     range: Range<usize>,
-    /// The range of the previous token.
+    /// The byte range of the previous token.
     before: Range<usize>,
     nodes: Vec<Node>,
     depth: usize,
-    /// Errors that do not stop the parser.
+    /// Errors after which the parser could continue.
     errors: Vec<ExpressionError>,
 }
 
-/// The left and right binding strength of an operator between two operands. `None` for other tokens.
+/// Returns the left and the right binding power of a binary operator. `None` for other tokens.
 fn power(token: Token) -> Option<(u8, u8)> {
     match token {
         Token::Or => Some((1, 2)),
@@ -111,17 +112,17 @@ fn power(token: Token) -> Option<(u8, u8)> {
         | Token::NotEqual => Some((COMPARISON, COMPARISON + 1)),
         Token::Plus | Token::Minus => Some((9, 10)),
         Token::Star | Token::Slash | Token::Percent => Some((11, 12)),
-        // `^` groups from the right: 2^3^2 is 2^9.
+        // `^` is right-associative: 2^3^2 is 2^9.
         Token::Caret => Some((16, 15)),
         _ => None,
     }
 }
 
-/// The right binding strength of `not`.
+/// The right binding power of `not`.
 const NOT: u8 = 5;
-/// The binding strength of comparisons.
+/// The left binding power of comparisons.
 const COMPARISON: u8 = 7;
-/// The right binding strength of signs: stronger than `*`, weaker than `^`.
+/// The right binding power of the signs `-` and `+`: higher than that of `*`, lower than that of `^`.
 const SIGN: u8 = 13;
 
 impl<'a> Parser<'a> {
@@ -162,7 +163,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Parses one operand, and the operators after it whose binding strength is at least `least`.
+    /// Parses an operand and all following operators whose binding power is at least `least`. Returns the id of the subexpression.
     fn expression(&mut self, least: u8) -> Result<Id, ExpressionError> {
         if self.depth >= MAX_DEPTH {
             let message = "too many parentheses, signs or powers stand in each other";
@@ -203,7 +204,7 @@ impl<'a> Parser<'a> {
             Token::Open => {
                 let inner = self.expression(0)?;
                 self.close(&range, "")?;
-                // The range of a part in parentheses includes the parentheses.
+                // The range of a subexpression in parentheses includes the parentheses.
                 self.nodes[inner].range = range.start..self.before.end;
                 Ok(inner)
             }
@@ -227,8 +228,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reads the closing parenthesis for the opening one at `open`. `between` is help for an error: it says what else
-    /// is allowed here.
+    /// Reads the closing parenthesis that belongs to the one at `open`. `between` is the advice for an error: it names the separator that
+    /// is allowed within these parentheses.
     fn close(&mut self, open: &Range<usize>, between: &str) -> Result<(), ExpressionError> {
         match self.token {
             Token::Close => self.advance(),
@@ -240,7 +241,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The error for an operand that directly follows another operand.
+    /// Returns the error for two operands without an operator between them.
     fn no_operator(&self) -> ExpressionError {
         let (first, second) = (&self.text[self.before.clone()], &self.text[self.range.clone()]);
         if Function::named(first).is_some() {
@@ -250,7 +251,7 @@ impl<'a> Parser<'a> {
         let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
         let both = self.before.start..self.range.end;
         if !is_name && matches!(self.token, Token::Name | Token::Open) {
-            // `2x`, `2(x + 1)` and `(a)(b)` are clearly meant as products.
+            // `2x`, `2(x + 1)` and `(a)(b)` are clearly meant as products, so a correction is suggested.
             let units = if crate::scene::units::is_unit(second) { "; units are not written" } else { "" };
             return syntax(both, "an operator is missing")
                 .label(format!("write `{first}*{second}` to multiply{units}"))
@@ -260,7 +261,7 @@ impl<'a> Parser<'a> {
             .label(format!("nothing stands between `{first}` and `{second}`"))
     }
 
-    /// Parses the arguments of a function. The parser has read the name already, at the range `name`.
+    /// Parses the arguments of a function call. The parser has already read the function's name, at the range `name`.
     fn call(&mut self, name: Range<usize>) -> Result<Id, ExpressionError> {
         let word = &self.text[name.clone()];
         let open = self.range.clone();
@@ -312,7 +313,7 @@ fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
     let folded = word.to_lowercase();
     match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
         (Some(habit), _) => {
-            // Offer a fix only if the name is all that changes.
+            // A correction is offered only if it is enough to replace the name of the function.
             let name = habit.strip_prefix("write `").and_then(|rest| rest.strip_suffix('`'));
             let name = name.filter(|name| FUNCTIONS.iter().any(|function| function.name == *name));
             let error = error.label(habit);

@@ -1,8 +1,7 @@
 //! A compiled formula: a list of instructions for a machine with an accumulator and a small stack.
 //!
-//! Most instructions contain their operands, so `-k*x - c*v` has only four instructions. Most of the time of an
-//! evaluation goes into the steps from one instruction to the next. The stack is a local array, so an evaluation
-//! allocates nothing.
+//! Dispatching instructions takes most of the time of an evaluation. Most instructions contain their operands, so `-k*x - c*v` has only
+//! four instructions. The stack is a local array, so an evaluation allocates no memory.
 
 use super::error::ExpressionError;
 use super::operation::whole_power;
@@ -10,19 +9,19 @@ use super::parser::Formula;
 use super::resolve::Resolved;
 use super::scope::Scope;
 
-/// A compiled formula, for many evaluations. Its `Debug` text shows the formula, not the code: the code contains
-/// addresses, which change from run to run.
+/// A compiled formula that can be evaluated many times. Its `Debug` text shows the formula in place of the code, because the code contains
+/// function addresses, which change from run to run.
 #[derive(Clone)]
 pub struct Program {
     pub(super) code: Code,
     resolved: Box<Resolved>,
 }
 
-/// The code of a program, without the formula.
+/// The instructions of a program, without the expression tree.
 #[derive(Clone)]
 pub struct Code {
     pub(super) instructions: Box<[Instruction]>,
-    /// The number of stack places that the code uses.
+    /// The number of stack entries that the code uses.
     pub(super) depth: usize,
 }
 
@@ -32,7 +31,7 @@ impl std::fmt::Debug for Program {
     }
 }
 
-/// The inputs of a program, by their indices.
+/// The inputs of a program, accessed by index.
 trait Inputs: Copy {
     fn at(self, place: u32) -> f64;
 }
@@ -44,7 +43,7 @@ impl Inputs for &[f64] {
     }
 }
 
-/// The inputs of a program: one number that changes, then numbers that are the same at every evaluation.
+/// The inputs of a program, in two parts: a first input that changes from evaluation to evaluation, and the inputs that stay the same.
 #[derive(Clone, Copy)]
 struct Before<'a>(f64, &'a [f64]);
 
@@ -58,19 +57,19 @@ impl Inputs for Before<'_> {
     }
 }
 
-/// The largest number of stack places that a program can use.
+/// The maximum number of stack entries that a program can use.
 pub(super) const MAX_STACK: usize = 256;
-/// The stack size for most programs. Each evaluation clears the stack, so a small stack is faster.
+/// The number of stack entries that is enough for most programs. Each evaluation clears the stack, so a smaller stack is faster.
 const SMALL_STACK: usize = 4;
 
-/// One instruction. `acc` is the accumulator, `v` and `w` are inputs, `c` is a constant.
+/// An instruction of a program. `acc` is the accumulator, `v` and `w` are indices of inputs, and `c` is a constant.
 ///
-/// An instruction that loads a new value first saves the accumulator at the place `to` of the stack. If the old value
-/// is not needed, `to` is a free place. `at` is the place of an operand on the stack.
+/// An instruction that loads a new value first saves the accumulator in the stack entry `to`. If the old value is not needed, `to` is an
+/// unused entry. `at` is the stack entry of an operand.
 #[derive(Clone, Copy, Debug)]
 #[rustfmt::skip]
 pub(super) enum Instruction {
-    // Load a new value into the accumulator.
+    // These instructions save the accumulator and load a new value into it.
     LoadV { to: u8, v: u32 },
     LoadC { to: u8, c: f64 },
     AddVV { to: u8, v: u32, w: u32 },
@@ -83,7 +82,7 @@ pub(super) enum Instruction {
     DivVC { to: u8, v: u32, c: f64 },
     DivCV { to: u8, v: u32, c: f64 },
     CallV { to: u8, v: u32, f: fn(f64) -> f64 },
-    // Combine the accumulator with an input or a constant.
+    // These instructions combine the accumulator with inputs or constants.
     AddV { v: u32 },
     AddC { c: f64 },
     SubV { v: u32 },
@@ -103,7 +102,7 @@ pub(super) enum Instruction {
     AddMulVC { v: u32, c: f64 },
     /// acc * v + c, as in Horner's scheme.
     MulVAddC { v: u32, c: f64 },
-    // Combine the accumulator with the stack.
+    // These instructions combine the accumulator with a stack entry.
     AddS { at: u8 },
     MulS { at: u8 },
     /// stack - acc
@@ -114,7 +113,7 @@ pub(super) enum Instruction {
     DivS { at: u8 },
     /// acc / stack
     DivAcc { at: u8 },
-    // Change the accumulator alone.
+    // These instructions change only the accumulator, from its own value or also from stack entries.
     Negate,
     Square,
     Cube,
@@ -125,18 +124,18 @@ pub(super) enum Instruction {
     Call2 { at: u8, f: fn(f64, f64) -> f64 },
     /// f(acc, stack)
     Call2Swapped { at: u8, f: fn(f64, f64) -> f64 },
-    /// f(stack, next stack place, acc)
+    /// f(stack, next stack entry, acc)
     Call3 { at: u8, f: fn(f64, f64, f64) -> f64 },
-    // Jump to another instruction.
+    // These instructions continue at another instruction.
     JumpIfZero { to: u32 },
     Jump { to: u32 },
 }
 
 impl Program {
-    /// Parses, resolves and compiles a formula.
+    /// Parses, resolves and compiles the text of a formula.
     ///
     /// # Errors
-    /// All mistakes in the formula.
+    /// All errors in the formula.
     pub fn compile(text: &str, scope: &Scope) -> Result<Program, Vec<ExpressionError>> {
         Formula::parse(text)?.resolve(scope)?.compile().map_err(|error| vec![error])
     }
@@ -145,13 +144,13 @@ impl Program {
         Program { code, resolved: Box::new(resolved) }
     }
 
-    /// The formula that the program was compiled from.
+    /// Returns the formula that the program was compiled from.
     pub fn resolved(&self) -> &Resolved {
         &self.resolved
     }
 
-    /// The value of the formula, which may be infinite or NaN: see [`Program::explain_non_finite`]. `inputs` are the
-    /// numbers for the slots of the scope, then the numbers for the draws.
+    /// Returns the value of the formula, which may be infinite or NaN: see [`Program::explain_non_finite`]. `inputs` are the numbers for
+    /// the slots of the scope, followed by the random numbers.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -160,7 +159,7 @@ impl Program {
         self.code.run(inputs)
     }
 
-    /// Explains why the value is not finite, with the place in the formula. `None` if the value is finite.
+    /// Explains why the value of the formula is not finite, with the position in the text. `None` if the value is finite.
     ///
     /// # Panics
     /// If there are fewer inputs than [`Resolved::inputs`].
@@ -170,7 +169,7 @@ impl Program {
 }
 
 impl Code {
-    /// The value for a first input and the inputs after it; see [`Program::eval`].
+    /// Evaluates the code. `first` is the first input and `rest` are all further inputs, as for [`Program::eval`].
     ///
     /// # Panics
     /// If there are fewer inputs than the code uses.
@@ -189,14 +188,13 @@ impl Code {
     }
 }
 
-/// Runs a program on a stack of `N` places. `N` is a power of two, and at least the number of places that the program
-/// uses.
+/// Runs a program with a stack of `N` entries. `N` is a power of two, and at least the number of entries that the program uses.
 fn run<const N: usize>(code: &[Instruction], inputs: impl Inputs) -> f64 {
     use Instruction as I;
     let mut stack = [0.0; N];
     let mut acc = 0.0;
     let mut next = 0;
-    // With the remainder, the compiler knows that the place is within the stack.
+    // The remainder proves to the compiler that the index is within the stack, so it omits the bounds check.
     macro_rules! stack {
         ($at:expr) => {
             stack[$at as usize % N]

@@ -1,4 +1,4 @@
-//! Resolves the names of a formula: each becomes a number or a slot.
+//! Resolves the names in a formula: each becomes a constant or the index of an input.
 
 use crate::diagnostic::Code;
 use std::ops::Range;
@@ -11,10 +11,10 @@ use super::parser::{Formula, Id, Part};
 use super::scope::{Binding, Scope};
 use crate::scene::units;
 
-/// A random number for one `uniform` or `normal` in a formula.
+/// The distribution of the random number that one `uniform` or `normal` in a formula needs.
 ///
-/// A formula draws no random numbers by itself. For each `uniform` and `normal`, in the order of the text, the caller
-/// passes one number after the inputs for the names.
+/// A formula draws no random numbers by itself. The caller passes a number for each `uniform` and `normal`, in the order of the text,
+/// after the inputs for the variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Draw {
     /// A number from 0 to 1, with uniform distribution.
@@ -23,24 +23,24 @@ pub enum Draw {
     Normal,
 }
 
-/// A formula with resolved names.
+/// A formula whose names have been resolved to constants and inputs.
 #[derive(Clone, Debug)]
 pub struct Resolved {
-    /// The nodes. Operands come before the operations that use them. Unused nodes may stand between.
+    /// The nodes of the expression tree. Operands come before the operations that use them. Some nodes may be unused.
     pub(super) nodes: Vec<Node>,
     pub(super) root: Id,
     pub(super) slots: usize,
     draws: Vec<Draw>,
 }
 
-/// A part of a resolved formula, and its range in the text.
+/// A subexpression of a resolved formula, with its byte range in the text.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) value: Value,
     pub(super) range: Range<usize>,
 }
 
-/// A part of a resolved formula.
+/// A subexpression of a resolved formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value {
     Constant(f64),
@@ -48,15 +48,15 @@ pub(super) enum Value {
     Unary(Unary, Id),
     Binary(Binary, Id, Id),
     Ternary(Ternary, Id, Id, Id),
-    /// The second part if the first is not 0, else the third. A program computes only one of the two.
+    /// A conditional: the second operand if the first is not 0, otherwise the third. A program computes only the one that is chosen.
     If(Id, Id, Id),
 }
 
 impl Formula {
-    /// Resolves the names of the formula.
+    /// Resolves the names in the formula to the constants and slots of the scope.
     ///
     /// # Errors
-    /// Unknown names, and random numbers if the scope does not allow them.
+    /// If a name is unknown, or if the formula uses random numbers and the scope does not allow them.
     pub fn resolve(&self, scope: &Scope) -> Result<Resolved, Vec<ExpressionError>> {
         let mut resolver =
             Resolver { scope, builder: Builder::default(), draws: Vec::new(), errors: Vec::new() };
@@ -78,17 +78,17 @@ impl Formula {
 }
 
 impl Resolved {
-    /// The random numbers that an evaluation needs, after the inputs for the names.
+    /// Returns the random numbers that an evaluation needs, in the order in which they follow the inputs for the variables.
     pub fn draws(&self) -> &[Draw] {
         &self.draws
     }
 
-    /// The number of inputs of an evaluation: one for each slot of the scope, then one for each draw.
+    /// Returns the number of inputs of an evaluation: one for each slot of the scope, and one for each random number.
     pub fn inputs(&self) -> usize {
         self.slots + self.draws.len()
     }
 
-    /// A number as a formula with `slots` slots, none of which it uses.
+    /// Makes a formula whose value is a constant. It accepts `slots` inputs and uses none of them.
     pub(in crate::scene) fn of_number(value: f64, slots: usize) -> Resolved {
         Resolved {
             nodes: vec![Node { value: Value::Constant(value), range: 0..0 }],
@@ -98,7 +98,7 @@ impl Resolved {
         }
     }
 
-    /// The value of the formula, if it is a constant.
+    /// Returns the value of the formula if the formula is a constant.
     pub fn as_constant(&self) -> Option<f64> {
         match self.nodes.get(self.root)?.value {
             Value::Constant(value) => Some(value),
@@ -106,12 +106,13 @@ impl Resolved {
         }
     }
 
-    /// A formula with the same slots and draws, but another tree.
+    /// Returns a formula with the same inputs and random numbers, but another expression tree.
     pub(super) fn with_nodes(&self, nodes: Vec<Node>, root: Id) -> Resolved {
         Resolved { nodes, root, slots: self.slots, draws: self.draws.clone() }
     }
 
-    /// The same formula with fixed random numbers: an evaluation then needs only the inputs for the names.
+    /// Returns the same formula with its random numbers replaced by the numbers `drawn`. An evaluation then needs only the inputs for the
+    /// variables.
     #[must_use]
     pub fn with_draws(&self, drawn: &[f64]) -> Resolved {
         let mut builder = Builder::default();
@@ -146,7 +147,7 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// Resolves a part. `ids` are the resolved ids of the earlier parts.
+    /// Resolves a subexpression and returns its new id. `ids` are the new ids of the subexpressions before it.
     fn node(&mut self, text: &str, part: &Part, range: &Range<usize>, ids: &[Id]) -> Id {
         let here = range.clone();
         match part {
@@ -169,7 +170,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Emits a part that is 1 where a value is not 0, and 0 elsewhere.
+    /// Adds a subexpression that is 1 where the value of `id` is not 0, and 0 elsewhere.
     fn truth(&mut self, id: Id, range: &Range<usize>) -> Id {
         let zero = self.builder.constant(0.0, range.clone());
         self.builder.binary(Binary::NotEqual, id, zero, range.clone())
@@ -211,7 +212,7 @@ impl Resolver<'_> {
             (Work::Chain(operation), [first, rest @ ..]) => rest
                 .iter()
                 .fold(*first, |so_far, next| self.builder.binary(operation, so_far, *next, range.clone())),
-            // Unreachable: the parser checks the number of arguments.
+            // Unreachable, because the parser has checked the number of arguments.
             _ => self.builder.constant(0.0, here),
         }
     }

@@ -1,4 +1,4 @@
-//! The names that a formula can use.
+//! The names that a formula can use, with their values or inputs.
 
 use std::cell::Cell;
 use std::collections::HashMap;
@@ -6,30 +6,29 @@ use std::collections::HashMap;
 use super::function::{CONSTANTS, Function};
 use crate::diagnostic::nearest;
 
-/// The meaning of a name.
+/// What a name in a formula stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Binding {
     /// A number that is known when the formula is resolved.
     Constant(f64),
-    /// The slot of a number that is passed at each evaluation.
+    /// The index of an input, whose value is passed at each evaluation.
     Slot(usize),
 }
 
-/// The names that a formula can use, besides the constants of all formulas.
+/// The names that a formula can use, besides constants such as `pi` that every formula knows.
 #[derive(Clone, Debug)]
 pub struct Scope {
     names: HashMap<String, Binding>,
     slots: usize,
-    /// Names that hide all other names. Their slots come after the slots of `names`.
+    /// Names that take precedence over `names`, such as the quantities of a body. Their slots come after the slots of `names`.
     fields: &'static [&'static str],
     is_random: bool,
-    /// The number of comparisons left for suggestions of similar names. The limit bounds the time for a scene with many
-    /// unknown names.
+    /// The remaining number of comparisons in the search for similar names. The limit bounds the time for a scene with many unknown names.
     comparisons: Cell<usize>,
 }
 
 impl Default for Scope {
-    /// A scope without names, `uniform` and `normal`.
+    /// Returns a scope without names, in which formulas must not use `uniform` and `normal`.
     fn default() -> Scope {
         Scope {
             names: HashMap::new(),
@@ -42,50 +41,50 @@ impl Default for Scope {
 }
 
 impl Scope {
-    /// Allows `uniform` and `normal` in formulas: see [`Draw`](super::Draw).
+    /// Allows the random numbers `uniform` and `normal` in formulas: see [`Draw`](super::Draw).
     #[must_use]
     pub fn with_draws(mut self) -> Scope {
         self.is_random = true;
         self
     }
 
-    /// Defines a name as a number that is known when the formula is resolved.
+    /// Defines a name as a constant, whose value is known when the formula is resolved.
     pub fn constant(&mut self, name: impl Into<String>, value: f64) {
         self.names.insert(name.into(), Binding::Constant(value));
     }
 
-    /// Defines a name as a number that is passed at each evaluation. Returns the slot of the name.
+    /// Defines a name as an input, whose value is passed at each evaluation. Returns the index (slot) of the input.
     pub fn slot(&mut self, name: impl Into<String>) -> usize {
         self.names.insert(name.into(), Binding::Slot(self.slots));
         self.slots += 1;
         self.slots - 1
     }
 
-    /// Replaces the field names. Their numbers are passed at each evaluation, in this order, after the numbers of all
-    /// other slots.
+    /// Replaces the field names, such as the quantities of a body. Their values are passed at each evaluation, in this order, after all
+    /// other inputs.
     pub(in crate::scene) fn set_fields(&mut self, fields: &'static [&'static str]) {
         self.fields = fields;
     }
 
-    /// Removes a name, and frees its slot. The name must be the last one that got a slot.
+    /// Removes the name that was defined last by [`Scope::slot`], and frees its slot.
     pub(in crate::scene) fn remove_slot(&mut self, name: &str) {
         if self.names.remove(name).is_some_and(|it| it == Binding::Slot(self.slots - 1)) {
             self.slots -= 1;
         }
     }
 
-    /// The number of slots: the inputs that an evaluation needs before the inputs for draws.
+    /// Returns the number of slots: the inputs that an evaluation needs before the random numbers.
     pub fn slots(&self) -> usize {
         self.slots + self.fields.len()
     }
 
-    /// Checks whether a scene can define a name: letters, digits and `_`, no digit first, and no word that formulas
+    /// Checks that a scene may define a variable with this name: letters, digits and `_`, no digit first, and no word that formulas
     /// reserve.
     ///
     /// # Errors
-    /// The reason why a scene cannot define the name.
+    /// The reason why the scene may not define the name.
     pub fn is_free(name: &str) -> Result<(), &'static str> {
-        /// The reserved words. `t` is the time in all formulas, even in formulas in which it has no value.
+        /// The reserved words. `t` is the time; it is reserved even in formulas that do not depend on the time.
         const WORDS: [&str; 4] = ["and", "or", "not", "t"];
         let mut bytes = name.bytes();
         let starts_well = bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_');
@@ -101,7 +100,7 @@ impl Scope {
         }
     }
 
-    /// The number that a name stands for, if it is known when the formula is resolved.
+    /// Returns the value of a name that is a constant. `None` for inputs and unknown names.
     pub fn value(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
             Binding::Constant(value) => Some(value),
@@ -120,7 +119,7 @@ impl Scope {
         self.is_random
     }
 
-    /// A suggestion for an unknown name: a similar name, or the list of all names.
+    /// Returns the text of a suggestion for an unknown name: a similar name, or the list of all names.
     pub(super) fn suggest(&self, name: &str) -> String {
         if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
@@ -129,10 +128,10 @@ impl Scope {
         self.comparisons.set(left);
         let fields = self.fields.iter().copied();
         let mut names: Vec<&str> = self.names.keys().map(String::as_str).chain(fields).collect();
-        // Sort the names, so that the message is always the same.
+        // Sorting makes the message independent of the order in the hash map.
         names.sort_unstable();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
-        // One edit turns a single letter into any other. So compare single letters only by case.
+        // A single letter differs from every other letter by one edit, so single letters are compared only by case.
         let near = if name.len() == 1 {
             all().find(|other| other.eq_ignore_ascii_case(name))
         } else {

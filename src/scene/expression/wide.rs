@@ -1,7 +1,7 @@
-//! Evaluates formulas for many inputs at once. Each step runs over whole columns of numbers.
+//! Evaluates formulas for many sets of inputs at once. Each step of the program runs over whole columns of numbers.
 //!
-//! A step is dispatched once per column, and the compiler vectorizes the loop over the lanes. Each lane gets the same
-//! bits as from [`Program`](super::Program).
+//! A step is dispatched once per column, and the compiler vectorizes the loop over the lanes. Each lane gets the same bits as from
+//! [`Program`](super::Program).
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -10,48 +10,49 @@ use super::operation::{Binary, Ternary, Unary, whole_exponent, whole_power};
 use super::parser::Id;
 use super::resolve::{Resolved, Value};
 
-/// The number of lanes: evaluations side by side. With 64, the columns of most formulas fit into the first-level cache.
+/// The number of lanes: sets of inputs that are evaluated at once. With 64 lanes, the columns of most formulas fit into the first-level
+/// cache.
 pub(in crate::scene) const LANES: usize = 64;
 
 pub(in crate::scene) type Column = [f64; LANES];
 
 thread_local! {
-    /// The columns of the current evaluation. They are reused, so that only the first evaluation allocates memory.
+    /// The columns of the current evaluation. The memory is reused, so usually only the first evaluation allocates.
     static COLUMNS: RefCell<Vec<Column>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Several formulas of the same scope as one program. A part that several formulas contain is computed once.
+/// Several formulas of the same scope, compiled into one program. A subexpression that several formulas contain is computed once.
 #[derive(Clone)]
 pub(in crate::scene) struct Wide {
-    /// The steps. Each writes its own column, after the columns of the inputs.
+    /// The steps of the program. Each step writes its own column; these columns follow those of the inputs.
     steps: Box<[Step]>,
-    /// The operands that hold the values of the formulas.
+    /// The columns or constants that hold the values of the formulas, one per formula.
     outputs: Box<[Operand]>,
     inputs: usize,
-    /// For each input, whether the formulas use it.
+    /// For each input, true if the formulas use it.
     uses: Box<[bool]>,
 }
 
-/// An operand: a column, or one number for all lanes.
+/// An operand of a step: the index of a column, or one number for all lanes.
 #[derive(Clone, Copy, Debug)]
 enum Operand {
     Column(usize),
     Constant(f64),
 }
 
-/// One step. It reads only columns before its own.
+/// One step of a program. It reads only columns before its own.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     One(Unary, Operand),
     Power(Operand, i32),
     Two(Binary, Operand, Operand),
     Three(Ternary, [Operand; 3]),
-    /// The second operand where the first is not 0, else the third. Both are computed, which is safe: operations have
-    /// no side effects.
+    /// A conditional: the second operand where the first is not 0, otherwise the third. Both operands are computed, which is safe because
+    /// operations have no side effects.
     Choice([Operand; 3]),
 }
 
-/// The values of a formula in all lanes.
+/// The values of one formula in all lanes.
 #[derive(Clone, Copy)]
 pub(in crate::scene) enum Output<'a> {
     /// One value for each lane.
@@ -61,7 +62,7 @@ pub(in crate::scene) enum Output<'a> {
 }
 
 impl<'a> Output<'a> {
-    /// The values in all lanes. A constant is written to every lane of `room`.
+    /// Returns the values of the formula in all lanes. A constant is written to every lane of the buffer `room`.
     pub(in crate::scene) fn column(self, room: &'a mut Column) -> &'a [f64] {
         match self {
             Output::Each(values) => values,
@@ -72,7 +73,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// The value in one lane.
+    /// Returns the value of the formula in one lane.
     #[inline]
     pub(in crate::scene) fn at(&self, lane: usize) -> f64 {
         match self {
@@ -83,7 +84,7 @@ impl<'a> Output<'a> {
 }
 
 impl Wide {
-    /// Compiles several formulas of the same scope into one program. The formulas must have no random draws.
+    /// Compiles several formulas of the same scope into one program. All random numbers of the formulas must have been drawn before.
     pub(in crate::scene) fn new(formulas: &[&Resolved]) -> Wide {
         let inputs = formulas.iter().map(|formula| formula.inputs()).max().unwrap_or(0);
         let mut builder =
@@ -92,13 +93,13 @@ impl Wide {
         Wide { steps: builder.steps.into(), outputs, inputs, uses: builder.uses.into() }
     }
 
-    /// Whether the formulas use an input.
+    /// Returns true if any of the formulas uses the input with this index.
     pub(in crate::scene) fn uses(&self, input: usize) -> bool {
         self.uses.get(input).copied().unwrap_or(false)
     }
 
-    /// Evaluates the formulas in `lanes` lanes, at most [`LANES`]. `fill` writes the column of an input that the
-    /// formulas use; `read` gets the values of all formulas.
+    /// Evaluates the formulas in `lanes` lanes, at most [`LANES`]. `fill` is called to write the column of each input that the formulas
+    /// use. `read` receives the values of all formulas.
     pub(in crate::scene) fn run<const N: usize>(
         &self,
         lanes: usize,
@@ -129,7 +130,7 @@ impl Wide {
 
 struct Builder {
     steps: Vec<Step>,
-    /// The column of each step so far, by the key of the step.
+    /// The column of each step so far. The key identifies what the step computes.
     known: HashMap<[u64; 5], usize>,
     inputs: usize,
     uses: Vec<bool>,
@@ -169,7 +170,7 @@ impl Builder {
         operands.get(formula.root).copied().unwrap_or(Operand::Constant(0.0))
     }
 
-    /// The column of a step. Steps that compute the same share a column.
+    /// Adds a step to the program and returns the index of its column. Steps that compute the same value share a column.
     fn column(&mut self, step: Step) -> usize {
         let next = self.inputs + self.steps.len();
         let column = *self.known.entry(step.spelled()).or_insert(next);
@@ -181,7 +182,7 @@ impl Builder {
 }
 
 impl Step {
-    /// The key of a step: equal for steps that compute the same.
+    /// Returns a key that is equal for steps that compute the same value.
     fn spelled(&self) -> [u64; 5] {
         let (kind, operation, operands): (u64, u64, &[Operand]) = match self {
             Step::One(operation, a) => (0, *operation as u64, &[*a]),
@@ -223,7 +224,7 @@ impl Step {
     }
 }
 
-/// Runs an operation on one operand. The compiler vectorizes the operations that have their own arm here.
+/// Runs an operation with one operand over a column. The operations with a `match` arm of their own are vectorized by the compiler.
 fn one(operation: Unary, a: Operand, columns: &[Column], to: &mut [f64]) {
     match operation {
         Unary::Negate => map(a, columns, to, |x| -x),

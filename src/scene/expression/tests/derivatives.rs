@@ -1,9 +1,9 @@
-//! Derivatives, against difference quotients.
+//! Compares symbolic derivatives with difference quotients.
 
 use super::super::{Formula, Scope};
 
-/// The derivative of a formula at a place, and the central difference over 2e-5: off by h² f'''/6, some 1e-10 for the
-/// formulas here, whose third derivatives are below 30, and by rounding, 1e-16 × |f| / h = 1e-11 × |f|.
+/// Returns the derivative of a formula at `t`, and the central difference (f(t + h) − f(t − h)) / 2h. The central difference has a
+/// truncation error of h² f'''/6, with h² = 1e-10, and a rounding error of about 1e-16 × |f| / h = 1e-11 × |f|.
 fn both(text: &str, t: f64) -> (f64, f64) {
     const H: f64 = 1e-5;
     let mut scope = Scope::default();

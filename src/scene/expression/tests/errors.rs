@@ -1,4 +1,4 @@
-//! Errors of wrong formulas, and their places.
+//! Checks the messages for wrong formulas, and the positions of the errors in the text.
 
 use super::super::{Formula, MAX_LENGTH, Program, Scope};
 use super::said;

@@ -1,4 +1,4 @@
-//! Promises of the formula language.
+//! Tests of the language of formulas.
 
 mod derivatives;
 mod errors;
@@ -7,7 +7,7 @@ mod values;
 
 use super::{Formula, Program, Scope};
 
-/// A scope with slots x, y, z, and two constants.
+/// Returns a scope with the inputs x, y and z, two constants, and random numbers allowed.
 fn scope() -> Scope {
     let mut scope = Scope::default().with_draws();
     ["x", "y", "z"].into_iter().for_each(|name| _ = scope.slot(name));
@@ -16,7 +16,7 @@ fn scope() -> Scope {
     scope
 }
 
-/// The value of a formula at x = 3, y = -2, z = 0.5, which must be the same by all ways.
+/// Evaluates a formula at x = 3, y = -2, z = 0.5 with a program and by walking the tree, and checks that both give the same bits.
 fn value(text: &str) -> f64 {
     let inputs = [3.0, -2.0, 0.5, 0.25, 0.75];
     let resolved = Formula::parse(text).unwrap().resolve(&scope()).unwrap();
@@ -27,8 +27,8 @@ fn value(text: &str) -> f64 {
     strict
 }
 
-/// The error of a formula that cannot be compiled, or has no value at x = 3, y = -2, z = 0.5: the marked place, the code, the
-/// message, and the label or the help.
+/// Formats the errors of a formula that does not compile, or whose value at x = 3, y = -2, z = 0.5 is not finite. Each error becomes the
+/// marked text, the code, the message, and the label or the help.
 fn said(text: &str) -> Vec<String> {
     let errors = match Program::compile(text, &scope()) {
         Err(errors) => errors,

@@ -1,5 +1,5 @@
-//! Properties of all formulas: they parse as they are printed, compiled ones give the same bits as the tree, and no text crashes
-//! the program.
+//! Tests random formulas: printing and parsing gives the same formula, compiled programs give the same bits as the tree, and no text makes
+//! the parser panic.
 
 use crate::diagnostic::Code;
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use super::super::wide::Wide;
 use super::super::{Constants, LANES, Program, Scope};
 use super::scope;
 
-/// A formula as a tree of its own, with a value and a printed form that nothing else has a part in.
+/// A random formula. It is printed and evaluated without the code under test.
 #[derive(Clone, Debug, PartialEq)]
 enum Tree {
     Number(f64),
@@ -40,7 +40,7 @@ const OPERATORS: [(&str, u8); 14] = [
 ];
 
 impl Tree {
-    /// How tightly its operator binds.
+    /// Returns the precedence of the formula's outermost operator. Higher levels bind more tightly.
     fn level(&self) -> u8 {
         match self {
             Tree::Not(_) => 3,
@@ -50,7 +50,7 @@ impl Tree {
         }
     }
 
-    /// With as few parentheses as can be.
+    /// Prints the formula with as few parentheses as possible.
     fn print(&self) -> String {
         let inner = |tree: &Tree, least: u8| {
             if tree.level() >= least { tree.print() } else { format!("({})", tree.print()) }
@@ -60,7 +60,7 @@ impl Tree {
             Tree::Name(name) => (*name).to_owned(),
             Tree::Sign(tree) => format!("-{}", inner(tree, 7)),
             Tree::Not(tree) => format!("not {}", inner(tree, 3)),
-            // A right-associative operator takes its like on the right, and a sign in a power needs no parentheses.
+            // `^` is right-associative, so its right operand may be another power or a sign without parentheses.
             Tree::Two("^", both) => format!("{}^{}", inner(&both[0], 9), inner(&both[1], 7)),
             Tree::Two(operator, both) => {
                 let level = self.level();
@@ -73,7 +73,7 @@ impl Tree {
         }
     }
 
-    /// The tree of what has been parsed.
+    /// Converts a parsed formula, from the node `id` down, into a test tree.
     fn of(formula: &Formula, id: usize) -> Tree {
         let of = |id: &usize| Tree::of(formula, *id);
         let two = |operator, a, b| Tree::Two(operator, Box::new([of(a), of(b)]));
@@ -108,7 +108,7 @@ impl Tree {
         }
     }
 
-    /// The value, by walking the tree.
+    /// Computes the value of the formula by walking the tree.
     fn value(&self, inputs: &[f64; 3]) -> f64 {
         let truth = |is: bool| f64::from(u8::from(is));
         match self {
@@ -174,7 +174,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     };
     leaf.prop_recursive(6, 60, 5, move |inner| {
         let inner = inner.boxed();
-        // Arithmetic is what most formulas are, and what most instructions are for.
+        // Arithmetic operators are drawn more often, because most formulas and most instructions are arithmetic.
         let operator =
             prop_oneof![prop::sample::select(&OPERATORS[..]), prop::sample::select(&OPERATORS[8..12])];
         prop_oneof![
@@ -189,7 +189,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// All NaNs count as one value.
+/// Returns the bits of a number. All NaNs get the same bits, so that they compare as equal.
 fn bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() }
 }
@@ -212,7 +212,7 @@ proptest! {
         prop_assert_eq!(bits(program.eval(&inputs)), bits(expected), "{} {:?}", tree.print(), program);
         match strict {
             Ok(value) => prop_assert_eq!(value.to_bits(), expected.to_bits()),
-            // The strict value is none where any step is not finite, also if the result is.
+            // The strict evaluation fails if any step is not finite, even if the result is.
             Err(error) => {
                 prop_assert!(error.range.end <= tree.print().len());
                 prop_assert!(matches!(error.code, Code::NotFinite | Code::DivisionByZero));
@@ -282,7 +282,7 @@ fn no_panic(text: &str) -> Result<(), TestCaseError> {
         Err(errors) => {
             prop_assert!(!errors.is_empty());
             for error in errors {
-                // A range that is no part of the text stops the program here.
+                // `get` returns `None` for a range outside of the text or within a character.
                 prop_assert!(text.get(error.range.clone()).is_some(), "{text}: {error:?}");
             }
         }

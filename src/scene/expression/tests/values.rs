@@ -1,4 +1,4 @@
-//! Values of formulas.
+//! Checks the values of formulas.
 
 use std::f64::consts::{E, PI, TAU};
 
