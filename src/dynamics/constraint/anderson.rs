@@ -1,47 +1,48 @@
-//! Anderson acceleration. Sweeps alone approach their limit slowly. The changes in the last few sweeps allow a better estimate of this
-//! limit.
+//! Anderson acceleration of fixed-point iterations. Gauss–Seidel sweeps alone approach their limit slowly. The changes made by the last
+//! few sweeps give a better estimate of this limit.
 //!
 //! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
 
-/// The number of recent sweeps that it uses.
+/// The number of recent sweeps from which the acceleration extrapolates.
 const MEMORY: usize = 5;
 
-/// If the square of the change grows by more than this factor from one sweep to the next, earlier sweeps are forgotten.
+/// The acceleration discards its history if a sweep's squared change exceeds that of the sweep before by more than this factor.
 const WORSE: f64 = 2.0;
 
-/// A difference counts as a combination of the others if its independent part is below this fraction of the largest square.
+/// A difference between sweeps counts as linearly dependent on the older differences if the square of its independent part is below this
+/// fraction of the largest squared difference.
 const TINY: f64 = 1e-14;
 
-/// The history of the last sweeps.
+/// The accelerator of a fixed-point iteration, with the history of the last sweeps.
 pub(super) struct Anderson {
-    /// The square root of the weight of each value.
+    /// The square root of each value's weight, one entry per value.
     scale: Vec<f64>,
-    /// The values before the next sweep.
+    /// The values from which the next sweep starts.
     before: Vec<f64>,
     last: Sweep,
-    /// The square of the length of the last change.
+    /// The squared norm of the change that the last sweep made.
     length: f64,
-    /// Whether no sweep has been made yet.
+    /// True before the first sweep.
     is_new: bool,
-    /// The difference between each recent sweep and the one before, the oldest first.
+    /// The differences between successive recent sweeps, the oldest first.
     steps: Vec<Sweep>,
-    /// The correction to the values after the last sweep.
+    /// The correction to add to the values after the last sweep, one entry per value.
     further: Vec<f64>,
 }
 
-/// A sweep, or the difference between two sweeps.
+/// The result of one sweep, or the difference between the results of two successive sweeps.
 #[derive(Default)]
 struct Sweep {
     /// The values after the sweep.
     found: Vec<f64>,
-    /// The weighted change of the values.
+    /// The change of each value by the sweep, times the square root of the value's weight.
     change: Vec<f64>,
-    /// The products of this change with those of the older entries and with itself.
+    /// For a difference: the dot products of its `change` with the changes of all older differences and with itself.
     products: Vec<f64>,
 }
 
 impl Anderson {
-    /// Starts with the values before the first sweep. The weights define the size of a change.
+    /// Creates an accelerator from the values before the first sweep. A change's norm is the weighted sum of squares with these weights.
     pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
         Anderson {
             scale: weights.iter().map(|weight| weight.sqrt()).collect(),
@@ -54,7 +55,8 @@ impl Anderson {
         }
     }
 
-    /// The correction to the values that a sweep has found. With it, the next sweep starts nearer to the limit.
+    /// Takes the values that a sweep has found and returns the correction to add to them, one entry per value. The next sweep then starts
+    /// nearer to the limit.
     pub(super) fn go_further(&mut self, found: &[f64]) -> &[f64] {
         let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
         let change = found.iter().zip(&self.before).zip(&self.scale);
@@ -84,7 +86,7 @@ impl Anderson {
         self.steps.remove(0)
     }
 
-    /// Stores the difference between the last sweep and the one before.
+    /// Stores the difference between the last sweep and `before`, the sweep before the last.
     fn note(&mut self, before: Sweep) {
         let Sweep { mut found, mut change, mut products } = before;
         found.iter_mut().zip(&self.last.found).for_each(|(before, now)| *before = now - *before);
@@ -94,8 +96,8 @@ impl Anderson {
         self.steps.push(Sweep { found, change, products });
     }
 
-    /// The coefficients with which the sum of the differences comes nearest to the last change. This least-squares problem is solved by
-    /// Cholesky factorization of its normal equations.
+    /// Computes the coefficients of the linear combination of stored differences that is nearest to the last change. The least-squares
+    /// problem is solved by Cholesky factorization of its normal equations.
     fn parts(&self) -> [f64; MEMORY] {
         let n = self.steps.len();
         let largest = self.steps.iter().zip(0..).fold(0.0_f64, |most, (step, i)| most.max(step.products[i]));
@@ -107,7 +109,7 @@ impl Anderson {
                 let left = self.steps[i].products[j] - known;
                 factor[i][j] = match i == j {
                     true if left > TINY * largest => left.sqrt(),
-                    // A dependent difference gets the coefficient 0.
+                    // A linearly dependent difference gets the coefficient 0.
                     true => f64::INFINITY,
                     false => left / factor[j][j],
                 };
@@ -123,7 +125,7 @@ impl Anderson {
     }
 }
 
-/// The dot product. Four separate sums let the processor work in parallel.
+/// Computes the dot product. Four independent sums let the processor work in parallel.
 fn product(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_left), (b, b_left)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -146,8 +148,8 @@ fn overwrite(values: &mut Vec<f64>, new: impl Iterator<Item = f64>) {
 mod tests {
     use super::*;
 
-    /// Each sweep brings three values nearer to their limit, by the factors 0.99, 0.9 and −0.5. Sweeps alone would take two thousand
-    /// iterations. Three differences are enough to find the limit.
+    /// A linear iteration multiplies the distances of three values from their limits by 0.99, 0.9 and −0.5. Without acceleration it would
+    /// take two thousand sweeps. Three differences between sweeps determine the limit.
     #[test]
     fn a_linear_iteration_reaches_its_limit_in_a_few_sweeps() {
         let limit = [1.0, -2.0, 0.5];
@@ -168,7 +170,7 @@ mod tests {
         }
     }
 
-    /// If nothing changes any more, the correction is zero.
+    /// If a sweep changes no value, the correction is zero.
     #[test]
     fn what_is_at_its_limit_stays_there() {
         let mut anderson = Anderson::from(&[3.0], &[1.0]);

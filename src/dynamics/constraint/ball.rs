@@ -1,13 +1,13 @@
-//! A ball joint: two points coincide, and all rotations are free.
+//! A ball joint: it keeps a point of one body at a point of another, and leaves all rotations free.
 
 use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
-/// A ball joint, also called spherical joint.
+/// A ball joint, also called spherical joint: two points coincide, and all rotations are free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
-    /// The two points.
+    /// The two points that coincide.
     pub between: [Anchor; 2],
 }
 

@@ -1,4 +1,4 @@
-//! The effect of a unit impulse along each row on the bodies.
+//! The changes of all bodies' velocities by a unit impulse along each constraint row.
 
 use std::ops::Range;
 
@@ -9,7 +9,8 @@ use super::member::Member;
 use super::solver::Solver;
 use super::{Direction, Law};
 
-/// M⁻¹ Jᵀ, row by row, under the reactions of the joints.
+/// The columns of M⁻¹ Jᵀ, one per constraint row, including the reactions of the joints: the velocity changes by a unit impulse along the
+/// row.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     changes: Vec<Change>,
@@ -17,7 +18,7 @@ pub(super) struct Columns {
     weights: Vec<f64>,
 }
 
-/// The effect of a unit impulse on a member.
+/// The velocity change of one body by a unit impulse along a constraint row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Change {
     pub(super) member: usize,
@@ -32,7 +33,8 @@ impl Columns {
         self.weights.clear();
     }
 
-    /// Adds the next row. `weight` is the change of its own rate by a unit impulse.
+    /// Appends the velocity changes of the next constraint row. `weight` is the change of the row's own rate c' by a unit impulse along
+    /// it.
     pub(super) fn push(&mut self, changes: impl Iterator<Item = Change>, weight: f64) {
         let start = self.changes.len();
         self.changes
@@ -41,17 +43,17 @@ impl Columns {
         self.weights.push(weight);
     }
 
-    /// The effects of a unit impulse along a row.
+    /// Returns the velocity changes of the bodies by a unit impulse along a row.
     pub(super) fn of(&self, row: usize) -> &[Change] {
         &self.changes[self.rows[row].clone()]
     }
 
-    /// The change of each row's own rate by a unit impulse; 0 for a row of a joint.
+    /// Returns the change of each row's own rate c' by a unit impulse along it, one entry per row; 0 for rows of joints.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Gives members the velocities that an impulse along a row causes.
+    /// Adds the velocity changes by an impulse along a row to the members' velocities.
     #[inline]
     pub(super) fn apply(&self, row: usize, impulse: f64, members: &mut [Member]) {
         for change in self.of(row) {
@@ -62,7 +64,8 @@ impl Columns {
 }
 
 impl Solver {
-    /// Finds the effect of a unit impulse along each row, with the reactions of the joints. Rows of the joints themselves stay empty.
+    /// Computes the velocity changes by a unit impulse along each row, including the reactions of the joints. The columns of the joints'
+    /// own rows stay empty.
     pub(super) fn find_columns(&mut self) {
         let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
@@ -79,7 +82,8 @@ impl Solver {
         self.columns = columns;
     }
 
-    /// Adds the effect of an impulse along a row while joints hold. Their reactions move other bodies as well.
+    /// Appends the velocity changes by a unit impulse along a row when joints are active. The reactions of the joints move other bodies as
+    /// well.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let mut moved: Vec<Member> = self.members.clone();
@@ -102,7 +106,7 @@ impl Solver {
         columns.push(moved.iter().enumerate().map(change), weight);
     }
 
-    /// Adds the same if no joint holds bodies: only the bodies of the row move.
+    /// Appends the velocity changes by a unit impulse along a row when no joint is active: only the bodies of this row move.
     fn push_free_column(&self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let directions = &self.jacobian[structure.directions_of(row)];

@@ -1,4 +1,4 @@
-//! The contacts among the constraints: adding, dropping and evaluating them, and the joints alone during impacts.
+//! Lasting contacts as constraints of the solver: adding, dropping and evaluating them. Also the response of the joints to impacts.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,17 +14,18 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Whether there are no active constraints.
+    /// Returns true if the solver has no constraints at all: neither joints nor lasting contacts.
     pub(in crate::dynamics) fn is_idle(&self, model: &Model) -> bool {
         model.constraints().is_empty() && self.contacts.is_empty()
     }
 
-    /// The lasting contacts.
+    /// Returns the lasting contacts, which the solver treats as constraints.
     pub(in crate::dynamics) fn contacts(&self) -> &[Arc<Closed>] {
         &self.contacts
     }
 
-    /// Sets the lasting contacts. Returns whether they have changed; the modes of the rows must then be [decided](Self::decide).
+    /// Replaces the lasting contacts of the solver. Returns true if they differ from the previous ones; the modes of the rows must then be
+    /// [decided](Self::decide) again.
     pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
         let is_same = |(old, new): (&Arc<Closed>, &Arc<Closed>)| old.is(new);
         let are_same =
@@ -36,21 +37,21 @@ impl Solver {
         !are_same
     }
 
-    /// A solver for some of the contacts, with the history so far.
+    /// Creates a solver for these contacts only. It inherits the typical rates and accelerations and the counts of mode changes.
     pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<Closed>>) -> Solver {
         let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
         let changes = self.changes.clone();
         Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
     }
 
-    /// Whether it has exactly these contacts, and their modes are decided.
+    /// Returns true if the solver has exactly these contacts and the modes of their rows are decided.
     pub(in crate::dynamics) fn has(&self, contacts: &[Arc<Closed>]) -> bool {
         self.structure.is_some()
             && self.contacts.len() == contacts.len()
             && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
     }
 
-    /// Takes over the history and all contacts of other solvers. Their modes must then be [decided](Self::decide).
+    /// Merges the contacts and histories of other solvers into this one. The modes of the rows must then be [decided](Self::decide) again.
     pub(in crate::dynamics) fn unite(&mut self, parts: &[Solver]) {
         let mut contacts = Vec::new();
         for part in parts {
@@ -68,7 +69,7 @@ impl Solver {
         self.forget();
     }
 
-    /// Leaves the constraints of some bodies to another solver.
+    /// Excludes the constraints of these bodies, because another solver handles them. Replaces the previous set of excluded bodies.
     pub(in crate::dynamics) fn leave(&mut self, bodies: &BTreeSet<usize>) {
         if self.away != *bodies {
             self.away.clone_from(bodies);
@@ -76,24 +77,26 @@ impl Solver {
         }
     }
 
-    /// Closes the gaps of constraints by moving bodies the shortest distance.
+    /// Closes the gaps of active constraints by moving the bodies the shortest distance. If this enlarges the largest error, the bodies
+    /// return to their places.
     pub(in crate::dynamics) fn close_gaps(&mut self, model: &Model, t: f64, state: &mut State) {
         if !self.is_idle(model) {
-            // Some rows are measured relative to the start of a step.
+            // The errors of some rows are measured relative to the start of a step.
             self.begin(model, t, state);
             self.is_ready = false;
             self.measure(t, state);
             let (before, gaps) = (self.worst(), state.clone());
             self.settle_places(t, state);
             self.measure(t, state);
-            // If rows contradict each other, gaps remain.
+            // If rows contradict each other, their gaps cannot all close.
             if self.worst().is_nan() || self.worst() > before {
                 state.clone_from(&gaps);
             }
         }
     }
 
-    /// Closes the gaps of all contacts, whatever their modes were.
+    /// Closes the gaps of all contacts, also of those that were open or sliding. Limits of joints are corrected only where they are
+    /// passed.
     pub(in crate::dynamics) fn close_all(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -117,7 +120,7 @@ impl Solver {
         self.settle_places(t, state);
     }
 
-    /// The speed below which each row counts as at rest, m/s.
+    /// Returns the speed, m/s, below which the bodies at each row count as at rest, one entry per row; 0 for rows of joints and friction.
     pub(super) fn stills(&self, model: &Model) -> Vec<f64> {
         let mut stills = vec![0.0; self.rows.len()];
         let places = self.structure.iter().flat_map(|structure| &structure.places);
@@ -129,7 +132,7 @@ impl Solver {
         stills
     }
 
-    /// Whether a constraint concerns one of these bodies that can move.
+    /// Returns true if a constraint acts on at least one movable body of this list, or if the constraints are not laid out yet.
     pub(in crate::dynamics) fn concerns(&self, bodies: &[usize]) -> bool {
         let Some(structure) = &self.structure else { return true };
         let holds = |body: &usize| {
@@ -139,14 +142,15 @@ impl Solver {
         bodies.iter().any(holds)
     }
 
-    /// Starts a step of `span` seconds, after [`begin`](Self::begin). It is not called to evaluate a state only.
+    /// Prepares friction for a step of `span` seconds, after [`begin`](Self::begin). Evaluating a state without a step does not need this
+    /// call.
     pub(in crate::dynamics) fn set_out(&mut self, span: f64) {
         self.span = span;
         self.is_unsolved = false;
         self.head();
     }
 
-    /// Reports, after a step, that no friction forces fulfil the equations, as in Painlevé's paradox.
+    /// Reports a breakdown after a step if the step's equations of sliding friction had no solution, as in Painlevé's paradox.
     pub(in crate::dynamics) fn blame_friction(&mut self, model: &Model, time: f64) {
         let Some(structure) = self.structure.as_ref().filter(|_| self.is_unsolved) else { return };
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
@@ -156,17 +160,18 @@ impl Solver {
         }
     }
 
-    /// Notes that the run cannot continue.
+    /// Records why the run cannot continue, unless an earlier reason is recorded.
     pub(in crate::dynamics) fn fail(&mut self, breakdown: Breakdown) {
         self.failure = self.failure.or(Some(breakdown));
     }
 
-    /// Whether the run cannot continue.
+    /// Returns true if the run cannot continue.
     pub(in crate::dynamics) fn has_failed(&self) -> bool {
         self.failure.is_some()
     }
 
-    /// Drops the contacts that do not push. Returns whether there were any; the modes of the others must then be decided anew.
+    /// Drops the contacts that do not push. Returns true if any contact was dropped; the modes of the remaining contacts must then be
+    /// decided again.
     pub(in crate::dynamics) fn drop_open_contacts(&mut self, model: &Model) -> bool {
         let joints = model.constraints().len();
         let is_held = |k: usize| {
@@ -183,7 +188,7 @@ impl Solver {
         true
     }
 
-    /// Solves A x = b for the active rows.
+    /// Solves A x = b for the active rows, where A = J M⁻¹ Jᵀ. `unknown` holds b before the call and x after it.
     #[inline]
     pub(super) fn solve(&mut self) {
         if self.factor.is_soft() {
@@ -194,7 +199,7 @@ impl Solver {
     }
 
     fn solve_softly(&mut self) {
-        // Soft rows yield a little. Iterative refinement removes this error.
+        // The factors belong to a slightly enlarged diagonal in soft rows. Iterative refinement removes the resulting error.
         let right = self.unknown.clone();
         self.factor.solve(&mut self.unknown);
         for _ in 0..REFINEMENTS {
@@ -205,7 +210,7 @@ impl Solver {
         }
     }
 
-    /// From now on, only the joints are kept, starting from a state that satisfies them. Impacts then respect the joints.
+    /// Activates only the rows of the joints, at a state that satisfies them. The computed impacts then respect the joints.
     pub(in crate::dynamics) fn hold_joints(&mut self, model: &Model, t: f64, state: &State) {
         self.is_ready = false;
         self.plan(model);
@@ -216,7 +221,7 @@ impl Solver {
         self.factorise(true);
     }
 
-    /// Removes velocities that violate the joints, after [`hold_joints`](Self::hold_joints) at these positions.
+    /// Removes the velocity components that violate the joints. [`hold_joints`](Self::hold_joints) must have run at the same positions.
     pub(in crate::dynamics) fn obey_joints(&mut self, model: &Model, state: &mut State) {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -224,8 +229,9 @@ impl Solver {
         self.settle_velocities(model, state);
     }
 
-    /// The velocities and angular velocities that impulses and their moments give to two bodies under the joints, after
-    /// [`hold_joints`](Self::hold_joints).
+    /// Computes how two bodies respond to impulses while the joints hold. Each entry of `pushes` is an impulse and its moment about the
+    /// center of mass; each entry of the result is a change of velocity and of angular velocity. [`hold_joints`](Self::hold_joints) must
+    /// have run before.
     pub(in crate::dynamics) fn respond(
         &mut self,
         model: &Model,
@@ -256,7 +262,7 @@ impl Solver {
         free
     }
 
-    /// The points of contact and their forces at the last evaluation.
+    /// Returns the place and the forces of each lasting contact at the last evaluation of forces, sorted by bodies.
     pub(in crate::dynamics) fn contact_snapshots(&self, model: &Model) -> Vec<ContactSnapshot> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let joints = model.constraints().len();
@@ -274,7 +280,8 @@ impl Solver {
         all
     }
 
-    /// The reason why a run cannot continue if constraint `index` is broken.
+    /// Returns the reason why the run stops if constraint `index` fails: a broken joint or a jammed contact. `missing` is the error of the
+    /// constraint.
     pub(super) fn broken(&self, model: &Model, index: usize, time: f64, missing: f64) -> Breakdown {
         match index.checked_sub(model.constraints().len()) {
             None => Breakdown::Broken { constraint: index, time, missing },
@@ -285,5 +292,5 @@ impl Solver {
     }
 }
 
-/// The number of refinements with soft rows. Each reduces the error by about the factor of softness.
+/// The number of iterative refinements when rows are soft. Each multiplies the error by about the relative softness of the rows.
 const REFINEMENTS: usize = 3;

@@ -1,4 +1,4 @@
-//! The free coordinate of a hinge or a slider: an angle or a displacement.
+//! The free coordinate of a hinge or a slider: its angle or its displacement.
 
 use glam::DVec3;
 
@@ -6,40 +6,41 @@ use super::super::{Anchor, BodyId, BodySnapshot};
 use super::member::{End, Member};
 use super::{Equations, Members};
 
-/// The angle of a hinge or the displacement of a slider: that of the second end relative to the first.
+/// The free coordinate of a joint: the angle of a hinge, or the displacement of a slider. It is measured at the second end, relative to
+/// the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinate {
-    /// The two points.
+    /// The two ends of the joint.
     pub between: [Anchor; 2],
-    /// The axis, a unit vector, in the axes of the first end.
+    /// The axis of the joint, a unit vector, in the body axes of the first end.
     pub axis: DVec3,
-    /// For an angle: two directions perpendicular to the axis, one in the axes of each end. They coincide where the angle is 0.
+    /// For an angle: two directions perpendicular to the axis, one in the body axes of each end. The directions coincide at angle 0.
     /// `None` for a displacement.
     pub zero: Option<[DVec3; 2]>,
 }
 
-/// A coordinate at one moment.
+/// The value and derivatives of a joint's free coordinate at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Free {
-    /// Its value, rad (from −π to π) or m.
+    /// The value of the coordinate: rad, from −π to π, or m.
     pub(super) value: f64,
-    /// The part of its second derivative that does not depend on the accelerations of the bodies.
+    /// The part of the coordinate's second time derivative that does not depend on the accelerations of the bodies.
     bias: f64,
-    /// The size of the terms whose difference is the value, for rounding errors.
+    /// The magnitude of the terms whose difference is the coordinate. It bounds the rounding error.
     pub(super) scale: f64,
-    /// For each end: its body, and the derivatives of the value by the body's position and rotation.
+    /// For each end: its body, and the derivatives of the coordinate with respect to the body's position and rotation.
     parts: [(Option<usize>, DVec3, DVec3); 2],
 }
 
 impl Coordinate {
-    /// Whether it is an angle.
+    /// Returns true if the coordinate is an angle, and false if it is a displacement.
     #[must_use]
     pub fn is_angle(&self) -> bool {
         self.zero.is_some()
     }
 
-    /// The coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure returns the snapshot of a body. `None` while
-    /// a body is absent.
+    /// Returns the coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure returns the snapshot of a body.
+    /// Returns `None` while a body of the joint is absent.
     pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
         let mut all = [Member::default(); 2];
         let ids = super::parts::bodies(&self.between);
@@ -54,7 +55,7 @@ impl Coordinate {
         Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
-    /// The coordinate for the current ends.
+    /// Computes the coordinate and its derivatives from the current state of the two ends.
     pub(super) fn measure(&self, [a, b]: &[End<'_>; 2]) -> Free {
         let axis = a.orientation() * self.axis;
         match self.zero {
@@ -87,17 +88,17 @@ impl Coordinate {
         }
     }
 
-    /// The coordinate now, and at the start of the step.
+    /// Computes the coordinate twice: now, and at the start of the step.
     pub(super) fn measure_both(&self, members: &Members<'_>) -> [Free; 2] {
         [*members, members.at_origin()].map(|members| self.measure(&End::all(&self.between, &members)))
     }
 
-    /// The difference of two values; for angles, in the shorter direction.
+    /// Returns the difference `to` − `from` of two values of the coordinate. For angles, the result is between −π and π.
     pub(super) fn difference(&self, to: f64, from: f64) -> f64 {
         if self.is_angle() { libm::remainder(to - from, std::f64::consts::TAU) } else { to - from }
     }
 
-    /// The rate of the coordinate, rad/s or m/s.
+    /// Computes the time derivative of the coordinate, rad/s or m/s.
     pub(super) fn rate([a, b]: &[End<'_>; 2], free: &Free) -> f64 {
         let rate = |end: &End<'_>, (_, linear, angular): (Option<usize>, DVec3, DVec3)| {
             linear.dot(end.member.velocity) + angular.dot(end.angular_velocity())
@@ -105,28 +106,28 @@ impl Coordinate {
         rate(a, free.parts[0]) + rate(b, free.parts[1])
     }
 
-    /// For each end, its body, and the force and torque on it under a generalised force of 1.
+    /// Returns the body of each end, and the force and torque on this body under a unit generalized force along the coordinate.
     pub(super) fn directions(free: &Free) -> [(Option<usize>, DVec3, DVec3); 2] {
         free.parts
     }
 }
 
-/// One equation between coordinates.
+/// A constraint equation c = 0 between the free coordinates of joints.
 pub(super) struct CoordinateRow<'a> {
-    /// Its number among the rows of the constraint.
+    /// The index of the equation among the rows of its constraint.
     pub(super) row: usize,
-    /// The factor of each coordinate.
+    /// The coordinates in the equation, each with its factor.
     pub(super) terms: &'a [(f64, Free)],
-    /// c.
+    /// The value of c; 0 if the equation holds.
     pub(super) violation: f64,
-    /// ∂c/∂t.
+    /// ∂c/∂t, the partial derivative with respect to time.
     pub(super) rate: f64,
-    /// ∂²c/∂t².
+    /// ∂²c/∂t², the second partial derivative with respect to time.
     pub(super) curvature: f64,
 }
 
 impl CoordinateRow<'_> {
-    /// Writes the equation.
+    /// Writes the equation and its Jacobian into the rows of its constraint.
     pub(super) fn write(self, equations: &mut Equations<'_>) {
         let (mut bias, mut scale) = (self.curvature, f64::MIN_POSITIVE);
         for (factor, free) in self.terms {

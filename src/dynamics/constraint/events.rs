@@ -1,4 +1,4 @@
-//! Events: the distance of a state from the next change of a row's mode.
+//! Event detection: how far a state is from the next change of a constraint row's mode, such as a rope that becomes taut.
 
 use super::super::{Loads, Model, State};
 use super::Law;
@@ -7,21 +7,22 @@ use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
 
-/// An event needs more than this: an open stop that is passed by this fraction of its scale, or a speed of this fraction of the rates.
+/// The tolerance of events. A stop is passed if its error exceeds this fraction of its scale. A row moves if its rate exceeds this
+/// fraction of the largest rate.
 pub(super) const PASSED: f64 = 1e-12;
 
-/// The tolerance for multipliers of the wrong sign, as a fraction of the accelerations. It exceeds the tolerance of [`Solver::decide`],
-/// so that each event changes something.
+/// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
+/// [`Solver::decide`], so every event changes at least one mode.
 const PULLED: f64 = 1e-9;
 
 impl Solver {
-    /// Whether rows can change their modes.
+    /// Returns true if any constraint row can change its mode.
     pub(in crate::dynamics) fn has_events(&self) -> bool {
         self.has_modes
     }
 
-    /// The distance of a state from the next event, in units of the tolerance, and the row of that event. It is 1 if a stop is just
-    /// touched, and negative after the event. `loads` is working memory.
+    /// Returns the distance of a state from the next event, in units of the event's tolerance, and the row that causes this event. The
+    /// distance is 1 where a stop just touches, and negative once an event has happened. `loads` is working memory.
     pub(in crate::dynamics) fn margin(
         &mut self,
         model: &Model,
@@ -77,21 +78,21 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
-    /// Must be called if the state of the last [`margin`](Self::margin) ends a piece. Only these states determine the typical size of
-    /// rates and accelerations: a trial step that is too long can give far larger values.
+    /// Records the typical size of rates and accelerations. Must be called if a piece of a step ends at the state of the last
+    /// [`margin`](Self::margin). Other states do not count, because a trial step that is too long can give far larger values.
     pub(in crate::dynamics) fn accept(&mut self) {
         let [rate, acceleration] = std::mem::take(&mut self.seen);
         self.largest_rate = self.largest_rate.max(rate);
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
     }
 
-    /// The typical change of rates by forces within a time, s.
+    /// Returns the typical change of a row's rate c' by forces within `time` seconds.
     pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
         let change = self.largest_acceleration * time;
         if change.is_finite() { change } else { 0.0 }
     }
 
-    /// The bodies of the constraint to which a row belongs.
+    /// Returns the indices of the bodies that the constraint of a row connects.
     pub(in crate::dynamics) fn bodies_of(&self, row: usize) -> Vec<usize> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let place = structure.place_of_row(row);
@@ -99,12 +100,13 @@ impl Solver {
             .map_or(Vec::new(), |place| place.bodies.iter().map(|&member| structure.bodies[member]).collect())
     }
 
-    /// Whether no friction forces were found in the last step.
+    /// Returns true if the equations of sliding friction had no solution in the last step.
     pub(in crate::dynamics) fn is_unsolved(&self) -> bool {
         self.is_unsolved
     }
 
-    /// The bodies of a contact for which no mode was right in the last decision.
+    /// Returns the two bodies of the contact for which the last decision found no consistent mode, and forgets it. `None` if there is no
+    /// such contact.
     pub(in crate::dynamics) fn take_undecided(&mut self, model: &Model) -> Option<Vec<usize>> {
         let row = self.undecided.take()?;
         let joints = model.constraints().len();
@@ -112,7 +114,7 @@ impl Solver {
         (place.constraint >= joints).then(|| self.bodies_of(row))
     }
 
-    /// Reports that the run cannot continue, because a row changes its mode again and again.
+    /// Reports that the run cannot continue, because a row changes its mode endlessly.
     pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
         let place = structure.place_of_row(row);

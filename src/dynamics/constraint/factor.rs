@@ -1,86 +1,88 @@
-//! The sparse factorisation A = L D Lᵀ of a symmetric matrix, row by row.
+//! The sparse factorization A = L D Lᵀ of a symmetric matrix, row by row.
 //!
-//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. Two reasons speak
-//! against a crate. Rows are left out at run time: those that others imply, and those that are inactive at present. And the order of the
-//! sums must not depend on the processor.
+//! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. No crate is used, for
+//! two reasons. Redundant and inactive rows must be left out at run time. And the order of the sums must not depend on the processor.
 
 use std::ops::Range;
 
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// A row whose pivot is below this fraction of its diagonal is implied by other rows: such a pivot is only rounding.
+/// A row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. A smaller pivot is only a
+/// rounding error.
 const IMPLIED: f64 = 1e-11;
 
-/// A matrix and its factors. Both keep their sparsity patterns.
+/// A symmetric matrix and its L D Lᵀ factors, with fixed sparsity patterns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {
     lines: Vec<Line>,
-    /// The matrix: the entries on and above the diagonal, column by column.
+    /// The entries of the matrix on and above the diagonal, column by column.
     matrix: Vec<Entry>,
-    /// The start of the couplings of each direction of the Jacobian in `couplings`, and the end as last entry.
+    /// For each direction of the Jacobian, the index of its first coupling in `couplings`. The last entry is the number of couplings.
     coupling_start: Vec<usize>,
     couplings: Vec<Coupling>,
-    /// The entries of L, row by row. Within a row, an entry precedes those that depend on it.
+    /// The positions of the entries of L, row by row. Within a row, an entry precedes the entries that depend on it.
     crossings: Vec<Crossing>,
-    /// L, column by column.
+    /// The entries of L below the diagonal, column by column.
     lower: Vec<Entry>,
-    /// 1/D; 0 for rows that are left out.
+    /// The diagonal of D⁻¹; 0 for rows that are left out.
     inverse: Vec<f64>,
-    /// For each soft row (see [`SOFT`]), the row that is softened by the same amount: itself, or the other tangent of its contact, so
-    /// that the directions of the tangents do not matter.
+    /// For each soft row (see [`SOFT`]), the row that is softened by the same amount; `None` for other rows. A normal row is paired with
+    /// itself. The two tangents of a contact are paired with each other, so the result does not depend on their directions.
     soft: Vec<Option<usize>>,
-    /// The weight of each row: a soft row with weight 2 yields twice as much.
+    /// The softness of each soft row, relative to the standard value [`SOFT`]: a row with weight 2 yields twice as much.
     weights: Vec<f64>,
-    /// Working memory. All entries are zero between two calls.
+    /// Working memory, one entry per row. All entries are zero between two factorizations.
     work: Vec<f64>,
 }
 
-/// The entries of a row.
+/// Where the entries of one row of the matrix and of its factors are stored.
 #[derive(Clone, Debug)]
 struct Line {
-    /// The column of the matrix.
+    /// The column of the matrix with this row's index, as a range of `Factor::matrix`.
     column: Range<usize>,
-    /// The row of L.
+    /// The row of L, as a range of `Factor::crossings`.
     crossings: Range<usize>,
-    /// The column of L.
+    /// The column of L with this row's index, as a range of `Factor::lower`.
     below: Range<usize>,
 }
 
-/// An entry of a column.
+/// An entry of a sparse column: its row and its value.
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     row: usize,
     value: f64,
 }
 
-/// Two directions of one body: one in the row of a column, one in an earlier row. Their product is added to an entry.
+/// A product that contributes to an entry of the matrix J M⁻¹ Jᵀ: it couples two directions of the same body, one in the row of the
+/// entry's column and one in an earlier row.
 #[derive(Clone, Copy, Debug)]
 struct Coupling {
-    /// The entry of the matrix.
+    /// The index of the matrix entry in `Factor::matrix`.
     entry: usize,
-    /// The direction in the earlier row.
+    /// The index of the earlier row's direction in the Jacobian.
     other: usize,
 }
 
-/// An entry of L in a row.
+/// The position of an entry of L in its row.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
     column: usize,
-    /// The start of its column in `lower`.
+    /// The index in `Factor::lower` at which the entry's column starts.
     first: usize,
-    /// Its index in `lower`.
+    /// The index of the entry in `Factor::lower`.
     at: usize,
 }
 
-/// The diagonal of a soft row is enlarged by this fraction of itself, or of the mean of its own and its partner's. So rows that imply
-/// each other can all take part, and share the load with the smallest sum of squares. Iterative refinement removes the remaining error.
+/// The relative softness of soft rows: the diagonal entry of such a row grows by this fraction of the mean of its own and its partner's
+/// diagonal entries. Redundant rows can then all be active, and share the load with the smallest sum of squares. Iterative refinement
+/// removes the remaining error.
 const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
 
 impl Factor {
-    /// Memory for the matrix J M⁻¹ Jᵀ of a structure. Its columns hold the blocks of the neighbours in their order.
+    /// Allocates the sparse matrix J M⁻¹ Jᵀ for a layout of constraints. The blocks of each column are in the order of the neighbors.
     pub(super) fn new(structure: &Structure) -> Factor {
         let mut factor = Factor::default();
         let mut couplings = vec![Vec::new(); structure.directions];
@@ -113,10 +115,11 @@ impl Factor {
         factor
     }
 
-    /// Finds the pattern of L: each entry of the matrix adds entries to its row for all ancestors in the elimination tree.
+    /// Computes the sparsity pattern of L. Each matrix entry causes entries of L in its row, for all its ancestors in the elimination
+    /// tree.
     fn plan(&mut self, columns: Vec<Range<usize>>) {
         let n = columns.len();
-        // The elimination tree: the first later row in which a column of L has an entry.
+        // The elimination tree: the parent of a column of L is the first later row in which the column has an entry.
         let mut parent = vec![NONE; n];
         let mut mark = vec![NONE; n];
         let mut count = vec![0; n];
@@ -166,7 +169,7 @@ impl Factor {
         self.work = vec![0.0; n];
     }
 
-    /// Sets the matrix to J M⁻¹ Jᵀ.
+    /// Computes the entries of the matrix J M⁻¹ Jᵀ.
     pub(super) fn assemble(&mut self, jacobian: &[Direction], members: &[Member]) {
         self.matrix.iter_mut().for_each(|entry| entry.value = 0.0);
         for (direction, couplings) in jacobian.iter().zip(self.coupling_start.windows(2)) {
@@ -177,16 +180,16 @@ impl Factor {
         }
     }
 
-    /// An entry on the diagonal of the matrix.
+    /// Returns the diagonal entry of the matrix in a row.
     pub(super) fn diagonal(&self, row: usize) -> f64 {
         self.matrix[self.lines[row].column.end - 1].value
     }
 
-    /// Factorises the matrix. `held` selects the active rows. With `choose`, rows that others imply are removed from it.
+    /// Factorizes the matrix for the active rows, which `held` selects. With `choose`, redundant rows are deselected in `held`.
     pub(super) fn compute(&mut self, held: &mut [bool], choose: bool) {
         let Factor { lines, matrix, crossings, lower, inverse, soft, weights, work, .. } = self;
         for ((k, line), held) in lines.iter().enumerate().zip(held) {
-            // The last entry of a column is on the diagonal.
+            // The last entry of a column is its diagonal entry.
             let Some((diagonal, before)) = matrix[line.column.clone()].split_last() else { continue };
             for entry in before {
                 work[entry.row] = entry.value;
@@ -214,24 +217,24 @@ impl Factor {
         }
     }
 
-    /// Sets the soft rows, each with the row that is softened by the same amount. By default, no row is soft.
+    /// Sets which rows are soft: each soft row names the row that is softened by the same amount. By default, no row is soft.
     pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
         self.weights = vec![1.0; soft.len()];
         self.soft = soft;
     }
 
-    /// Sets the weights of soft rows. All other weights become 1.
+    /// Sets the softness weights of the given rows. All other weights become 1.
     pub(super) fn weigh(&mut self, weights: impl IntoIterator<Item = (usize, f64)>) {
         self.weights.fill(1.0);
         weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
     }
 
-    /// Whether any row is soft, so that solutions need refinement.
+    /// Returns true if any row is soft. Solutions then need iterative refinement.
     pub(super) fn is_soft(&self) -> bool {
         self.soft.iter().any(Option::is_some)
     }
 
-    /// For each row, the sum of the absolute values of its entries in the selected columns.
+    /// Computes, for each row of the matrix, the sum of the absolute values of its entries in the columns that `counts` selects.
     pub(super) fn row_sizes(&self, counts: impl Fn(usize) -> bool) -> Vec<f64> {
         let mut sizes = vec![0.0; self.lines.len()];
         for (k, line) in self.lines.iter().enumerate() {
@@ -247,12 +250,12 @@ impl Factor {
         sizes
     }
 
-    /// Whether a row is soft.
+    /// Returns true if this row is soft.
     pub(super) fn is_row_soft(&self, row: usize) -> bool {
         self.soft.get(row).is_some_and(Option::is_some)
     }
 
-    /// Subtracts A x from `out`, in all rows.
+    /// Subtracts the product A x from `out`, in all rows.
     pub(super) fn subtract_product(&self, x: &[f64], out: &mut [f64]) {
         for (k, line) in self.lines.iter().enumerate() {
             for entry in &self.matrix[line.column.clone()] {
@@ -264,7 +267,7 @@ impl Factor {
         }
     }
 
-    /// Solves A x = b for the active rows; the other entries of x are 0.
+    /// Solves A x = b for the active rows. `x` holds b before the call; the entries of inactive rows become 0.
     #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         for (i, line) in self.lines.iter().enumerate() {
@@ -278,7 +281,7 @@ impl Factor {
             for entry in &self.lower[line.below.clone()] {
                 value -= entry.value * x[entry.row];
             }
-            // A row that is left out has a zero column in L, so its value is zero too.
+            // An inactive row has a zero column in L, so its solution is zero as well.
             x[i] = value;
         }
     }

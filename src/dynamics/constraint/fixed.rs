@@ -1,4 +1,4 @@
-//! A fixed joint: two bodies move as one.
+//! A fixed joint: it keeps two bodies from moving relative to each other.
 
 use glam::DQuat;
 
@@ -6,12 +6,12 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Members, parts};
 
-/// A fixed joint, also called a weld.
+/// A fixed joint, also called a weld: two bodies move as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed {
-    /// The two points.
+    /// The two ends of the joint: points that coincide.
     pub between: [Anchor; 2],
-    /// The rotation that takes the axes of the first end to those of the second end.
+    /// The fixed rotation from the body axes of the first end to those of the second end.
     pub turned: DQuat,
 }
 

@@ -6,42 +6,43 @@ use std::sync::Arc;
 use super::coordinate::{Coordinate, CoordinateRow};
 use super::{Equations, Law, Members};
 
-/// The limits and the motor of a joint that leaves one coordinate free.
+/// The limits and the motor of a hinge or slider, which act on its free coordinate.
 #[derive(Clone, Debug, Default)]
 pub struct Freedom {
-    /// The smallest and the largest value, rad or m. For an angle, their difference is less than a full rotation.
+    /// The smallest and the largest value of the coordinate, rad or m. For an angle, the limits differ by less than a full turn. `None`
+    /// without limits.
     pub limits: Option<[f64; 2]>,
-    /// Its motor.
+    /// The motor that drives the coordinate; `None` without a motor.
     pub motor: Option<Motor>,
 }
 
-/// A motor of a joint.
+/// A motor that drives the free coordinate of a joint.
 #[derive(Clone, Debug)]
 pub enum Motor {
-    /// Keeps a speed within the limit of its torque or force.
+    /// A motor that keeps a constant speed, as far as the limit of its torque or force allows.
     Speed {
-        /// The speed, rad/s or m/s.
+        /// The target speed, rad/s or m/s.
         speed: f64,
-        /// The largest torque, N m, or force, N; it is positive.
+        /// The largest torque, N m, or force, N, of the motor. It is positive.
         limit: f64,
     },
-    /// Keeps a value that is a given function of time, with any force that this needs.
+    /// A motor that makes the coordinate a given function of time, with unlimited force.
     Value(Arc<dyn Target>),
 }
 
-/// A value as a function of time.
+/// The target value of a driven joint coordinate, as a function of time.
 pub trait Target: Debug + Send + Sync {
-    /// The value at time `t` (s), and its first and second derivatives: rad, rad/s and rad/s², or m, m/s and m/s².
+    /// Returns the target value at time `t` (s) and its first and second time derivatives: rad, rad/s and rad/s², or m, m/s and m/s².
     fn at(&self, t: f64) -> [f64; 3];
 }
 
 impl Freedom {
-    /// The number of its equations.
+    /// Returns the number of constraint equations of the limits and the motor.
     pub(super) fn rows(&self) -> usize {
         2 * usize::from(self.limits.is_some()) + usize::from(self.motor.is_some())
     }
 
-    /// The law of one of its equations.
+    /// Returns the law of an equation of the limits or the motor. The limits come first.
     pub(super) fn law(&self, row: usize) -> Law {
         if self.limits.is_some() && row < 2 {
             return Law::Stop;
@@ -52,7 +53,7 @@ impl Freedom {
         }
     }
 
-    /// Writes its equations, from row `first` on.
+    /// Writes the equations of the limits and the motor, starting at row `first` of the constraint.
     pub(super) fn measure(
         &self,
         coordinate: impl FnOnce() -> Coordinate,
@@ -72,7 +73,7 @@ impl Freedom {
             row += 1;
         };
         if let Some([low, high]) = self.limits {
-            // Angles are periodic: take the value nearest to the middle of the limits.
+            // Angles are periodic: use the value nearest to the middle of the limits.
             let middle = 0.5 * (low + high);
             let value = middle + coordinate.difference(now.value, middle);
             write(1.0, value - low, 0.0, 0.0);
@@ -80,7 +81,7 @@ impl Freedom {
         }
         match &self.motor {
             None => {}
-            // Relative to the start of the step, so that full rotations need not be counted.
+            // The angle is measured from the start of the step, so full turns need not be counted.
             Some(Motor::Speed { speed, .. }) => {
                 let moved = coordinate.difference(now.value, before.value);
                 let due = coordinate.difference(speed * members.elapsed(), 0.0);

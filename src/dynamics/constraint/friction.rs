@@ -1,7 +1,8 @@
-//! Coulomb friction: pairs of rows that hold as far as the normal force allows.
+//! Coulomb friction: pairs of constraint rows whose force is bounded by the normal force.
 //!
-//! A pair sticks with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip. λₙ depends on which pairs slide, so both
-//! are found together. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8.
+//! A pair sticks with c' = 0 and |λ| ≤ μ λₙ, or slides and pushes with μ λₙ against its slip velocity. The normal multiplier λₙ depends on
+//! which pairs slide, so both are found together. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996),
+//! chapter 8.
 
 use glam::DVec2;
 
@@ -12,53 +13,55 @@ use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};
 
-/// A slip counts as slow if it is below this multiple of its change by friction in a step.
+/// A slip counts as slow if friction could stop it within this number of steps.
 const SLOWLY: f64 = 2.0;
 
-/// When contact points share friction by their loads, the loads count as at most this factor away from their mean.
+/// When several contact points share friction by their normal forces, each weight is limited to this factor above or below the mean.
 const UNLIKE: f64 = 10.0;
 
-/// Two directions are nearly equal if the cosine of their angle is larger than this.
+/// Two directions count as nearly equal if the cosine of the angle between them exceeds this value.
 const ABOUT: f64 = 0.99;
 
-/// A restless contact sticks below this fraction of the largest rate.
+/// A contact that alternates between sticking and sliding sticks if its slip speed is below this fraction of the largest rate.
 const RESTING: f64 = 1e-5;
 
-/// Below this fraction of the largest rate, a slip has no usable direction.
+/// A slip speed below this fraction of the largest rate counts as zero, and has no usable direction.
 pub(super) const SLOW: f64 = 1e-9;
 
-/// Two rows of friction.
+/// The two friction rows of a contact, one per tangent, and their state. Rolling friction has a pair of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Grip {
-    /// The first row; the second follows.
+    /// The index of the first friction row. The second row follows it.
     pub(super) row: usize,
-    /// The row whose multiplier bounds it.
+    /// The index of the normal row, whose multiplier bounds the friction.
     pub(super) normal: usize,
-    /// The largest ratio of the friction to the multiplier of `normal`.
+    /// The coefficient of friction: the largest ratio of the friction to the normal multiplier.
     pub(super) coefficient: f64,
-    /// The direction in which it pushes while it slides: a unit vector in the plane of its two rows.
+    /// The direction of the friction force while the contact slides: a unit vector in the basis of the two tangents.
     pub(super) push: DVec2,
-    /// The direction of the slip at the beginning of the step.
+    /// The direction of the slip velocity at the beginning of the step, a unit vector in the basis of the two tangents.
     pub(super) heading: DVec2,
-    /// Whether it has just begun to slide, and has no speed yet.
+    /// True if the contact has just begun to slide, and its slip velocity is still zero.
     pub(super) is_beginning: bool,
-    /// Whether friction can stop it within the step. It then keeps its direction until it stops; otherwise the slip would turn around
-    /// endlessly.
+    /// True if friction can stop the slip within the step. The friction then keeps its direction until the slip ends. Otherwise the slip
+    /// would change its sign endlessly.
     pub(super) is_slow: bool,
-    /// Whether the two bodies also touch at other points.
+    /// True if the two bodies also touch at other points.
     pub(super) is_shared: bool,
-    /// Whether it must stick at once, since no force fits its slip.
+    /// True if the contact must stick at once, because no sliding force is consistent with its slip.
     pub(super) is_caught: bool,
-    /// Whether it has changed too often in this step. It then sticks until the end of the step, with any friction that this needs.
+    /// True if the contact has switched between sticking and sliding too often in this step. It then sticks until the end of the step,
+    /// with any friction force that this needs.
     pub(super) is_restless: bool,
-    /// The strongest coupling with all friction rows: for its two rows, the larger sum of the absolute values of their entries of A.
+    /// The strongest coupling of this pair with all friction rows: for each of the pair's rows, the absolute values of its friction
+    /// entries of A = J M⁻¹ Jᵀ are added; the larger sum counts.
     pub(super) stiffness: f64,
-    /// The largest change of slips by friction at the last decision, m/s² or rad/s².
+    /// The largest change of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
     pub(super) strength: f64,
 }
 
 impl Grip {
-    /// All pairs of a structure with known laws.
+    /// Creates the pairs of friction rows for a layout of constraints. `laws` holds the law of each row.
     pub(super) fn all(structure: &Structure, laws: &[Law]) -> Vec<Grip> {
         let mut grips = Vec::new();
         for place in &structure.places {
@@ -93,27 +96,28 @@ impl Grip {
         grips
     }
 
-    /// Whether the slip is so slow that friction would reverse it within a step of `span` seconds, and its direction is nearly the same
-    /// as before. If several points share a body, rounding errors of the directions would otherwise grow from step to step.
+    /// Returns true if the friction keeps its previous direction: the bodies touch at several points, friction could reverse the slip
+    /// within a step of `span` seconds, and the slip's direction has hardly changed. Rounding errors of the directions would otherwise
+    /// grow from step to step.
     fn keeps_heading(&self, slip: DVec2, span: f64) -> bool {
         self.is_shared
             && slip.length() < SLOWLY * self.strength * span
             && slip.dot(self.heading) > ABOUT * slip.length()
     }
 
-    /// Its two values in a list with one value for each row.
+    /// Returns the two entries of this pair from a list with one value per row.
     pub(super) fn of(&self, values: &[f64]) -> DVec2 {
         DVec2::new(values[self.row], values[self.row + 1])
     }
 }
 
 impl Solver {
-    /// Whether any contact slides.
+    /// Returns true if any contact slides.
     pub(super) fn slides(&self) -> bool {
         self.grips.iter().any(|grip| self.modes[grip.row] == Mode::Slid)
     }
 
-    /// Updates the slips at the current velocities, and sets friction against them.
+    /// Computes the slip velocities of sliding contacts, and turns their friction against the slip.
     pub(super) fn see_slips(&mut self) {
         if !self.slides() {
             return;
@@ -127,8 +131,8 @@ impl Solver {
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             let slip = grip.of(&rates);
             let speed = slip.length();
-            // A slip that begins or ends keeps the direction found before. Friction keeps this direction even after the slip ends, so
-            // that forces are smooth until the step is repeated up to that moment.
+            // A contact whose slip begins or ends keeps the friction direction found before, even after the slip has ended. The forces
+            // then stay smooth until the step is repeated up to that moment.
             let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
             if !grip.is_beginning && !grip.is_slow && !grip.keeps_heading(slip, self.span) {
                 grip.push = if goes_on { -slip / speed } else { -grip.heading };
@@ -137,7 +141,7 @@ impl Solver {
         self.slips = rates;
     }
 
-    /// Stores the directions of sliding at the start of a step.
+    /// Stores the slip direction of each sliding contact at the start of a step.
     pub(super) fn head(&mut self) {
         self.see_slips();
         let slow = SLOW * self.largest_rate;
@@ -152,14 +156,15 @@ impl Solver {
         }
     }
 
-    /// Adds the power of friction to the loads.
+    /// Adds the power of sliding friction to the loads, W.
     pub(super) fn book_friction(&self, loads: &mut Loads) {
         for grip in self.grips.iter().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             loads.power.friction += grip.of(&self.unknown).dot(grip.of(&self.slips));
         }
     }
 
-    /// Sets the first mode of a pair of rows: it sticks without slip and slides with slip, but only while its normal row holds.
+    /// Sets the initial mode of a pair of friction rows: sticking if the slip velocity is zero, otherwise sliding, and open if the normal
+    /// row does not hold.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
         let Grip { row, normal, is_restless, is_caught, .. } = self.grips[grip];
         let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
@@ -177,8 +182,8 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Whether closed contacts still move by more than an event tolerates. This motion must then be removed, or sliding would begin in
-    /// the wrong direction.
+    /// Returns true if a held contact still has a normal rate or slip that exceeds the tolerance of events. This motion must be removed;
+    /// otherwise sliding would begin in the wrong direction.
     pub(super) fn still_moves(&self, rates: &[f64]) -> bool {
         let moves = |row: usize, speed: f64, part: f64| {
             self.modes[row] == Mode::Held && speed > part * self.largest_rate
@@ -188,9 +193,9 @@ impl Solver {
             || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
     }
 
-    /// Makes a sliding contact stick at once if no mode of its normal row is right: Painlevé's paradox. Friction then grows without bound
-    /// until the slip ends, as in an impact without restitution. Returns whether there is such a contact. Source: D. E. Stewart, SIAM
-    /// Review 42 (2000) 3.
+    /// Makes a sliding contact stick at once if no mode of its row `wrong` is consistent (Painlevé's paradox). Friction then grows without
+    /// bound until the slip ends, as in an impact without restitution. Returns true if such a contact was found. Source: D. E. Stewart,
+    /// SIAM Review 42 (2000) 3.
     pub(super) fn catch(&mut self, wrong: usize) -> bool {
         let is_wrong = |grip: &&mut Grip| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
         let grip = self.grips.iter_mut().find(is_wrong);
@@ -202,8 +207,8 @@ impl Solver {
         Some(&self.grips[at])
     }
 
-    /// The error of the present mode of a pair, asked by its first row. A sticking pair may need more friction than allowed; a pair that
-    /// begins to slide may be pushed along its slip.
+    /// Returns the error of the present mode of a pair of friction rows; `row` is its first row. A positive error means that a sticking
+    /// pair needs more friction than allowed, or that a pair that begins to slide is pushed along its slip.
     pub(super) fn grip_is_wrong(&self, row: usize, accelerations: &[f64]) -> f64 {
         let Some(grip) = self.grip_at(row).filter(|grip| !grip.is_restless) else { return 0.0 };
         match self.modes[row] {
@@ -216,7 +221,7 @@ impl Solver {
         }
     }
 
-    /// Switches a pair of rows between sticking and sliding.
+    /// Switches a pair of friction rows between sticking and sliding; `row` is its first row.
     pub(super) fn change_grip(&mut self, row: usize) {
         let force = match self.grip_at(row) {
             Some(grip) => grip.of(&self.unknown),
@@ -231,8 +236,8 @@ impl Solver {
         (self.modes[row], self.modes[row + 1]) = (mode, mode);
     }
 
-    /// Weights the friction rows by the last normal forces. Points with larger normal forces then carry more of the
-    /// friction, so that all points reach their friction limits together.
+    /// Weights the softness of friction rows by the last normal forces. Contact points with larger normal forces then carry more of the
+    /// friction, and all points reach their friction limits together.
     pub(super) fn share_load(&mut self) {
         let loads: Vec<f64> = self.grips.iter().map(|grip| self.unknown[grip.normal].max(0.0)).collect();
         let sum: f64 = loads.iter().sum();
@@ -242,7 +247,7 @@ impl Solver {
         self.factor.weigh(weights);
     }
 
-    /// Updates the couplings between pairs of rows.
+    /// Computes the `stiffness` of each pair of friction rows: its strongest coupling with all friction rows.
     pub(super) fn see_stiffness(&mut self) {
         let sizes = self.factor.row_sizes(|row| matches!(self.laws[row], Law::Friction { .. }));
         for grip in &mut self.grips {
@@ -250,7 +255,7 @@ impl Solver {
         }
     }
 
-    /// Updates the strength of friction.
+    /// Computes the `strength` of each sliding pair: the largest change of slip velocities by its friction.
     pub(super) fn see_strength(&mut self) {
         for i in 0..self.grips.len() {
             let Grip { row, normal, coefficient, .. } = self.grips[i];
@@ -261,9 +266,9 @@ impl Solver {
         }
     }
 
-    /// Updates all pairs without slip, from their forces and accelerations. Pairs with enough friction stick; the others begin to slide
-    /// in the direction of their load. Returns whether anything has changed. Source: P. Alart & A. Curnier, Comput. Methods Appl. Mech.
-    /// Eng. 92 (1991) 353, for the criterion.
+    /// Updates the modes of all pairs without slip velocity from their forces and accelerations. Pairs with enough friction stick; the
+    /// other pairs begin to slide in the direction of their load. `slight` is the tolerance. Returns true if any mode or direction has
+    /// changed. Source of the criterion: P. Alart & A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353.
     pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.grips.len() {
@@ -276,7 +281,7 @@ impl Solver {
             let most = coefficient * self.unknown[normal].max(0.0);
             let grip = &mut self.grips[i];
             let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;
-            // A pair at its limit keeps its mode.
+            // A pair whose friction equals its limit, within the tolerance, keeps its mode.
             let left = (most - pulled.length()) * weight;
             let is_enough = if self.modes[row] == Mode::Slid { left > slight } else { left >= -slight };
             let mode = if is_enough { Mode::Held } else { Mode::Slid };

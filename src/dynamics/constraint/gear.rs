@@ -1,16 +1,17 @@
-//! A gear: the coordinates of two joints are proportional.
+//! A gear: it keeps the coordinates of two joints proportional.
 
 use super::super::Anchor;
 use super::coordinate::{Coordinate, CoordinateRow};
 use super::member::End;
 use super::{Constraint, Equations, Members};
 
-/// Couples the coordinates of two joints at a fixed ratio: the angle of a hinge or the displacement of a slider.
+/// A gear: it couples the free coordinates of two joints at a fixed ratio. The coordinate of a hinge is its angle, that of a slider its
+/// displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gear {
-    /// The coordinates of the two joints.
+    /// The free coordinates of the two coupled joints.
     pub joints: [Coordinate; 2],
-    /// The change of the second coordinate per unit of the first; not 0.
+    /// The gear ratio: the change of the second coordinate per unit change of the first. It is not 0.
     pub ratio: f64,
 }
 
@@ -30,7 +31,8 @@ impl Constraint for Gear {
         1
     }
 
-    /// c = Δq₂ − r Δq₁, with both changes since the start of the step, so that full rotations need not be counted.
+    /// Writes c = Δq₂ − r Δq₁ with the gear ratio r. The changes Δq are measured from the start of the step, so full turns need not be
+    /// counted.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let measure = |members: &Members<'_>| {
             let [a, b, c, d] = End::all(&self.anchors(), members);

@@ -1,4 +1,4 @@
-//! A hinge: two points coincide, and one axis is common to both bodies.
+//! A hinge: two points coincide, and both bodies rotate about a common axis.
 
 use glam::{DQuat, DVec3};
 
@@ -6,46 +6,46 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 
-/// A hinge, also called revolute joint. Its angle is that of the second end relative to the first.
+/// A hinge, also called revolute joint. Its angle is the rotation of the second end relative to the first.
 #[derive(Clone, Debug)]
 pub struct Hinge {
-    /// The two points.
+    /// The two ends of the hinge: points that coincide.
     pub between: [Anchor; 2],
-    /// The axis, a unit vector, in the axes of each end; a point of the world has the world's axes.
+    /// The hinge axis, a unit vector, in the body axes of each end. An end at a point of the world uses the world axes.
     axis: [DVec3; 2],
-    /// The rotation from the axes of the first end to those of the second at angle 0.
+    /// The rotation from the body axes of the first end to those of the second end at hinge angle 0.
     turned: DQuat,
-    /// Its limits and its motor.
+    /// The limits and the motor of the hinge angle.
     pub freedom: Freedom,
 }
 
 impl Hinge {
-    /// A hinge without limits or motor. `axis` is a unit vector in the axes of the first end. `turned` is the rotation from these axes to
-    /// those of the second end at angle 0.
+    /// Creates a hinge without limits or motor. `axis` is a unit vector in the body axes of the first end. `turned` is the rotation from
+    /// these axes to those of the second end at hinge angle 0.
     #[must_use]
     pub fn new(between: [Anchor; 2], axis: DVec3, turned: DQuat) -> Hinge {
         Hinge { between, axis: [axis, turned * axis], turned, freedom: Freedom::default() }
     }
 
-    /// The same hinge with limits or a motor.
+    /// Returns this hinge with the given limits and motor.
     #[must_use]
     pub fn with(self, freedom: Freedom) -> Hinge {
         Hinge { freedom, ..self }
     }
 
-    /// The axis, a unit vector, in the axes of the first end.
+    /// Returns the hinge axis, a unit vector, in the body axes of the first end.
     #[must_use]
     pub fn axis(&self) -> DVec3 {
         self.axis[0]
     }
 
-    /// The rotation from the axes of the first end to those of the second at angle 0.
+    /// Returns the rotation from the body axes of the first end to those of the second end at hinge angle 0.
     #[must_use]
     pub fn turned(&self) -> DQuat {
         self.turned
     }
 
-    /// Its angle.
+    /// Returns the definition of the hinge angle as a free coordinate.
     #[must_use]
     pub fn coordinate(&self) -> Coordinate {
         let [zero, _] = parts::across(self.axis[0]);

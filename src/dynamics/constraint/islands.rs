@@ -1,6 +1,6 @@
-//! Sweeps over contacts without joints, island by island. An island is a set of bodies that touch each other.
+//! Gauss–Seidel sweeps over contacts without joints, island by island. An island is a set of bodies that touch each other.
 //!
-//! Islands are independent, so each is swept only until it has settled. Its rows are stored in the order of the sweep.
+//! Islands are independent, so each is swept only until it has converged. Its rows are stored in the order of the sweep.
 
 use std::ops::Range;
 
@@ -12,32 +12,32 @@ use super::anderson::Anderson;
 use super::solver::Solver;
 use super::sweep::SWEEPS;
 
-/// A row of a contact in the form that sweeps need.
+/// A row of a contact (normal or tangent) in the form that sweeps need.
 struct Line {
-    /// The number of the row in the solver.
+    /// The index of the row in the solver.
     row: usize,
-    /// Its terms.
+    /// The terms of the row's rate, as a range of `Island::terms`.
     terms: Range<usize>,
-    /// The change of its rate by a unit impulse.
+    /// The change of the row's rate c' by a unit impulse along it.
     weight: f64,
-    /// The constant part of its rate minus the wanted rate.
+    /// The part of the row's rate c' that the sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
     bias: f64,
     goal: f64,
-    /// The least impulse.
+    /// The smallest impulse that the row may have.
     least: f64,
 }
 
-/// A velocity or an angular velocity that a row changes.
+/// The dependence of a row on one body's velocity or angular velocity.
 struct Term {
-    /// Its index among all velocities.
+    /// The index into the list of all velocities: 2 i for the velocity of member i, 2 i + 1 for its angular velocity.
     velocity: usize,
-    /// Its coefficients in the rate of the row.
+    /// The entry of the Jacobian: the derivative of the row's rate with respect to this velocity.
     along: DVec3,
-    /// Its change by a unit impulse.
+    /// The change of this velocity by a unit impulse along the row.
     change: DVec3,
 }
 
-/// Two consecutive rows of friction.
+/// The two friction rows of a contact, with the indices of their lines in the island.
 struct Pair {
     first: usize,
     normal: usize,
@@ -45,7 +45,7 @@ struct Pair {
     weight: f64,
 }
 
-/// The rows that are coupled through moving bodies.
+/// The contact rows of one island: rows that are coupled through moving bodies.
 #[derive(Default)]
 struct Island {
     lines: Vec<Line>,
@@ -71,7 +71,7 @@ impl Line {
 }
 
 impl Island {
-    /// One sweep over all normals, and then over all friction. Returns the largest change of a rate.
+    /// Makes one Gauss–Seidel sweep over all normal rows, then over all friction rows. Returns the largest change of a rate.
     fn sweep(&mut self, velocities: &mut [DVec3]) -> f64 {
         let mut change = 0.0_f64;
         for &normal in &self.normals {
@@ -108,7 +108,7 @@ impl Island {
         change
     }
 
-    /// The change of another row's rate by a unit impulse of this row; both have the same members.
+    /// Returns the absolute change of the rate of `other` by a unit impulse along `line`. Both rows have the same members.
     fn coupling(&self, line: &Line, other: &Line) -> f64 {
         let of = |term: &Term| {
             let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);
@@ -117,7 +117,7 @@ impl Island {
         self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
     }
 
-    /// Sweeps with Anderson acceleration until no rate changes by more than `tolerance`.
+    /// Sweeps with Anderson acceleration until no sweep changes a rate by more than `tolerance`.
     fn settle(&mut self, tolerance: f64, velocities: &mut [DVec3]) {
         let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
         let mut anderson = Anderson::from(&self.impulses, &weights);
@@ -137,8 +137,9 @@ impl Island {
 }
 
 impl Solver {
-    /// Finds the impulses in `unknown`, starting from its values, and applies them to the velocities of the members. Contacts let their
-    /// rates fall down to `goals`. Friction is optional.
+    /// Finds the contact impulses by sweeps over each island, and applies them to the velocities of the members. `unknown` holds the
+    /// initial impulses before the call and the result after it. The rates of contacts may fall to `goals`. Friction is included if
+    /// `with_friction` is true.
     pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, tolerance: f64) {
         let mut velocities: Vec<DVec3> =
             self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();
@@ -153,7 +154,7 @@ impl Solver {
         }
     }
 
-    /// Groups the contacts into islands. Fixed bodies belong to no island.
+    /// Groups the contacts into islands. Fixed bodies belong to no island, so they do not connect contacts.
     fn islands(&self, goals: &[f64], with_friction: bool) -> Vec<Island> {
         let Some(structure) = &self.structure else { return Vec::new() };
         let mut sets = Sets::new(self.members.len());
@@ -191,7 +192,7 @@ impl Solver {
                 if with_friction {
                     let first = normal + grip.row - place.row;
                     let [u, w] = [&island.lines[first], &island.lines[first + 1]];
-                    // The two rows are weakly coupled, since their tangents are perpendicular.
+                    // The coupling of the two rows is added to the weight; it is weak, since the tangents are perpendicular.
                     let weight = u.weight.max(w.weight);
                     let weight = if weight > 0.0 { weight + island.coupling(u, w) } else { 0.0 };
                     island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
@@ -201,7 +202,8 @@ impl Solver {
         islands
     }
 
-    /// A row with its terms. Velocities of fixed bodies count as bias.
+    /// Creates the line of a contact row, and appends its terms to `terms`. The velocities of fixed bodies count as part of the constant
+    /// `bias`.
     fn line(&self, row: usize, goal: f64, terms: &mut Vec<Term>) -> Line {
         let mut bias = self.rows[row].rate;
         let first = terms.len();

@@ -1,4 +1,4 @@
-//! Products with the Jacobian: rates and accelerations of rows, impulses and forces on bodies.
+//! Products with the constraint Jacobian J: rates and accelerations of constraint rows, and impulses and forces on bodies.
 
 use glam::DVec3;
 
@@ -7,7 +7,8 @@ use super::member::Member;
 use super::structure::Structure;
 use super::{Direction, Row};
 
-/// Adds M⁻¹ Jᵀ Λ to the velocities of members, or to accelerations in their place.
+/// Adds M⁻¹ Jᵀ Λ, the velocity changes by the impulses Λ, to the velocities of the members. If the multipliers are forces, the result is
+/// accelerations.
 pub(super) fn move_members(
     structure: &Structure,
     jacobian: &[Direction],
@@ -21,7 +22,8 @@ pub(super) fn move_members(
     });
 }
 
-/// Calls `act` with each direction of the Jacobian, its member and the multiplier of its row, unless the multiplier is 0.
+/// Calls `act` for each direction of the Jacobian in rows with a nonzero multiplier, with the direction's member, the direction, and the
+/// multiplier.
 pub(super) fn for_each_direction(
     structure: &Structure,
     jacobian: &[Direction],
@@ -37,7 +39,8 @@ pub(super) fn for_each_direction(
     }
 }
 
-/// Writes c' = J v + ∂c/∂t for the velocities of the members. Returns the size of the terms: the largest sum of absolute values.
+/// Computes the rate c' = J v + ∂c/∂t of each row from the velocities of the members. Returns the magnitude of the terms: the largest sum
+/// of absolute values in a row.
 pub(super) fn rates(
     structure: &Structure,
     jacobian: &[Direction],
@@ -58,14 +61,15 @@ pub(super) fn rates(
     largest
 }
 
-/// Writes J v for the velocities of the members, or J a if these hold accelerations.
+/// Computes J v for each row from the velocities of the members. If the members hold accelerations in place of velocities, the result is J
+/// a.
 pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &[Member], out: &mut [f64]) {
     for (row, out) in out.iter_mut().enumerate() {
         *out = product(structure, jacobian, members, row).0;
     }
 }
 
-/// One row of [`products`], and the sum of the absolute values of its terms.
+/// Computes J v for one row. Returns it with the sum of the absolute values of its terms.
 #[inline(always)]
 pub(super) fn product(
     structure: &Structure,
@@ -77,7 +81,7 @@ pub(super) fn product(
     for direction in &jacobian[structure.directions_of(row)] {
         let member = &members[direction.member];
         let moving = direction.linear.dot(member.velocity);
-        // A rod between centres of mass exerts no torque, and such rods are common.
+        // A rod between centers of mass exerts no torque. Such rods are common, so the product is skipped.
         let turning = if direction.angular == DVec3::ZERO {
             0.0
         } else {
@@ -89,15 +93,15 @@ pub(super) fn product(
     (sum, size)
 }
 
-/// Books the work of the impulses Λ of rows that move with time: Λ J v, where J v = −∂c/∂t.
+/// Books the work that the impulses Λ do through rows that depend on time, such as motors: Λ J v, where J v = −∂c/∂t.
 pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &mut State) {
     for (rate, impulse) in rates.zip(impulses) {
         state.accounts.motors -= impulse * rate;
     }
 }
 
-/// Applies the impulses Jᵀ Λ to the bodies. The guide of a body with a given motion absorbs the impulse and its work, with the opposite
-/// sign.
+/// Applies the impulses Jᵀ Λ to the bodies. A body with a given motion keeps its velocity; its guide absorbs the impulse, and the work of
+/// this is booked.
 pub(super) fn push(
     structure: &Structure,
     jacobian: &[Direction],

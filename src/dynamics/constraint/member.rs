@@ -1,4 +1,4 @@
-//! Bodies and ends in the form that constraints need.
+//! The bodies and the ends of constraints, in the form that the constraint equations need.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -6,34 +6,34 @@ use super::super::model::is_isotropic;
 use super::super::{Anchor, Model, State};
 use super::{Direction, Members};
 
-/// A body of a constraint at one moment.
+/// The state of a body at one moment, as constraint equations need it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Member {
-    /// Its centre of mass, m.
+    /// The position of the body's center of mass, world axes, m.
     pub location: DVec3,
-    /// Its velocity, m/s.
+    /// The velocity of the body's center of mass, world axes, m/s.
     pub velocity: DVec3,
-    /// The rotation from its own axes to the world's.
+    /// The rotation from the body axes to the world axes.
     pub orientation: DQuat,
-    /// Its angular velocity, world axes, rad/s.
+    /// The angular velocity of the body, world axes, rad/s.
     pub angular_velocity: DVec3,
-    /// Its angular momentum about its centre of mass, world axes, kg m²/s.
+    /// The angular momentum of the body about its center of mass, world axes, kg m²/s.
     pub(super) angular_momentum: DVec3,
-    /// 1/m, 1/kg; 0 for a body that forces do not move.
+    /// The inverse mass 1/m of the body, 1/kg; 0 for a body that forces cannot move.
     pub(super) inverse_mass: f64,
-    /// R I⁻¹ Rᵀ, 1/(kg m²); 0 for a body that torques do not rotate.
+    /// The inverse inertia tensor R I⁻¹ Rᵀ of the body, world axes, 1/(kg m²); 0 for a body that torques cannot rotate.
     pub(super) inverse_inertia: DMat3,
 }
 
-/// The constants of a body of a constraint.
+/// The constant properties of a constrained body: its mass and inertia.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nature {
     body: usize,
     inverse_mass: f64,
-    /// I⁻¹ in its principal axes.
+    /// The diagonal of the inverse inertia tensor I⁻¹ in the principal axes, 1/(kg m²).
     inverse_inertia: DVec3,
     is_isotropic: bool,
-    /// The rotation from its own axes to its principal axes. `None` if they are the same.
+    /// The rotation from the body axes to the principal axes. `None` if these axes are the same.
     turned: Option<DQuat>,
 }
 
@@ -51,7 +51,7 @@ impl Nature {
 }
 
 impl Member {
-    /// A body with an unknown state.
+    /// Creates a member with the mass and inertia of a body. Its position and velocity are not set yet.
     pub(super) fn new(nature: &Nature) -> Member {
         let inverse_mass = nature.inverse_mass;
         let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
@@ -59,7 +59,7 @@ impl Member {
         Member { inverse_mass, inverse_inertia, ..Member::default() }
     }
 
-    /// Body `i` of a state.
+    /// Returns body `i` with its position and velocity in a state.
     pub(super) fn of(i: usize, model: &Model, state: &State) -> Member {
         let nature = Nature::of(i, model);
         let mut member = Member::new(&nature);
@@ -67,7 +67,7 @@ impl Member {
         member
     }
 
-    /// Updates position and motion from a state. Returns whether the position or orientation has changed.
+    /// Copies the position and velocity of the body from a state. Returns true if the position or orientation has changed.
     #[inline(always)]
     pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
         let i = nature.body;
@@ -82,7 +82,7 @@ impl Member {
         self.orientation = orientation;
         self.angular_momentum = angular_momentum;
         if nature.is_isotropic {
-            // The inertia is the same for all orientations.
+            // The inertia tensor of an isotropic body does not depend on its orientation.
             self.angular_velocity = nature.inverse_inertia.x * angular_momentum;
             return has_moved;
         }
@@ -95,7 +95,7 @@ impl Member {
         has_moved
     }
 
-    /// M⁻¹ times a direction.
+    /// Multiplies a direction of the Jacobian by M⁻¹, the body's inverse mass and inverse inertia.
     pub(super) fn weigh(&self, direction: &Direction) -> Direction {
         Direction {
             linear: self.inverse_mass * direction.linear,
@@ -104,26 +104,27 @@ impl Member {
         }
     }
 
-    /// I⁻¹ times a vector. The vector is often zero, and always for an end at the centre of mass.
+    /// Multiplies a vector in world axes by the inverse inertia tensor. Zero vectors are frequent (ends at centers of mass), so they are
+    /// returned at once.
     pub(super) fn turn(&self, vector: DVec3) -> DVec3 {
         if vector == DVec3::ZERO { vector } else { self.inverse_inertia * vector }
     }
 }
 
-/// An end of a constraint at one moment.
+/// An end of a constraint at one moment: a point of a body, or a point of the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End<'a> {
-    /// The index of its body among those of the constraint. `None` for a point of the world.
+    /// The index of the end's body among the bodies of the constraint. `None` for a point of the world.
     pub(super) body: Option<usize>,
-    /// Its body. A point of the world has a body at rest at the origin.
+    /// The state of the end's body. For a point of the world, a body at rest at the origin.
     pub(super) member: &'a Member,
-    /// r: the vector from the centre of mass to it, m.
+    /// r: the vector from the body's center of mass to the end, world axes, m.
     pub(super) arm: DVec3,
-    /// Whether it is a point of a body away from the centre of mass.
+    /// True if the end is a point of a body away from its center of mass.
     pub(super) is_off_centre: bool,
 }
 
-/// The body to which points of the world belong.
+/// The body of all ends that are points of the world. It rests at the origin.
 static WORLD: Member = Member {
     location: DVec3::ZERO,
     velocity: DVec3::ZERO,
@@ -135,12 +136,12 @@ static WORLD: Member = Member {
 };
 
 impl<'a> End<'a> {
-    /// The ends of a constraint; `members` are its bodies, each once, in the order of the ends.
+    /// Computes the ends of a constraint at one moment. `members` are the bodies of the constraint, each once, in the order of the ends.
     #[inline(always)]
     pub(super) fn all<const N: usize>(anchors: &[Anchor; N], members: &'a Members<'_>) -> [End<'a>; N] {
         let world = End { body: None, member: &WORLD, arm: DVec3::ZERO, is_off_centre: false };
         let (mut ends, mut bodies) = ([world; N], 0);
-        // A loop instead of `from_fn`: calling a closure for each end slows rods down.
+        // A loop instead of `from_fn`: a closure call for each end would slow down rods.
         for (i, &anchor) in anchors.iter().enumerate() {
             ends[i] = match anchor {
                 Anchor::Point(arm) => End { arm, ..world },
@@ -158,22 +159,23 @@ impl<'a> End<'a> {
         ends
     }
 
-    /// Its position, m.
+    /// Returns the position of the end, world axes, m.
     pub(super) fn location(&self) -> DVec3 {
         self.member.location + self.arm
     }
 
-    /// The rotation from the body's axes to the world's.
+    /// Returns the rotation from the axes of the end's body to the world axes.
     pub(super) fn orientation(&self) -> DQuat {
         self.member.orientation
     }
 
-    /// The angular velocity of the body, rad/s.
+    /// Returns the angular velocity of the end's body, world axes, rad/s.
     pub(super) fn angular_velocity(&self) -> DVec3 {
         self.member.angular_velocity
     }
 
-    /// ω × r, its velocity relative to the centre of mass, m/s; and ω × (ω × r), its centripetal acceleration, m/s².
+    /// Returns two vectors that follow from the rotation of the end's body: ω × r, the end's velocity relative to the center of mass, m/s;
+    /// and ω × (ω × r), its centripetal acceleration, m/s².
     #[inline(always)]
     pub(super) fn turning(&self) -> (DVec3, DVec3) {
         let omega = self.member.angular_velocity;
@@ -181,7 +183,7 @@ impl<'a> End<'a> {
         (turning, omega.cross(turning))
     }
 
-    /// Its velocity, m/s, and its centripetal acceleration, m/s².
+    /// Returns the velocity of the end, m/s, and its centripetal acceleration, m/s².
     #[inline(always)]
     pub(super) fn motion(&self) -> (DVec3, DVec3) {
         if !self.is_off_centre {

@@ -1,8 +1,8 @@
-//! Constraints: their interface, one file for each kind, and one solver for all.
+//! Constraints between bodies: their common trait, one file for each kind, and one solver for all kinds.
 //!
-//! A constraint is a list of equations c(x, q) = 0, its rows. Its forces are Jᵀ λ with the Jacobian J = ∂c/∂(x, φ), where φ are rotations
-//! about the world axes. Source: E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical Integration*, 2nd ed., VII.1; the joints: D.
-//! Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
+//! A constraint is a list of equations c(x, q) = 0, one per row. Its forces are Jᵀ λ with the Jacobian J = ∂c/∂(x, φ), where φ are
+//! rotations about the world axes. Sources: for the equations, E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical Integration*, 2nd
+//! ed., VII.1; for the joints, D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
 
 mod anderson;
 mod ball;
@@ -59,115 +59,117 @@ use glam::DVec3;
 
 use super::{Anchor, BodyId};
 
-/// A constraint holds bodies together.
+/// A constraint between bodies, such as a joint or a lasting contact: a list of equations that the motion has to satisfy.
 ///
-/// A new kind is one type with this trait. The solver does not know the kinds.
+/// Each kind of constraint is one type with this trait. The solver does not depend on the kinds.
 pub trait Constraint: std::fmt::Debug + Send + Sync {
-    /// Its ends. Its force and torque are measured on the last end.
+    /// Returns the ends of the constraint: the points that it connects. Its force and torque are measured on the last end.
     fn ends(&self) -> Vec<Anchor>;
 
-    /// Its bodies, each once, in the order of the ends.
+    /// Returns the bodies of the constraint, each once, in the order of the ends.
     fn bodies(&self) -> Vec<BodyId> {
         parts::bodies(&self.ends())
     }
 
-    /// The number of its equations.
+    /// Returns the number of equations of the constraint.
     fn rows(&self) -> usize;
 
-    /// The law of one of its equations.
+    /// Returns the law of one equation, [`Law::Tie`] by default.
     fn law(&self, _row: usize) -> Law {
         Law::Tie
     }
 
-    /// Writes all equations at one moment. `members` has the bodies in the order of [`bodies`](Self::bodies).
+    /// Writes all equations of the constraint at one moment. `members` holds the bodies in the order of [`bodies`](Self::bodies).
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
 }
 
-/// How an equation is kept.
+/// The kind of a constraint equation: equality, inequality, friction, or motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
-    /// c = 0, with any force.
+    /// An equality: c = 0, with a force of any size and sign.
     Tie,
-    /// c ≥ 0. It pushes to keep c from becoming negative. It never pulls.
+    /// An inequality: c ≥ 0. Its force keeps c from becoming negative. It only pushes and never pulls.
     Stop,
     /// Coulomb friction along two tangents, by two consecutive rows of this law. Their combined multiplier is at most `coefficient` times
-    /// that of the first row of the constraint. If this is enough, both keep c' = 0; otherwise they push with the maximum.
+    /// that of the constraint's first row. If this suffices, the contact sticks: c' = 0 in both rows. Otherwise it slides, and friction
+    /// has this maximum.
     Friction {
-        /// Coulomb's coefficient; for rotations, the coefficient of rolling friction, m. It is positive.
+        /// Coulomb's coefficient of friction, or for rotations the coefficient of rolling friction, m. It is positive.
         coefficient: f64,
     },
-    /// c' = 0, as far as a multiplier from −`limit` to `limit` allows.
+    /// A motor that keeps c' = 0, as far as a multiplier between −`limit` and `limit` allows.
     Drive {
-        /// The largest multiplier; it is positive.
+        /// The largest multiplier of the motor, a force in N or a torque in N m. It is positive.
         limit: f64,
     },
 }
 
-/// One equation of a constraint at one moment.
+/// The value and derivatives of a constraint equation c = 0 at one moment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
-    /// c, in metres or dimensionless; 0 if the equation holds.
+    /// The value of c, m or dimensionless; 0 if the equation holds.
     pub violation: f64,
-    /// ∂c/∂t, the part of c' that does not depend on velocities.
+    /// ∂c/∂t: the part of c' that does not depend on velocities.
     pub rate: f64,
     /// The part of c'' that does not depend on accelerations: J̇ v + ∂²c/∂t².
     pub bias: f64,
-    /// The size of the terms whose difference is c. The rounding error of c is about 1e-16 of this.
+    /// The magnitude of the terms whose difference is c. The rounding error of c is about 1e-16 of this.
     pub scale: f64,
 }
 
-/// The entries of one row of the Jacobian for one body: c' = linear·v + angular·ω + …
+/// The entries of the Jacobian in one row for one body: c' = linear·v + angular·ω + …
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Direction {
-    /// ∂c/∂x.
+    /// ∂c/∂x: the derivative of the equation with respect to the body's position, world axes.
     pub linear: DVec3,
-    /// ∂c/∂φ, world axes.
+    /// ∂c/∂φ: the derivative of the equation with respect to the body's rotation, world axes.
     pub angular: DVec3,
-    /// The index of its body among the members.
+    /// The index of the body among the members of the solver.
     member: usize,
 }
 
 impl Direction {
-    /// The sum of the products of all components.
+    /// Returns the dot product of two directions, over the linear and the angular components.
     fn dot(&self, other: &Direction) -> f64 {
         let linear = self.linear.dot(other.linear);
         if other.angular == DVec3::ZERO { linear } else { linear + self.angular.dot(other.angular) }
     }
 }
 
-/// The bodies of a constraint at one moment.
+/// The bodies of one constraint at one moment, and at the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Members<'a> {
     all: &'a [Member],
     of: &'a [usize],
     time: f64,
-    /// All members at the start of the step.
+    /// The states of all members of the solver at the start of the step.
     origin: &'a [Member],
     begun: f64,
-    /// Whether the end of a step is being aimed at: see [`Solver::aim`].
+    /// True while [`Solver::aim`] corrects initial velocities, so that the constraints hold at the end of the step.
     is_aiming: bool,
 }
 
 impl Members<'_> {
-    /// The time, s.
+    /// Returns the current time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// The time since the start of the step, s.
+    /// Returns the time since the start of the step, s.
     #[must_use]
     pub fn elapsed(&self) -> f64 {
         self.time - self.begun
     }
 
-    /// The same bodies at the start of the step.
+    /// Returns the same bodies as they were at the start of the step.
     #[must_use]
     pub fn at_origin(&self) -> Self {
         Self { all: self.origin, time: self.begun, ..*self }
     }
 
-    /// While a step is being aimed: the first two bodies at its start, with their initial velocities. `None` at all other times.
+    /// Returns the first two bodies at the start of the step, with the corrected initial velocities, while [`Solver::aim`] runs. `None` at
+    /// all other times.
     pub(in crate::dynamics) fn aimed(&self) -> Option<[Member; 2]> {
         let set_off = |i: usize| {
             let (now, then) = (&self[i], &self.at_origin()[i]);
@@ -189,22 +191,24 @@ impl std::ops::Index<usize> for Members<'_> {
     }
 }
 
-/// Where a constraint writes its equations.
+/// The buffer into which a constraint writes its equations and their Jacobian.
 pub struct Equations<'a> {
-    /// The rows of all constraints.
+    /// The equations of all constraints, one per row.
     rows: &'a mut [Row],
     jacobian: &'a mut [Direction],
-    /// The first row and the first direction of the current constraint, and the number of its bodies.
+    /// The position of the constraint that writes now: its first row, its first direction (`direction`), and its number of bodies
+    /// (`bodies`).
     row: usize,
     direction: usize,
     bodies: usize,
 }
 
 impl Equations<'_> {
-    /// Writes a row with all directions zero.
+    /// Writes an equation of the constraint, with a time-independent c, and sets its Jacobian to zero. `row` counts from the constraint's
+    /// first row.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
-        // By index: most rows have one or two bodies, and the compiler unrolls an iterator's loop for many.
+        // A loop by index: the compiler would unroll an iterator's loop for many bodies, but most rows have one or two.
         let mut i = self.direction + row * self.bodies;
         let end = i + self.bodies;
         while i != end {
@@ -214,12 +218,12 @@ impl Equations<'_> {
         }
     }
 
-    /// Sets ∂c/∂t of a row.
+    /// Sets ∂c/∂t of an equation that depends on time. `row` counts from the constraint's first row.
     pub(in crate::dynamics) fn moving(&mut self, row: usize, rate: f64) {
         self.rows[self.row + row].rate = rate;
     }
 
-    /// Writes the only row of a constraint with two ends. Each end gives its body and that body's direction.
+    /// Writes the single row of a constraint with two ends. `ends` holds, for each end, its body and that body's Jacobian entries.
     #[inline(always)]
     fn only_row(&mut self, row: Row, ends: [(Option<usize>, DVec3, DVec3); 2]) {
         self.rows[self.row] = row;
@@ -240,7 +244,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds to the direction of one body in a row. A point of the world has no body, so this adds nothing.
+    /// Adds to the Jacobian entries of one body in a row. For a point of the world, `body` is `None` and nothing is added.
     pub(in crate::dynamics) fn direction(
         &mut self,
         row: usize,

@@ -1,9 +1,9 @@
-//! The modes of rows that do not always hold: whether a row holds, is open, or pushes with its limit.
+//! The modes of constraint rows that are not always active: a row holds, is open, slides, or pushes with its limit.
 //!
-//! A stop with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0. A drive either keeps its speed with |λ| ≤ its limit, or
-//! pushes with its limit. Both are linear complementarity problems: first for velocities at an impact, then for accelerations. They are
-//! solved by changing one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996),
-//! chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
+//! A stop (c ≥ 0) with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0. A motor either keeps its speed with |λ| ≤ its
+//! limit, or pushes with its limit. Both are linear complementarity problems: first for velocities at an impact, then for accelerations.
+//! They are solved by changing the mode of one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral
+//! Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
 
 use super::super::{Loads, Model, State};
 use super::events::PASSED;
@@ -12,30 +12,30 @@ use super::member::Member;
 use super::solver::Solver;
 use super::{Law, Row};
 
-/// The mode of a row.
+/// The mode of a constraint row: whether the row is active, and how it exerts force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
-    /// It keeps c = 0.
+    /// The row is active: it keeps c = 0, or c' = 0 for a motor or sticking friction.
     Held,
-    /// It does nothing.
+    /// The row is inactive: it exerts no force.
     Open,
-    /// It pushes with its limit, and with this sign.
+    /// The motor of this row pushes with its limit. The value is the sign of its multiplier, ±1.
     Pushed(f64),
-    /// It slides: it pushes with the full friction.
+    /// The friction row slides: friction has its full size and opposes the slip.
     Slid,
 }
 
-/// A stop is touched if c is below this fraction of its scale.
+/// A stop (c ≥ 0) counts as touched if c is at most this fraction of its scale.
 pub(super) const TOUCHED: f64 = 1e-9;
 
-/// The largest number of sliding contacts that can be made to stick at once.
+/// The largest number of sliding contacts that one decision of modes can make stick at once.
 const CAUGHT: usize = 4;
 
-/// A sum below this fraction of its terms counts as a rounding error.
+/// A sum below this fraction of its largest term counts as a rounding error.
 pub(super) const SLIGHT: f64 = 1e-10;
 
 impl Mode {
-    /// The initial mode of a row.
+    /// Returns the initial mode of a row with this law.
     pub(super) fn first(law: &Law) -> Mode {
         match law {
             Law::Tie => Mode::Held,
@@ -43,10 +43,10 @@ impl Mode {
         }
     }
 
-    /// The violation of a row in this mode.
+    /// Returns the error of an equation in this mode: the amount by which the law is violated.
     pub(super) fn missing(self, law: Law, row: &Row) -> f64 {
         match (law, self) {
-            // Friction at its limit is allowed to slip.
+            // Friction is an equation for velocities, so its row has no error of position.
             (Law::Friction { .. }, _) => 0.0,
             (_, Mode::Held) => row.violation.abs(),
             (Law::Stop, _) => (-row.violation).max(0.0),
@@ -56,14 +56,14 @@ impl Mode {
 }
 
 impl Solver {
-    /// Moves bodies to satisfy the constraints after a manual change at time `t`, and decides the mode of each row.
+    /// Moves bodies to satisfy the constraints after a change from outside at time `t`, and decides the mode of each row.
     pub(in crate::dynamics) fn start(&mut self, model: &Model, t: f64, state: &mut State, loads: &mut Loads) {
         self.begin(model, t, state);
         if !self.has_modes {
             self.settle(model, t, state);
             return;
         }
-        // Stops that are passed correct the positions only, not the velocities.
+        // Violated stops correct the positions only, not the velocities.
         for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
             if *law == Law::Stop && row.violation < 0.0 {
                 *mode = Mode::Held;
@@ -77,8 +77,8 @@ impl Solver {
         self.decide(model, t, state, loads);
     }
 
-    /// Decides the mode of each row from now on: applies the impulses of stops that are hit, and finds the rows that keep holding.
-    /// `loads` is working memory.
+    /// Decides the mode of each row from now on. Applies the impulses of stops that are hit, and finds from the accelerations which rows
+    /// stay active. `loads` is working memory.
     pub(in crate::dynamics) fn decide(
         &mut self,
         model: &Model,
@@ -96,7 +96,7 @@ impl Solver {
             .map(|(law, row)| *law == Law::Stop && row.violation <= TOUCHED * row.scale)
             .collect();
         let size = self.hit(model, state, &touched);
-        // The velocities have changed.
+        // The impulses have changed the velocities.
         self.measure(t, state);
         let mut rates = vec![0.0; self.rows.len()];
         if let Some(structure) = &self.structure {
@@ -108,8 +108,8 @@ impl Solver {
         let mut can_hold = vec![false; self.rows.len()];
         let stills = self.stills(model);
         for i in 0..self.rows.len() {
-            // A fall over the tolerated depth c of a stop gives a rate of √(2 c'' c). This rate counts as zero; otherwise two stops that
-            // both hold would be hit in turn endlessly.
+            // A body that passes a stop by the tolerated depth c reaches a rate of √(2 c'' c). This rate counts as zero. Otherwise two
+            // active stops would hit in turn endlessly.
             let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
             let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
@@ -118,7 +118,7 @@ impl Solver {
                 Law::Stop => (Mode::Open, false),
                 Law::Drive { .. } if is_still => (Mode::Held, true),
                 Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
-                // The mode of its normal row decides first.
+                // The mode of the normal row decides first.
                 Law::Friction { .. } => (Mode::Open, false),
             };
         }
@@ -152,7 +152,8 @@ impl Solver {
         self.see_strength();
     }
 
-    /// c'' of each row in the present modes. `members` are the bodies; their velocities are overwritten.
+    /// Computes c'' of each row in the present modes. `members` are the bodies with their velocities; the velocities in `self.members` are
+    /// overwritten by accelerations.
     fn see_accelerations(
         &mut self,
         model: &Model,
@@ -169,8 +170,8 @@ impl Solver {
         accelerations
     }
 
-    /// Applies the impulses of stops that are hit: these push, and afterwards no body moves further into them. Returns the size of the
-    /// rates.
+    /// Applies the impulses of stops that are hit. They only push, and afterwards no body moves further into a stop. Returns the largest
+    /// magnitude of the rates so far.
     fn hit(&mut self, model: &Model, state: &mut State, touched: &[bool]) -> f64 {
         let n = self.rows.len();
         let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
@@ -220,7 +221,7 @@ impl Solver {
         let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
         jacobian::push(structure, jacobian, unknown, model, state);
         jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
-        // The impulses do the work ½ Λ (c' before + c' after), including that of guides and motors.
+        // The impulses do the work ½ Λ (c' before + c' after). It includes the work of guides and motors.
         let mut taken = 0.0;
         let mut at_contacts = 0.0;
         for i in 0..n {
@@ -232,7 +233,7 @@ impl Solver {
         size
     }
 
-    /// Stops the motion along the rows that hold, by impulses, and books their work.
+    /// Stops the motion along the active rows by impulses, and books the work of these impulses.
     fn halt(&mut self, model: &Model, state: &mut State, rates: &[f64]) {
         for (value, rate) in self.unknown.iter_mut().zip(rates) {
             *value = -rate;
@@ -245,7 +246,7 @@ impl Solver {
         state.accounts.impacts += work;
     }
 
-    /// Decides from the accelerations which rows keep holding. Returns a row for which no mode is right, if there is one.
+    /// Decides from the accelerations which rows stay active. Returns `None` on success, otherwise a row for which no mode was consistent.
     fn go_on(
         &mut self,
         model: &Model,
@@ -266,7 +267,7 @@ impl Solver {
         }
         let mut held_before = Vec::new();
         for round in 0..rounds(n) {
-            // If only directions of friction have changed, the factors are still valid.
+            // If only the directions of friction have changed, the factorization is still valid.
             if held_before != self.modes {
                 self.hold();
                 held_before.clone_from(&self.modes);
@@ -310,18 +311,19 @@ impl Solver {
     }
 }
 
-/// The number of rounds that change all contacts that stick or begin to slide together; after them, one changes at a time. Large problems
-/// get fewer.
+/// Returns the number of rounds that update all sticking or starting contacts together, in a problem of `n` rows. Later rounds change one
+/// contact at a time. Large problems get fewer such rounds.
 fn together(n: usize) -> usize {
     (3_000 / n.max(1)).clamp(30, 300)
 }
 
-/// The largest number of changes in a problem of `n` rows.
+/// Returns the largest number of rounds of mode changes in a problem of `n` rows.
 fn rounds(n: usize) -> usize {
     together(n) + 50 + 2 * n
 }
 
-/// The row with the largest error above `slight`. After many rounds, it is the first row with such an error, which breaks all cycles.
+/// Returns the row with the largest error above the tolerance `slight`, or `None`. After many rounds, it returns the first row with such
+/// an error, which breaks cycles.
 fn worst(n: usize, round: usize, slight: f64, wrong: impl Fn(usize) -> f64) -> Option<usize> {
     let all = (0..n).map(|i| (i, wrong(i))).filter(|(_, wrong)| *wrong > slight);
     if round > 50 + 2 * n {

@@ -1,4 +1,4 @@
-//! The equations from which joints are composed.
+//! Constraint equations that several kinds of joints share.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::super::{Anchor, BodyId};
 use super::member::End;
 use super::{Equations, Row};
 
-/// The bodies of these ends, each once, in the order that [`End::all`] expects.
+/// Returns the bodies of a list of ends, each once, in the order that [`End::all`] expects.
 pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
     let mut bodies = Vec::new();
     for body in ends.iter().filter_map(|end| end.body()) {
@@ -17,20 +17,22 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
     bodies
 }
 
-/// The vector d from one end to the other. With u = d / |d|, the second derivative of its length is u·d'' + (|d'|² − (u·d')²) / |d|.
+/// The vector d from one end to the other, with its length and derivatives. With u = d / |d|, the second derivative of the length is u·d''
+/// + (|d'|² − (u·d')²) / |d|.
 pub(super) struct Way<'a> {
-    /// |d|, m.
+    /// The distance |d| of the two ends, m.
     pub(super) length: f64,
     /// The part of |d|'' that does not depend on the accelerations of the bodies, m/s².
     pub(super) bias: f64,
-    /// The size of the coordinates whose difference is d, m.
+    /// The magnitude of the coordinates whose difference is d, m. It bounds the rounding error.
     pub(super) scale: f64,
     u: DVec3,
     ends: &'a [End<'a>; 2],
 }
 
 impl<'a> Way<'a> {
-    /// The vector between two ends. `typical` is its usual length, m.
+    /// Computes the vector between two ends. `typical` is a typical distance of the ends, m. 1/|d| is bounded as if |d| were at least a
+    /// thousandth of this distance.
     #[inline(always)]
     pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> Way<'a> {
         let [a, b] = ends;
@@ -55,29 +57,29 @@ impl<'a> Way<'a> {
         Way { length, bias, scale, u, ends }
     }
 
-    /// u, and 1/|d|.
+    /// Returns the unit vector u and 1/|d|.
     #[inline(always)]
     fn along(apart: DVec3, length: f64) -> (DVec3, f64) {
         let inverse = length.recip();
         (apart * inverse, inverse)
     }
 
-    /// The same for a tiny |d|: 1/|d| is limited.
+    /// Returns the unit vector u and a bounded 1/|d| for a very short vector d.
     #[cold]
     fn short(apart: DVec3, length: f64, shortest: f64) -> (DVec3, f64) {
-        // Two ends at the same point have no direction; any direction will do.
+        // If both ends are at the same point, the direction is arbitrary.
         let u = if length > 0.0 { apart * length.recip() } else { DVec3::Y };
         (u, shortest.recip())
     }
 
-    /// Adds `factor` times the derivative of the length to the directions of a row.
+    /// Adds `factor` times the derivative of the distance to the Jacobian of a row.
     pub(super) fn write(&self, factor: f64, row: usize, equations: &mut Equations<'_>) {
         for (body, linear, angular) in self.directions(factor) {
             equations.direction(row, body, linear, angular);
         }
     }
 
-    /// Writes the only row of a constraint: c = `sign` (|d| − `length`).
+    /// Writes the single row of a rod or a rope: c = `sign` (|d| − `length`).
     #[inline(always)]
     pub(super) fn write_only(&self, sign: f64, length: f64, equations: &mut Equations<'_>) {
         let scale = if length > self.scale { length } else { self.scale };
@@ -95,7 +97,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Three rows: two points coincide.
+/// Writes three rows that keep two points at the same place.
 pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let (apart, bias) = (to - from, b.motion().1 - a.motion().1);
@@ -107,8 +109,8 @@ pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Eq
     }
 }
 
-/// One row: the vectors `u` and `w` are perpendicular. `u` rotates with the first end, `w` with the second. Both are unit vectors in
-/// world axes.
+/// Writes one row that keeps the vectors `u` and `w` perpendicular. `u` rotates with the first end, `w` with the second. Both are unit
+/// vectors in world axes.
 pub(super) fn perpendicular(
     [a, b]: &[End<'_>; 2],
     u: DVec3,
@@ -124,8 +126,8 @@ pub(super) fn perpendicular(
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
 }
 
-/// Three rows: the second end does not rotate relative to the first. `turned` is the rotation from the axes of the first end to those of
-/// the second.
+/// Writes three rows that keep the second end from rotating relative to the first. `turned` is the rotation from the body axes of the
+/// first end to those of the second.
 pub(super) fn same_turn(
     ends: &[End<'_>; 2],
     turned: glam::DQuat,
@@ -140,7 +142,8 @@ pub(super) fn same_turn(
     }
 }
 
-/// One row: the vector from the first end to the second is perpendicular to `u`, which rotates with the first.
+/// Writes one row that keeps the vector from the first end to the second perpendicular to `u`, a unit vector in world axes that rotates
+/// with the first end.
 pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];
@@ -155,7 +158,7 @@ pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mu
     equations.direction(row, b.body, u, b.arm.cross(u));
 }
 
-/// Two unit vectors that are perpendicular to `axis`, a unit vector, and to each other.
+/// Returns two unit vectors that are perpendicular to the unit vector `axis` and to each other.
 pub(super) fn across(axis: DVec3) -> [DVec3; 2] {
     let (u, w) = axis.any_orthonormal_pair();
     [u, w]

@@ -4,22 +4,22 @@ use super::super::Anchor;
 use super::member::End;
 use super::{Constraint, Equations, Law, Members, parts};
 
-/// A massless, frictionless rope that runs from one end over two points to the other end. It can be slack. An end stays at least a
-/// hundredth of the rope's length away from its point.
+/// A massless, frictionless rope that runs from one end over two points to the other end. The rope can be slack. Each end stays at least a
+/// hundredth of the rope's length away from the point over which its part of the rope runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulley {
     /// The two ends of the rope.
     pub between: [Anchor; 2],
-    /// The points over which it runs, in the order of the ends.
+    /// The two points over which the rope runs, in the order of the ends.
     pub over: [Anchor; 2],
-    /// The length that the first part gains for each metre of the second; it is positive.
+    /// The length that the first part of the rope gains for each meter that the second part loses. It is positive.
     pub ratio: f64,
-    /// ℓ: the length of the first part plus `ratio` times that of the second, m.
+    /// ℓ: the length of the first part of the rope plus `ratio` times that of the second part, m.
     pub length: f64,
 }
 
 impl Pulley {
-    /// The least distance of an end from its point, as a fraction of the rope's length.
+    /// The smallest distance of an end of the rope from the point over which it runs, as a fraction of the rope's length.
     pub const NEAREST: f64 = 0.01;
 
     fn anchors(&self) -> [Anchor; 4] {
@@ -40,7 +40,8 @@ impl Constraint for Pulley {
         Law::Stop
     }
 
-    /// c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ are the vectors from the points to the ends; and |d| − ε ≥ 0 for both.
+    /// Writes c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ are the vectors from the points to the ends of the rope, and r is the ratio. Two
+    /// more rows keep |d₁| and |d₂| above the smallest distance.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let [a, b, c, d] = End::all(&self.anchors(), members);
         let [first, second] = [[a, b], [c, d]];

@@ -1,4 +1,4 @@
-//! The constraint forces at an evaluation of forces.
+//! The constraint forces that belong to the positions, velocities and loads of one moment.
 
 use super::super::{Loads, Model, State};
 use super::Law;
@@ -7,7 +7,7 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Adds the constraint forces and torques to the loads.
+    /// Adds the constraint forces and torques to the loads of the bodies, and their power.
     pub(in crate::dynamics) fn react(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
         if self.is_idle(model) {
             return;
@@ -28,7 +28,7 @@ impl Solver {
         }
         let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
         for (multiplier, row) in unknown.iter().zip(rows) {
-            // The power is λ J v, where J v = −∂c/∂t.
+            // The power of a time-dependent constraint is λ J v, where J v = −∂c/∂t.
             loads.power.motors -= multiplier * row.rate;
         }
         for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
@@ -38,8 +38,8 @@ impl Solver {
         });
     }
 
-    /// Finds the multipliers at a state that has been measured and factorised. It overwrites the members' velocities with their
-    /// accelerations without constraints.
+    /// Solves for the multipliers λ at a state whose equations are measured and factorized. The velocities of the members are overwritten
+    /// with the accelerations that they would have without constraints.
     fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
         self.see_free_accelerations(t, state, loads);
         let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
@@ -56,7 +56,7 @@ impl Solver {
         }
     }
 
-    /// Overwrites the members' velocities with their accelerations without constraints.
+    /// Overwrites the velocities of the members with the accelerations that they would have without constraints.
     fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
         let Solver { structure: Some(structure), members, motions, .. } = self else { return };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
@@ -71,8 +71,8 @@ impl Solver {
         }
     }
 
-    /// Finds the multipliers as [`react`](Self::react) does, but adds only the forces of drives. Returns c'' of each row, and the largest
-    /// size of its terms.
+    /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
+    /// Writes c'' of each row to `accelerations`, and returns the largest magnitude of its terms.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,
@@ -99,7 +99,7 @@ impl Solver {
         size
     }
 
-    /// Adds the forces of drives that push with their limit, and their power.
+    /// Adds the forces of motors at their limits, and their power, to the loads.
     fn push_drives(&mut self, loads: &mut Loads) {
         if !self.has_modes {
             return;
@@ -122,7 +122,7 @@ impl Solver {
         });
     }
 
-    /// Adds the forces of motors at their limits, and of friction at sliding contacts. Splitting methods treat both like any other force.
+    /// Adds the forces of motors at their limits and of sliding friction to the loads. Splitting methods treat both like any other force.
     pub(in crate::dynamics) fn drive(&mut self, t: f64, state: &State, loads: &mut Loads) {
         let slides = self.slides();
         if !slides && !self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {

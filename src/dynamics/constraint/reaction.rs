@@ -1,4 +1,4 @@
-//! The forces and torques that constraints exert on bodies.
+//! The reactions of constraints: the forces and torques that they exert on bodies.
 
 use glam::DVec3;
 
@@ -7,18 +7,19 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::{Law, Member};
 
-/// The force and the torque of a constraint on its second end, in world axes; those on the first are opposite. They are zero while a body
-/// of the constraint is absent. Redundant equations carry no load; the others carry it all.
+/// The force and the torque of a constraint on its second end, in world axes. Those on the first end are opposite. Both are zero while a
+/// body of the constraint is absent. Redundant equations carry no load; the independent equations carry it all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// The force on the second end, N.
     pub force: DVec3,
-    /// The torque on it about the point of that end, N m.
+    /// The torque on the second end, about the point of that end, N m.
     pub torque: DVec3,
 }
 
 impl Reaction {
-    /// The same force and torque about another point. `way` is the vector from there to the present point.
+    /// Returns the same reaction with its torque about another point. `way` is the vector from the new reference point to the present one,
+    /// m.
     fn about(self, way: DVec3) -> Reaction {
         Reaction { torque: self.torque + way.cross(self.force), ..self }
     }
@@ -30,14 +31,15 @@ impl Reaction {
 }
 
 impl Solver {
-    /// The reactions of all constraints at the last evaluation of forces, in the order in which constraints were added.
+    /// Returns the reactions of all constraints of the model at the last evaluation of forces, in the order in which the constraints were
+    /// added.
     pub(in crate::dynamics) fn reactions(&self, model: &Model) -> Vec<Reaction> {
         let joints = model.constraints().len();
         let mut all = vec![Reaction::default(); joints];
         let Some(structure) = &self.structure else { return all };
         for place in structure.places.iter().filter(|place| place.constraint < joints) {
             let width = place.bodies.len();
-            // For each body, about its centre of mass.
+            // The reaction on each body of the constraint, about the body's center of mass.
             let mut on = vec![Reaction::default(); width];
             for row in place.row..place.row + place.rows {
                 let multiplier = match (self.laws[row], self.modes[row]) {
@@ -61,7 +63,7 @@ impl Solver {
                     let Some(body) = place.bodies.iter().position(is_it) else { continue };
                     on[body].about(-(member(body).orientation * at))
                 }
-                // The world takes the reaction to all of them.
+                // A point of the world bears the reaction opposite to the sum over all bodies.
                 Anchor::Point(point) => {
                     let mut sum = Reaction::default();
                     for (body, on) in on.into_iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Impacts in time-stepping: all impacts within one part of a step are solved together.
+//! Impacts in the time-stepping of crowds: all impacts within one part of a step are solved together.
 //!
-//! Poisson's law has two phases. First, bodies stop each other. Then each contact repeats its impulse, times its restitution. For two
-//! bodies, this is Newton's law. For many bodies it never gains energy, while Newton's law can. Source: C. Glocker & F. Pfeiffer,
-//! *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471.
+//! Poisson's law has two phases. In the first phase, bodies stop each other. In the second, each contact repeats its impulse, times its
+//! coefficient of restitution. For two bodies, this equals Newton's law. For many bodies it never gains energy, while Newton's law can.
+//! Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471.
 //!
 //! A contact that closes within the part gets its impulse at the start of the part, which is too early. The positions of its bodies are
 //! corrected afterwards, as if they had kept their old velocities until they touched.
@@ -16,29 +16,30 @@ use super::solver::Solver;
 use super::structure::Place;
 use super::sweep::Purpose;
 
-/// The result of impacts.
+/// The impacts within one part of a step, and the corrections of positions that they cause.
 #[derive(Default)]
 pub(in crate::dynamics) struct Struck {
-    /// The impacts, in the order of time.
+    /// The impacts, in order of time.
     pub(in crate::dynamics) impacts: Vec<Impact>,
-    /// The displacement of each body by impulses that acted before the bodies touched, m.
+    /// For each rebounding body, its index and the displacement, m, that the impulse caused before the bodies touched. It has to be
+    /// undone.
     pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
 }
 
-/// A contact at which two bodies rebound.
+/// A contact at which two bodies rebound in this part of the step.
 struct Rebound {
     contact: usize,
-    /// Its first row, that of the normal, and its number of rows.
+    /// The index of the contact's normal row, which is its first row. `rows` is its number of rows.
     row: usize,
     rows: usize,
-    /// The time until the bodies touch, s.
+    /// The time from the start of the part until the bodies touch, s.
     time: f64,
 }
 
 impl Solver {
-    /// Finds the impulses of all contacts that close within `part` seconds from `time` on, after
-    /// [`prepare_sweeps`](Self::prepare_sweeps). The rates of stops may fall to `goals`. The goal of a contact that rebounds becomes 0:
-    /// its bodies approach no further in this part.
+    /// Applies the impulses of all contacts that close within `part` seconds after `time`. [`prepare_sweeps`](Self::prepare_sweeps) must
+    /// have run before. The rates of stops may fall to `goals`. For a contact that rebounds, this function sets the goal to 0, so its
+    /// bodies approach no further in this part.
     pub(in crate::dynamics) fn strike_all(
         &mut self,
         model: &Model,
@@ -74,13 +75,13 @@ impl Solver {
         Struck { impacts, early }
     }
 
-    /// The smallest impulse of a stop.
+    /// Returns the smallest impulse that a stop may have, 0 unless it rebounds.
     pub(super) fn least(&self, row: usize) -> f64 {
         self.least.get(row).copied().unwrap_or(0.0)
     }
 
-    /// The contacts that close within a part of a step (s), fast enough to rebound. A rebound that the loads would undo within about one
-    /// more part does not count, unless the restitution is 1.
+    /// Returns the contacts that close within `part` seconds and fast enough to rebound. A contact does not rebound if the loads would
+    /// undo this within about one more part, unless its restitution is 1.
     fn rebounds(
         &self,
         (model, loads): (&Model, &Loads),
@@ -100,20 +101,20 @@ impl Solver {
         self.structure.iter().flat_map(|structure| &structure.places).filter_map(rebound).collect()
     }
 
-    /// The bodies that rebound and can move.
+    /// Returns the movable bodies of rebounding contacts, by index.
     fn rebounding(&self, rebounds: &[Rebound], model: &Model) -> impl Iterator<Item = usize> {
         let bodies = rebounds.iter().flat_map(|rebound| self.contacts[rebound.contact].bodies);
         bodies.filter(|&body| model.inverse_mass()[body] != 0.0)
     }
 
-    /// The displacement of rebounding bodies by impulses that acted before they touched, m.
+    /// Computes the displacement of each rebounding body by impulses that acted before the bodies touched, m.
     fn early(
         &self,
         rebounds: &[Rebound],
         impulses: &[f64],
         (before, after): (&BTreeMap<usize, DVec3>, &State),
     ) -> Vec<(usize, DVec3)> {
-        // A body with several rebounds uses the mean of their times, weighted by the impulses.
+        // A body with several rebounds uses the mean time of these, weighted by the impulses.
         let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
         for rebound in rebounds {
             for body in self.contacts[rebound.contact].bodies {
@@ -130,8 +131,8 @@ impl Solver {
         before.iter().map(early).collect()
     }
 
-    /// An impact in the part of a step that starts at `time`, s, with the velocities of the bodies before it, and the rates of all rows
-    /// before and after it.
+    /// Describes the impact of one rebound in the part of a step that starts at `time`, s. `velocities` are those of the bodies before the
+    /// impact. `before` and `after` are the rates of all rows before and after it.
     fn impact(
         &self,
         rebound: &Rebound,

@@ -1,4 +1,4 @@
-//! A rod: the distance of two points is constant.
+//! A rod: it keeps the distance of two points constant.
 
 use super::super::Anchor;
 use super::member::End;
@@ -7,9 +7,9 @@ use super::{Constraint, Equations, Members, parts};
 /// A massless rod with a ball joint at each end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rod {
-    /// The two points.
+    /// The two ends of the rod.
     pub between: [Anchor; 2],
-    /// Their distance ℓ, m; it is positive.
+    /// The length ℓ of the rod, m. It is positive.
     pub length: f64,
 }
 
@@ -22,7 +22,7 @@ impl Constraint for Rod {
         1
     }
 
-    /// c = |d| − ℓ, where d is the vector from one end to the other.
+    /// Writes c = |d| − ℓ, where d is the vector from one end of the rod to the other, and ℓ its length.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

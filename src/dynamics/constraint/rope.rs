@@ -1,4 +1,4 @@
-//! A rope: the distance of two points is at most its length.
+//! A rope: it keeps the distance of two points from exceeding the rope's length.
 
 use super::super::Anchor;
 use super::member::End;
@@ -7,9 +7,9 @@ use super::{Constraint, Equations, Law, Members, parts};
 /// A massless rope. When it becomes taut, it stops the ends from moving apart, without rebound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rope {
-    /// The two points.
+    /// The two ends of the rope.
     pub between: [Anchor; 2],
-    /// Its length ℓ, m; it is positive.
+    /// The length ℓ of the rope, m. It is positive.
     pub length: f64,
 }
 
@@ -26,7 +26,7 @@ impl Constraint for Rope {
         Law::Stop
     }
 
-    /// c = ℓ − |d| ≥ 0, where d is the vector from one end to the other.
+    /// Writes c = ℓ − |d| ≥ 0, where d is the vector from one end of the rope to the other, and ℓ its length.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         let way = parts::Way::new(&ends, self.length);

@@ -1,4 +1,4 @@
-//! Separates overlapping bodies.
+//! Separation of overlapping bodies, by moving them apart.
 
 use glam::{DQuat, DVec3};
 
@@ -7,15 +7,15 @@ use super::solver::Solver;
 use super::sweep::Purpose;
 use super::{Law, Row};
 
-/// Overlaps below this fraction of the smaller body are ignored.
+/// Overlaps below this fraction of the smallest body's size are ignored.
 const SHALLOW: f64 = 1e-9;
 
-/// Sweeps end when they move bodies by less than this fraction of the largest overlap.
+/// The sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
 const APART: f64 = 1e-5;
 
 impl Solver {
-    /// Whether bodies overlap by more than the ignored depth. Measures the overlaps at a state; [`prepare_sweeps`](Self::prepare_sweeps)
-    /// must have run a little earlier.
+    /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
+    /// [`prepare_sweeps`](Self::prepare_sweeps) must have run at a state shortly before.
     pub(in crate::dynamics) fn are_within(&mut self, t: f64, state: &State) -> bool {
         self.measure(t, state);
         let smallest = self.contacts.iter().map(|contact| contact.size).reduce(f64::min);
@@ -24,7 +24,7 @@ impl Solver {
         self.rows.iter().zip(&self.laws).any(is_within)
     }
 
-    /// Separates bodies that [overlap](Self::are_within).
+    /// Moves overlapping bodies apart. [`are_within`](Self::are_within) must have measured the overlaps at this state.
     pub(in crate::dynamics) fn separate(&mut self, state: &mut State) {
         self.factorise(true);
         self.find_columns();

@@ -1,4 +1,4 @@
-//! A servo: a spring and a damper pull a joint towards a given function of time.
+//! A servo: a spring and a damper that pull a joint's coordinate towards a given function of time.
 
 use std::sync::Arc;
 
@@ -6,16 +6,16 @@ use super::super::{Force, Loads, Moment, WorkAccount};
 use super::member::{End, Member};
 use super::{Coordinate, Members, Target, parts};
 
-/// A compliant motor: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q').
+/// A servo motor with compliance: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q'), where q is the joint's coordinate.
 #[derive(Clone, Debug)]
 pub struct Servo {
-    /// The driven coordinate.
+    /// q: the joint coordinate that the servo drives.
     pub coordinate: Coordinate,
-    /// q₀: the target value.
+    /// q₀: the target value of the coordinate as a function of time.
     pub target: Arc<dyn Target>,
-    /// k, N m/rad or N/m.
+    /// k: the stiffness of the spring, N m/rad or N/m.
     pub stiffness: f64,
-    /// d, N m s/rad or N s/m.
+    /// d: the damping coefficient, N m s/rad or N s/m.
     pub damping: f64,
 }
 

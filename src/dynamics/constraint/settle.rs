@@ -1,4 +1,4 @@
-//! Projection onto the constraints: the impulses of SHAKE and RATTLE, and the corrections after a step.
+//! Projection onto the constraints: the impulses of SHAKE and RATTLE, and the corrections of positions and velocities after a step.
 
 use glam::{DQuat, DVec3};
 
@@ -7,21 +7,22 @@ use super::super::{Model, State};
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
 use super::solver::{FAILURE, Solver};
 
-/// The tolerance of an equation, as a fraction of its scale: a few rounding errors.
+/// An equation holds if its error is at most this fraction of its scale: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
 
-/// Iterations contract at least by the square of the rotation angle in a step. If they need more, they do not converge.
+/// The largest number of iterations of a projection. Each iteration reduces the error at least by the square of the rotation angle in a
+/// step, so a projection that needs more does not converge.
 const ITERATIONS: usize = 60;
 
-/// Iteration stops if the error remains above this fraction of the last one.
+/// With friction, the iteration stops if the remaining error exceeds this fraction of the error of the last iteration.
 const STAYS: f64 = 0.95;
 
-/// An iteration diverges if the error grows by more than this factor.
+/// The iteration diverges if its error grows by more than this factor.
 const DIVERGED: f64 = 10.0;
 
 impl Solver {
-    /// Changes the velocities at the start of a step such that freely moving bodies satisfy the constraints at its end: the impulses of
-    /// SHAKE and RATTLE. [`begin`](Self::begin) has been called at these positions.
+    /// Corrects the velocities at the start of a step by impulses, as in SHAKE and RATTLE. Bodies that move freely from there satisfy the
+    /// constraints at the end of the step. [`begin`](Self::begin) must have run at these positions.
     pub(in crate::dynamics) fn aim(&mut self, model: &Model, t: f64, dt: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -49,7 +50,7 @@ impl Solver {
             self.measure(t + dt, &trial);
             let worst = self.worst();
             let is_enough = worst < FAILURE && worst > 0.5 * before;
-            // Friction at several points need not be consistent.
+            // The equations of friction at several points can contradict each other, so the error may stay.
             let stays = self.factor.is_soft() && worst > STAYS * before;
             if worst <= ROUNDING || is_enough || stays {
                 break;
@@ -68,16 +69,17 @@ impl Solver {
         }
         self.trial = trial;
         if !self.factor.is_soft() {
-            // Contacts that imply each other may be inconsistent with friction. Settling corrects their positions.
+            // Redundant contacts may contradict each other under friction, which is no failure. The projection after the step corrects
+            // their positions.
             self.blame(model, t + dt);
         }
         self.is_aiming = false;
-        // Some rows are measured differently while a step is being aimed.
+        // The errors of some rows are measured differently while the velocities are corrected.
         self.measured = f64::NAN;
     }
 
-    /// Moves the bodies the shortest distance, in the metric of M, to satisfy all constraints. Removes the components of their velocities
-    /// that would violate them.
+    /// Projects a state onto the constraints. Moves the bodies the shortest distance, in the metric of the mass matrix M, to satisfy all
+    /// constraints. Then removes the velocity components that violate them.
     pub(in crate::dynamics) fn settle(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;
@@ -91,7 +93,7 @@ impl Solver {
 
     pub(super) fn settle_places(&mut self, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
-        // The last stage of many methods is at the end of the step, so its factors are near enough.
+        // The last stage of many methods is at the end of the step, so its factorization is accurate enough.
         self.is_factorised = self.factorised.to_bits() == t.to_bits();
         for _ in 0..ITERATIONS {
             self.measure_places(t, state);
@@ -107,7 +109,7 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation;
             }
-            // If rows nearly imply each other but disagree, softness keeps bodies from moving far.
+            // If nearly redundant rows contradict each other, the softness keeps bodies from moving far.
             self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
@@ -132,7 +134,7 @@ impl Solver {
             let scale = rates(structure, jacobian, members, rows, unknown);
             let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
             let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
-            // A NaN also ends the loop.
+            // If a rate is NaN, the comparison is false and the loop ends as well.
             if !(worst > ROUNDING * scale && worst < 0.5 * before) {
                 return;
             }

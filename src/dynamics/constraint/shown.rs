@@ -1,4 +1,4 @@
-//! The contact forces in frames for bodies advanced by time-stepping.
+//! The contact forces that frames show for bodies advanced by time-stepping.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The number of rounds of sweeps for the forces between resting bodies. Each round starts with the forces of the last one.
+/// The number of times that sweeps solve for the forces between resting bodies. Each time starts with the forces of the time before.
 const ROUNDS: usize = 10;
 
 impl Solver {
-    /// The forces at contacts between resting bodies. `loads` are the other forces on them.
+    /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
         contacts: Vec<Arc<Closed>>,
@@ -21,8 +21,8 @@ impl Solver {
         (t, state): (f64, &State),
         loads: &Loads,
     ) -> Vec<ContactSnapshot> {
-        // In one second, the loads give the bodies these velocities. So the impulses that stop them, in newton seconds, equal the forces
-        // in newtons.
+        // The given velocities are those that the loads cause in one second from rest. The impulses that stop the bodies, in newton
+        // seconds, then equal the contact forces in newtons.
         let mut given = state.clone();
         for &i in contacts.iter().flat_map(|contact| &contact.bodies) {
             given.velocity[i] = model.inverse_mass()[i] * loads.force[i];
@@ -40,7 +40,7 @@ impl Solver {
         solver.contact_snapshots(model)
     }
 
-    /// The contact forces found in the last part of a step.
+    /// Returns the contact forces that the sweeps of the last part of a step have found.
     pub(in crate::dynamics) fn last_forces(
         &self,
         contacts: Vec<Arc<Closed>>,

@@ -9,18 +9,18 @@ use super::{Constraint, Coordinate, Equations, Freedom, Law, Members, parts};
 /// A slider, also called prismatic joint. Its coordinate is the displacement of the second end from the first along the axis.
 #[derive(Clone, Debug)]
 pub struct Slider {
-    /// The two points; the second stays on the axis through the first.
+    /// The two ends of the slider. The second end stays on the axis through the first.
     pub between: [Anchor; 2],
-    /// The axis, a unit vector, in the axes of the first end; a point of the world has the world's axes.
+    /// The axis of the slider, a unit vector, in the body axes of the first end. An end at a point of the world uses the world axes.
     pub axis: DVec3,
-    /// The rotation from the axes of the first end to those of the second.
+    /// The fixed rotation from the body axes of the first end to those of the second end.
     pub turned: DQuat,
-    /// Its limits and its motor.
+    /// The limits and the motor of the slider's displacement.
     pub freedom: Freedom,
 }
 
 impl Slider {
-    /// Its displacement.
+    /// Returns the definition of the slider's displacement as a free coordinate.
     #[must_use]
     pub fn coordinate(&self) -> Coordinate {
         Coordinate { between: self.between, axis: self.axis, zero: None }

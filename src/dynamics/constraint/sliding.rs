@@ -1,14 +1,14 @@
-//! The forces at sliding contacts. Friction is μ times the normal force, and the normal force depends on friction, so both are found
-//! together.
+//! The forces at sliding contacts. Friction is μ times the normal force, and the normal force depends on friction in turn, so both are
+//! found together.
 
 use super::friction::Grip;
 use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Solves A λ = b in `unknown` for the active rows with sliding contacts. Their friction is μ n, and changes the normal forces n in
-    /// turn: n = c + K n, where c are the normal forces without friction. A small dense system gives n. Returns whether there is a
-    /// solution.
+    /// Solves A λ = b for the active rows, including sliding friction. `unknown` holds b before the call and λ after it. Friction is μ n,
+    /// where n are the normal forces, and n = c + K n, where c are the normal forces without friction. A small dense system gives n.
+    /// Returns true if it has a solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
         let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();
@@ -22,7 +22,7 @@ impl Solver {
         }
         self.solve();
         let base = self.unknown.clone();
-        // λ for a normal force of 1 at each sliding contact.
+        // Each column holds the change of all multipliers λ by a normal force of 1 at one sliding contact.
         let mut columns = Vec::with_capacity(normals.len());
         for pushed in &pushes {
             let mut push = vec![0.0; base.len()];
@@ -50,8 +50,8 @@ impl Solver {
     }
 }
 
-/// Solves a dense system by Gaussian elimination with partial pivoting. `matrix` is stored row by row; `right` becomes the solution.
-/// Returns whether there is one.
+/// Solves a dense linear system by Gaussian elimination with partial pivoting. `matrix` is stored row by row. `right` holds the right-hand
+/// side before the call and the solution after it. Returns true if there is a finite solution.
 fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
     let n = right.len();
     for k in 0..n {

@@ -1,7 +1,7 @@
-//! The solver of all constraints: their forces, and the projection onto them.
+//! The solver of all constraints: it computes constraint forces and projects states onto the constraints.
 //!
 //! With A = J M⁻¹ Jᵀ, the solver finds multipliers at three levels. The forces λ with A λ = −(J a + J̇ v) correct accelerations. The
-//! impulses Λ with A Λ = −J v correct velocities. With A Λ = −c, the shifts M⁻¹ Jᵀ Λ correct positions. Source: E. Hairer, C. Lubich & G.
+//! impulses Λ with A Λ = −J v correct velocities. The shifts M⁻¹ Jᵀ Λ with A Λ = −c correct positions. Source: E. Hairer, C. Lubich & G.
 //! Wanner, *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,101 +18,102 @@ use super::structure::{Place, Structure};
 use super::warm::Warm;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
-/// A constraint fails if its error still exceeds this fraction of its scale after all corrections.
+/// A constraint is broken if its error exceeds this fraction of its scale after all corrections.
 pub(super) const FAILURE: f64 = 1e-9;
 
-/// The working state of the solver: memory, and data of the present step. It can be discarded at any time.
+/// The state of the constraint solver: working memory, contacts, and data of the present step.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
-    /// The lasting contacts, in addition to the constraints of the model.
+    /// The lasting contacts, which act as constraints in addition to those of the model.
     pub(super) contacts: Vec<Arc<Closed>>,
-    /// Bodies whose constraints another solver keeps at present.
+    /// The indices of bodies whose constraints another solver handles at present.
     pub(super) away: BTreeSet<usize>,
-    /// The constraints of the model, then the contacts.
+    /// All constraints: first those of the model, then the lasting contacts.
     pub(super) all: Vec<Arc<dyn Constraint>>,
-    /// The first row of each constraint; `None` while a body of it is absent.
+    /// The first row of each constraint in `all`; `None` while the constraint is inactive, because a body of it is absent.
     pub(super) first_row: Vec<Option<usize>>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
     pub(super) natures: Vec<Nature>,
-    /// The members at the start of the step, and its time, s.
+    /// The states of the members at the start of the step. `begun` is the time of this start, s.
     pub(super) origin: Vec<Member>,
     pub(super) begun: f64,
     /// The length of the present step, s.
     pub(super) span: f64,
-    /// Whether no friction forces were found in the present step.
+    /// True if the equations of sliding friction had no solution in the present step.
     pub(super) is_unsolved: bool,
-    /// Whether the end of a step is being aimed at.
+    /// True while [`Solver::aim`] corrects initial velocities, so that the constraints hold at the end of the step.
     pub(super) is_aiming: bool,
-    /// The given motions of members.
+    /// The given motion of each member; `None` for a member that forces move.
     pub(super) motions: Vec<Option<Arc<dyn Motion>>>,
     pub(super) rows: Vec<Row>,
     pub(super) jacobian: Vec<Direction>,
-    /// The Jacobian at the start of the step, for methods that kick along it.
+    /// The Jacobian at the start of the step, along which SHAKE and RATTLE apply their impulses.
     pub(super) first: Vec<Direction>,
-    /// ∂c/∂t of the rows at the start of the step.
+    /// ∂c/∂t of each row at the start of the step.
     pub(super) first_rates: Vec<f64>,
-    /// The law of each row, and its present mode.
+    /// The law of each row. `modes` holds the present mode of each row.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
-    /// The pairs of friction rows.
+    /// The pairs of friction rows, in the order of their rows.
     pub(super) grips: Vec<Grip>,
-    /// The number of mode changes between two bodies in the present step.
+    /// For each pair of bodies, the number of mode changes at their contacts in the present step.
     pub(super) changes: BTreeMap<[usize; 2], u32>,
-    /// J v of all rows, if contacts slide.
+    /// J v of each row, computed only while contacts slide.
     pub(super) slips: Vec<f64>,
-    /// Whether any row has modes other than `Held`.
+    /// True if the mode of any row can change, so that not all laws are [`Law::Tie`].
     pub(super) has_modes: bool,
-    /// The largest terms of c' and c'' so far. Values far below them count as rounding errors.
+    /// The largest magnitude of the terms of c' so far; `largest_acceleration` is that of c''. Values far below them count as rounding
+    /// errors.
     pub(super) largest_rate: f64,
     pub(super) largest_acceleration: f64,
-    /// The same at the state of the last margin.
+    /// The largest magnitudes of the terms of c' and c'' at the state of the last [`Solver::margin`].
     pub(super) seen: [f64; 2],
-    /// The active rows of this step: those that hold, except those that others imply.
+    /// For each row, true if the row is active in this step: it is in mode `Held` and not redundant.
     pub(super) held: Vec<bool>,
-    /// The unknowns of the linear systems.
+    /// The right-hand side of the linear systems and their solution, the multipliers: one entry per row.
     pub(super) unknown: Vec<f64>,
-    /// The smallest impulses of stops, if they are not 0.
+    /// The smallest impulse of each row, for stops that rebound. Empty if all are 0.
     pub(super) least: Vec<f64>,
-    /// The effects of impulses along the rows, for sweeps.
+    /// The velocity changes by a unit impulse along each row, which sweeps use.
     pub(super) columns: Columns,
-    /// The forces that the last sweeps found.
+    /// The contact forces that the last sweeps found, from which the next sweeps start.
     pub(super) warm: Warm,
-    /// The largest change of a rate by forces in the last part of a step.
+    /// The largest absolute rate c' of a row before the contact forces acted, in the last part of a step.
     pub(super) forced: f64,
-    /// Whether sweeps find all forces, since there are no joints.
+    /// True if sweeps find all forces, because there are no joints. No matrix is then factorized.
     pub(super) is_loose: bool,
-    /// A row for which no mode was right in the last decision.
+    /// A row for which the last decision of modes found no consistent mode.
     pub(super) undecided: Option<usize>,
     pub(super) trial: State,
-    /// Whether rows and factors belong to the next state.
+    /// True if rows and factors already belong to the state at which forces are evaluated next.
     pub(super) is_ready: bool,
-    /// Whether there are factors near enough for the step that is being settled, and their time, s.
+    /// True if the present factors are accurate enough for the projection of the step. `factorised` is the time of these factors, s.
     pub(super) is_factorised: bool,
     pub(super) factorised: f64,
-    /// The time of the last measurement of rows and Jacobian.
+    /// The time of the last measurement of rows and Jacobian, s. NaN if they must be measured again.
     pub(super) measured: f64,
     pub(super) failure: Option<Breakdown>,
 }
 
 impl Solver {
-    /// Called when bodies or constraints have changed.
+    /// Discards the layout of the constraints. Must be called whenever bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;
-        // The old rows must not act or be booked any more.
+        // The old rows must not act any more, nor their work be booked.
         self.has_modes = false;
         self.modes.clear();
         self.grips.clear();
     }
 
-    /// The failure since the last call, if any.
+    /// Returns the first failure since the last call, and forgets it. `None` if nothing failed.
     pub(in crate::dynamics) fn take_failure(&mut self) -> Option<Breakdown> {
         self.failure.take()
     }
 
-    /// Starts a step at a state in which the constraints hold, and decides which equations are active, since others imply the rest. They
-    /// stay the same for the whole step, so that its right-hand side is smooth.
+    /// Starts a step at a state in which the constraints hold, and selects the active equations: redundant ones are left out. The
+    /// selection stays the same for the whole step, so the right-hand side of the equations of motion is smooth.
     pub(in crate::dynamics) fn begin(&mut self, model: &Model, t: f64, state: &State) {
         if self.is_idle(model) {
             return;
@@ -121,13 +122,14 @@ impl Solver {
         self.measure(t, state);
         self.origin.clone_from(&self.members);
         self.begun = t;
-        // Some rows are measured relative to the start of the step.
+        // The errors of some rows are measured relative to the start of the step.
         self.measured = f64::NAN;
         self.hold();
         self.is_ready = true;
     }
 
-    /// Selects the active rows: the rows in mode `Held`, except redundant rows, which follow from other active rows.
+    /// Selects the active rows and factorizes their matrix. A row is active if its mode is `Held` and it does not follow from other active
+    /// rows.
     pub(super) fn hold(&mut self) {
         for (held, mode) in self.held.iter_mut().zip(&self.modes) {
             *held = *mode == Mode::Held;
@@ -135,7 +137,7 @@ impl Solver {
         self.factorise(true);
     }
 
-    /// The largest violation of all equations, including implied ones.
+    /// Returns the largest error of all equations at a state, including redundant ones.
     pub(in crate::dynamics) fn violation(&mut self, model: &Model, t: f64, state: &State) -> f64 {
         self.is_ready = false;
         self.plan(model);
@@ -144,22 +146,22 @@ impl Solver {
         missing.fold(0.0, f64::max)
     }
 
-    /// The violation of a row.
+    /// Returns the error of a row in its present mode.
     fn missing(&self, row: usize) -> f64 {
         self.modes[row].missing(self.laws[row], &self.rows[row])
     }
 
-    /// The diagonal entry of J M⁻¹ Jᵀ for a row, as last factorised.
+    /// Returns the diagonal entry of A = J M⁻¹ Jᵀ for a row, as last assembled.
     pub(super) fn weight(&self, row: usize) -> f64 {
         self.factor.diagonal(row)
     }
 
-    /// Reports the equation with the largest error, if it is too large.
+    /// Reports the constraint with the largest error of an active row as broken, if this error exceeds the tolerance.
     pub(super) fn blame(&mut self, model: &Model, time: f64) {
         let Some(structure) = &self.structure else { return };
         let mut failed = None;
         for place in &structure.places {
-            // A trial step may pass an open stop.
+            // Open stops do not count: a trial step may pass them.
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
                 let is_kept = missing <= FAILURE * self.rows[row].scale;
@@ -174,7 +176,7 @@ impl Solver {
         }
     }
 
-    /// Finds the structure, if it is unknown.
+    /// Lays out the rows and directions of all constraints, unless the layout is known.
     #[inline]
     pub(super) fn plan(&mut self, model: &Model) {
         if self.structure.is_none() {
@@ -184,7 +186,7 @@ impl Solver {
 
     #[cold]
     fn make_structure(&mut self, model: &Model) {
-        // Without rows that always hold, nothing is factorised.
+        // If there are no joints, no matrix is factorized, and the constraints need no coupling.
         let can_move = |body: usize| !self.is_loose && model.inverse_mass()[body] != 0.0;
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
@@ -230,7 +232,7 @@ impl Solver {
         self.structure = Some(structure);
     }
 
-    /// Measures all equations at a state.
+    /// Evaluates all equations and their Jacobian at a state.
     pub(super) fn measure(&mut self, t: f64, state: &State) {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -238,7 +240,8 @@ impl Solver {
         self.measure_members(t);
     }
 
-    /// Measures all equations at a state. If the last measurement was at these positions and this time, only the velocities are updated.
+    /// Evaluates all equations at a state. If the last evaluation was at the same positions and the same time, only the velocities are
+    /// updated.
     pub(super) fn measure_places(&mut self, t: f64, state: &State) {
         let mut has_moved = t.to_bits() != self.measured.to_bits();
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
@@ -266,7 +269,7 @@ impl Solver {
         self.measured = t;
     }
 
-    /// The largest violation as a fraction of its scale; a NaN counts as infinite.
+    /// Returns the largest error of an active row, as a fraction of its scale. A NaN counts as infinite.
     pub(super) fn worst(&self) -> f64 {
         let off = |row: &Row| row.violation.abs() / row.scale.max(f64::MIN_POSITIVE);
         let held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
@@ -281,7 +284,7 @@ impl Solver {
         })
     }
 
-    /// Factorises J M⁻¹ Jᵀ of the last measurement.
+    /// Factorizes J M⁻¹ Jᵀ of the last measurement. With `choose`, redundant rows become inactive.
     pub(super) fn factorise(&mut self, choose: bool) {
         self.factor.assemble(&self.jacobian, &self.members);
         self.factor.compute(&mut self.held, choose);

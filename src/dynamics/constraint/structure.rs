@@ -1,4 +1,4 @@
-//! The graph of constraints that share bodies, and the order of their elimination.
+//! The graph of constraints that share bodies, and the order in which a factorization eliminates them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -6,69 +6,70 @@ use std::sync::Arc;
 
 use super::{Constraint, Direction};
 
-/// The layout of the rows and directions of all constraints. It does not change with time.
+/// The layout of all constraints in the Jacobian: their rows and their directions. It changes only when bodies or constraints change.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Structure {
-    /// The constraints, in the order of their elimination.
+    /// The active constraints, in the order of their elimination.
     pub(super) places: Vec<Place>,
-    /// The bodies of all constraints, each once, in rising order.
+    /// The indices of the bodies of all constraints, each once, in ascending order.
     pub(super) bodies: Vec<usize>,
-    /// The number of rows of all constraints.
+    /// The total number of rows of all constraints.
     pub(super) rows: usize,
-    /// The number of directions of all constraints: rows times bodies.
+    /// The total number of directions (blocks of the Jacobian) of all constraints: one for each row and each body of its constraint.
     pub(super) directions: usize,
-    /// The start of each row's directions, and the end as last entry.
+    /// The index of each row's first direction. The last entry is the number of directions.
     pub(super) row_start: Vec<usize>,
-    /// For each constraint, the earlier ones that share a movable body with it, and itself at the end.
+    /// For each constraint, the constraints eliminated before it that share a movable body with it, and the constraint itself as the last
+    /// entry.
     pub(super) neighbours: Vec<Vec<Neighbour>>,
 }
 
-/// The rows and directions of a constraint.
+/// The place of one constraint in the layout: its rows, directions and bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Place {
-    /// Its index in the world.
+    /// The index of the constraint in [`Solver::all`](super::solver::Solver::all): first the constraints of the model, then the contacts.
     pub(super) constraint: usize,
-    /// Its first row.
+    /// The index of the constraint's first row.
     pub(super) row: usize,
-    /// Its number of rows.
+    /// The number of the constraint's rows.
     pub(super) rows: usize,
-    /// Its first direction.
+    /// The index of the constraint's first direction in the Jacobian.
     pub(super) direction: usize,
-    /// Its bodies, as indices into [`Structure::bodies`].
+    /// The bodies of the constraint, as indices into [`Structure::bodies`].
     pub(super) bodies: Vec<usize>,
 }
 
 impl Place {
-    /// Its directions with their bodies; all are zero.
+    /// Returns the directions of the constraint in the Jacobian, with their bodies. All entries are zero.
     pub(super) fn directions(&self) -> impl Iterator<Item = Direction> {
         let rows = std::iter::repeat_n(&self.bodies, self.rows);
         rows.flatten().map(|&member| Direction { member, ..Direction::default() })
     }
 }
 
-/// A constraint that shares bodies with another.
+/// A constraint that shares bodies with another constraint, whose matrix blocks it therefore couples to.
 #[derive(Clone, Debug)]
 pub(super) struct Neighbour {
-    /// Its index in the elimination order.
+    /// The index of the neighboring constraint in the order of elimination.
     pub(super) place: usize,
-    /// The bodies of both: their index in the neighbour, and in the constraint itself.
+    /// The shared movable bodies, as pairs of indices: among the bodies of the neighbor, and among those of the constraint itself.
     pub(super) shared: Vec<(usize, usize)>,
 }
 
 impl Structure {
-    /// The indices of a row's directions.
+    /// Returns the range of a row's directions in the Jacobian.
     #[inline(always)]
     pub(super) fn directions_of(&self, row: usize) -> Range<usize> {
         self.row_start[row]..self.row_start[row + 1]
     }
 
-    /// The constraint to which a row belongs.
+    /// Returns the constraint to which a row belongs.
     pub(super) fn place_of_row(&self, row: usize) -> Option<&Place> {
         let after = self.places.partition_point(|place| place.row <= row);
         self.places[..after].last().filter(|place| row < place.row + place.rows)
     }
 
-    /// The structure of the constraints whose bodies are all present. A body that no force can move does not couple constraints.
+    /// Lays out the constraints whose bodies are all present. A body that no force can move does not couple its constraints.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
         is_there: impl Fn(usize) -> bool,
@@ -130,8 +131,8 @@ impl Structure {
     }
 }
 
-/// The nodes of a graph in order of minimum degree. With it, the factors of chains and trees are as sparse as the matrix. Source: A.
-/// George & J. W. H. Liu, *The evolution of the minimum degree ordering algorithm*, SIAM Review 31 (1989) 1.
+/// Returns the nodes of a graph in the order of minimum degree. In this order, the factors of chains and trees are as sparse as the
+/// matrix. Source: A. George & J. W. H. Liu, *The evolution of the minimum degree ordering algorithm*, SIAM Review 31 (1989) 1.
 fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
     let mut queue: BTreeSet<(usize, usize)> =
         graph.iter().enumerate().map(|(node, neighbours)| (neighbours.len(), node)).collect();
@@ -153,7 +154,7 @@ fn elimination(mut graph: Vec<BTreeSet<usize>>) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// A chain is eliminated from its ends, so that no elimination connects more than two nodes.
+    /// A chain is eliminated from its ends and a star from its tips, so each node has only one later neighbor.
     #[test]
     fn a_chain_and_a_star_are_eliminated_without_new_edges() {
         let chain = |n: usize| -> Vec<BTreeSet<usize>> {

@@ -1,4 +1,4 @@
-//! Impulses of all contacts, limits and motors by projected Gauss–Seidel sweeps. Joints hold exactly throughout.
+//! Impulses of all contacts, limits and motors by projected Gauss–Seidel sweeps. The joints hold exactly throughout.
 //!
 //! Source: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
@@ -11,39 +11,43 @@ use super::jacobian::push;
 use super::solver::Solver;
 use super::{Direction, Law, Row};
 
-/// The largest number of sweeps.
+/// The largest number of Gauss–Seidel sweeps for one set of impulses.
 pub(super) const SWEEPS: usize = 100;
 
-/// Sweeps end when they change rates by less than this fraction of the largest one.
+/// For forces, the sweeps end when they change rates by less than this fraction of the largest rate.
 const SETTLED: f64 = 1e-7;
 
-/// The same fraction at impacts. The forces that follow correct the rest.
+/// For impacts, the sweeps end when they change rates by less than this fraction of the largest rate. The forces computed afterwards
+/// correct the remaining error.
 const STRUCK: f64 = 1e-5;
 
-/// The purpose of the impulses.
+/// What the impulses of a set of sweeps stand for: an impact, or forces during a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Purpose {
-    /// An impact: approaching bodies stop. The work counts as lost at impacts.
+    /// An impact: approaching bodies stop. The work of the impulses is booked as lost at impacts.
     Impact,
-    /// Half of the effect of forces during twice this time, s. The velocities are those in the middle of that time.
+    /// Forces that act during this time, s: the first half of a part of a step. The resulting velocities are those in the middle of the
+    /// part, and the booked work is that of the whole part.
     Forces(f64),
 }
 
 impl Solver {
-    /// From now on, sweeps find all forces.
+    /// Lets sweeps find all forces from now on, if the model has no joints.
     pub(in crate::dynamics) fn find_by_sweeps(&mut self, model: &Model) {
         self.is_loose = model.constraints().is_empty();
     }
 
-    /// Measures all equations at a state, and removes velocities that violate the joints. The sweeps rely on both.
+    /// Evaluates all equations at a state, removes velocities that violate the joints, and computes the effects of unit impulses. Sweeps
+    /// need all three.
     pub(in crate::dynamics) fn prepare_sweeps(&mut self, model: &Model, t: f64, state: &mut State) {
         self.hold_joints(model, t, state);
         self.settle_velocities(model, state);
         self.find_columns();
     }
 
-    /// Applies the impulses of contacts, limits and motors to the bodies, after [`prepare_sweeps`](Self::prepare_sweeps) at these
-    /// positions. Stops let their rates fall down to `goals`; friction slows slips down to them.
+    /// Applies the impulses of contacts, limits and motors to the bodies, and books their work. [`prepare_sweeps`](Self::prepare_sweeps)
+    /// must have run at these positions. The rates of stops may fall to `goals`. Friction reduces slip velocities to the `goals` of its
+    /// rows.
     pub(in crate::dynamics) fn push_all(
         &mut self,
         model: &Model,
@@ -79,8 +83,8 @@ impl Solver {
         self.unknown = impulses;
     }
 
-    /// c' of each row for the velocities of a state, at the positions of the last measurement. Velocities that violate the joints are
-    /// removed.
+    /// Computes the rate c' of each row from the velocities of a state, at the positions of the last measurement. Velocities that violate
+    /// the joints are removed first.
     pub(in crate::dynamics) fn rates_of(&mut self, model: &Model, state: &mut State) -> Vec<f64> {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -89,8 +93,8 @@ impl Solver {
         self.rates_now()
     }
 
-    /// The target rates in the middle of a time interval: the means of the present rates and of `goals`, those at its end. So each target
-    /// can be reached, since bodies could stop. A contact that closes faster than its goal began to do so within the interval; it stops
+    /// Returns the target rate of each row for the middle of a time interval: the mean of the present rate and `goals`, the target at the
+    /// end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than its goal stops
     /// at once.
     pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
         let middle = |(row, &goal): (usize, &f64)| {
@@ -100,7 +104,8 @@ impl Solver {
         goals.iter().enumerate().map(middle).collect()
     }
 
-    /// The gaps of all rows at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller body count as zero.
+    /// Returns the gap of each row at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller body count as
+    /// zero, as do all rows that are no stops.
     pub(in crate::dynamics) fn gaps(&self, closed: f64) -> Vec<f64> {
         let gap = |(row, law): (&Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
         let mut gaps: Vec<f64> = self.rows.iter().zip(&self.laws).map(gap).collect();
@@ -113,21 +118,21 @@ impl Solver {
         gaps
     }
 
-    /// The indices of the contacts that pushed last. `joints` is the number of constraints before them.
+    /// Returns the indices of the contacts that pushed in the last solution. `joints` is the number of constraints before the contacts.
     pub(in crate::dynamics) fn pushing_contacts(&self, joints: usize) -> impl Iterator<Item = usize> {
         let places = self.structure.iter().flat_map(|structure| &structure.places);
         let pushing = places.filter(|place| self.unknown[place.row] > 0.0);
         pushing.filter_map(move |place| place.constraint.checked_sub(joints))
     }
 
-    /// c' of each row at the velocities of the members.
+    /// Computes the rate c' of each row from the velocities of the members.
     fn rates_now(&self) -> Vec<f64> {
         (0..self.rows.len()).map(|row| self.rate_of(row)).collect()
     }
 
     fn rate_of(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
-        // As in `product`, but without the size of the terms.
+        // This loop equals `product`, but it does not compute the magnitude of the terms.
         let mut rate = self.rows[row].rate;
         for direction in &self.jacobian[structure.directions_of(row)] {
             let member = &self.members[direction.member];
@@ -136,7 +141,8 @@ impl Solver {
         rate
     }
 
-    /// Finds the impulses in `unknown`, and applies them to the velocities of the members.
+    /// Finds the impulses in `unknown`, and applies them to the velocities of the members. `before` holds the rate of each row without
+    /// these impulses.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
         self.unknown.fill(0.0);
         if let Purpose::Forces(time) = purpose {
@@ -146,7 +152,7 @@ impl Solver {
         if purpose != Purpose::Impact {
             self.forced = fastest;
         }
-        // Rates need no accuracy far below the change by forces in a part of a step.
+        // Rates need no accuracy far below their change by forces in a part of a step.
         let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
         let tolerance = part * fastest.max(self.forced);
         if self.joints() == 0 {
@@ -165,7 +171,8 @@ impl Solver {
         }
     }
 
-    /// Sweeps with Anderson acceleration until no rate changes by more than `tolerance`.
+    /// Repeats sweeps with Anderson acceleration until no rate changes by more than `tolerance`. `sweep` returns the largest change of a
+    /// rate.
     pub(super) fn sweep_until(&mut self, tolerance: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
         for left in (0..SWEEPS).rev() {
@@ -179,7 +186,8 @@ impl Solver {
         }
     }
 
-    /// Starts with the last forces at the same contacts. Bodies at rest then need no more sweeps.
+    /// Initializes the impulses from the last forces at the same contacts, which act for `time` seconds. Bodies at rest then need no more
+    /// sweeps.
     pub(super) fn start_warm(&mut self, time: f64) {
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
@@ -204,12 +212,12 @@ impl Solver {
         self.warm = warm;
     }
 
-    /// The number of constraints before the contacts.
+    /// Returns the number of constraints that precede the contacts: those of the model.
     pub(super) fn joints(&self) -> usize {
         self.first_row.len() - self.contacts.len()
     }
 
-    /// One sweep over limits, motors and the normals of contacts. Returns the largest change of a rate.
+    /// Makes one sweep over limits, motors and the normal rows of contacts. Returns the largest change of a rate.
     pub(super) fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
         let mut change = 0.0_f64;
         for (row, &goal) in goals.iter().enumerate() {
@@ -233,7 +241,7 @@ impl Solver {
         change
     }
 
-    /// One sweep over a pair of rows of friction.
+    /// Makes one sweep over a pair of friction rows. Returns the change of its slip velocity.
     fn sweep_grip(&mut self, grip: usize, goals: &[f64]) -> f64 {
         let Grip { row, normal, coefficient, .. } = self.grips[grip];
         let before = DVec2::new(self.unknown[row], self.unknown[row + 1]);
@@ -241,7 +249,7 @@ impl Solver {
         if most == 0.0 && before == DVec2::ZERO {
             return 0.0;
         }
-        // The two rows are weakly coupled, since their tangents are perpendicular.
+        // The coupling of the two rows is added to the weight; it is weak, since the tangents are perpendicular.
         let weight = self.columns.weights()[row].max(self.columns.weights()[row + 1]);
         if weight <= 0.0 {
             return 0.0;
@@ -255,7 +263,7 @@ impl Solver {
         (next - before).length() * weight
     }
 
-    /// The change of the next row's rate by a unit impulse along this row.
+    /// Returns the absolute change of the next row's rate by a unit impulse along this row.
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];
