@@ -1,4 +1,4 @@
-//! `povray.assets`: files beside the scene that the scene's SDL reads.
+//! Reads `povray.assets`, the list of files in the scene's folder that the scene's raw SDL reads.
 
 use std::path::{Component, Path};
 
@@ -32,11 +32,16 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
     assets.into_iter().map(|(asset, _)| asset).collect()
 }
 
-/// Checks the name of an asset and finds its file. Returns an error if the file is missing or outside the folder.
+/// Checks the name of an asset and finds its file.
+///
+/// # Errors
+///
+/// Returns an error if the name is unusable, or if the file is missing, not a regular file, or outside the scene's folder. With `trust`, a
+/// file outside the folder is allowed.
 pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Asset, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    // The SDL writes the name in a string, so the name must not end that string.
+    // The SDL has the name in a string literal, which the name must not terminate.
     let bad = || {
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
         error(Code::BadAsset, format!("`{name}` cannot be the name of an asset")).help(help)
@@ -62,7 +67,7 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
         std::io::ErrorKind::NotFound => error(Code::MissingAsset, format!("there is no file `{name}`")),
         _ => error(Code::MissingAsset, format!("cannot read `{name}`: {e}")),
     };
-    // A symbolic link inside the folder may point outside it.
+    // Resolve symbolic links: a link inside the folder may point outside it.
     let path = folder.join(name).canonicalize().map_err(missing)?;
     if !path.starts_with(folder.canonicalize().map_err(missing)?) && !trust {
         return Err(outside());
@@ -74,8 +79,8 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     Ok(Asset { name: copied_to, path })
 }
 
-/// Removes each `.` from a relative path. Returns an empty text for the folder itself, and `None` for an absolute
-/// path or one with `..`.
+/// Removes each `.` from a relative path. Returns an empty string for the folder itself, and `None` for an absolute path or a path with
+/// `..`.
 pub(super) fn below(name: &str) -> Option<String> {
     let mut parts = Vec::new();
     for part in Path::new(name).components() {

@@ -1,4 +1,4 @@
-//! Reads the geometry of bodies for placing copies, in the same way as the check of the bodies.
+//! Reads the size and the orientation of bodies before the check, for the placement of copies.
 
 use std::path::Path;
 
@@ -8,15 +8,15 @@ use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// Reads the geometry of bodies before the check. Reads each mesh once.
+/// Reads the bounding radius and the orientation of bodies before the check. Reads each mesh file only once.
 pub(super) struct BodyReader<'a> {
     context: Context<'a>,
-    /// The shape table of the body read before, and that body's radius.
+    /// The shape table of the body read before, and the bounding radius of that shape. Copies share the shape table.
     last: Option<(Option<Table>, Option<f64>)>,
 }
 
 impl<'a> BodyReader<'a> {
-    /// A reader for a scene whose files are in `folder`.
+    /// Creates a reader for a scene whose files are in `folder`.
     pub(super) fn new(folder: Option<&'a Path>, trust: bool) -> BodyReader<'a> {
         BodyReader { context: Context { folder, trust, ..Context::silent() }, last: None }
     }

@@ -1,4 +1,4 @@
-//! Corrects springs and joints whose two ends have two keys, as in other programs.
+//! Corrects springs and joints that give each end by a key of its own, as other programs do.
 
 use super::super::Context;
 use super::key_of;
@@ -8,7 +8,7 @@ use super::together::{Together, joined};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Keys for an end in other programs.
+/// The keys that other programs use for an end of a spring or a joint.
 const ENDS: [&str; 34] = [
     "from",
     "to",
@@ -46,12 +46,12 @@ const ENDS: [&str; 34] = [
     "target",
 ];
 
-/// Whether a key names an end in other programs.
+/// Returns whether other programs use this key for an end of a spring or a joint.
 pub(super) fn is_end(entry: &Entry) -> bool {
     ENDS.contains(&entry.name.text.to_lowercase().as_str())
 }
 
-/// Reports keys that name the ends, and replaces them by `between`.
+/// Reports keys that give the ends one by one, with a fix that replaces them by `between`. `None` if there are no such keys.
 pub(super) fn mend_ends(
     table: &Table,
     spec: &'static TableSpec,
@@ -74,7 +74,7 @@ pub(super) fn mend_ends(
     let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
     entries.sort_by_key(|entry| entry.name.span);
     if entries.len() > 2 {
-        // A key with another meaning in this table keeps it, such as the `anchor` of a hinge.
+        // Keep a key that has another meaning in this table, such as the `anchor` of a hinge.
         entries.retain(|entry| key_of(&entry.name.text, inner).is_none_or(|key| key.name == between.name));
     }
     let (first, second) = match entries.as_slice() {
@@ -95,7 +95,7 @@ pub(super) fn mend_ends(
     joined(&entries, meant, "`between` lists both ends", line, path, context)
 }
 
-/// The text of an end for `between`. A list with one name becomes the name.
+/// Returns the text of one end for the list `between`. A list with a single name becomes that name.
 fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -106,7 +106,8 @@ fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     }
 }
 
-/// The text of both ends if the user has given one. The other end becomes another body, or else a point of the world.
+/// Returns the text of the list `between` if the user has given one end. The other end becomes another body, or a point of the world if
+/// there is no other body.
 pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<String> {
     let (one, name) = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -125,7 +126,7 @@ pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<Strin
     Some(format!("[{one}, {other}]"))
 }
 
-/// The text of both ends if the user has given none.
+/// Returns an example of the list `between` with bodies of the scene. `None` if the scene has no bodies.
 pub(super) fn example(context: &Context<'_>) -> Option<String> {
     match bodies(context).as_slice() {
         [] => None,
@@ -134,7 +135,7 @@ pub(super) fn example(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// The names of the bodies for an example, in the order of the file. Copies of a body share one name.
+/// Returns the names of up to three bodies for an example, in the order of the file. Copies of a body count as one name.
 fn bodies<'a>(context: &'a Context<'_>) -> Vec<&'a str> {
     let mut names: Vec<(&str, usize)> = context
         .names

@@ -8,11 +8,11 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Collection, Kind, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Names of the world as an end in other programs.
+/// The words that other programs use for an end of a joint that is fixed in the world.
 const WORLD: [&str; 10] =
     ["world", "ground", "origin", "ceiling", "wall", "space", "fixed", "static", "anchor", "none"];
 
-/// Corrects limits: `limits = 45` and `limits = { min = -45, max = 45 }` → `[-45, 45]`.
+/// Corrects the limits of a joint: `limits = 45` or `limits = { min = -45, max = 45 }` becomes `[-45, 45]`.
 pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     const LOWEST: [&str; 6] = ["min", "low", "lower", "minimum", "from", "lo"];
     const HIGHEST: [&str; 6] = ["max", "high", "upper", "maximum", "to", "hi"];
@@ -25,7 +25,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
             [only] => both(only),
             _ => None,
         },
-        // A fix at this place cannot replace a table that has its own header.
+        // A fix at this span cannot replace a table that has its own header, so require an inline table.
         Value::Table(table) if raw(node.span, context).starts_with('{') => {
             let [low, high] = [find(table, &LOWEST)?, find(table, &HIGHEST)?];
             Some(format!("[{}, {}]", raw(low.node.span, context), raw(high.node.span, context)))
@@ -34,7 +34,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// Corrects a single point `over` which a pulley's rope runs: a list of two points.
+/// Corrects the key `over` of a pulley that gives a single point instead of a list of two points.
 pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     let point = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -49,7 +49,7 @@ pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     Some(format!("[{point}, {point}]"))
 }
 
-/// Moves a stiffness beside the keys of a hinge or a slider into the joint's motor.
+/// Corrects a hinge or a slider with a `stiffness` of its own: moves the stiffness and the damping into the joint's motor.
 pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let motor = spec.key("motor").filter(|motor| table.get(motor.name).is_none())?;
     let [value, _] = values(motor.kind.table()?)?;
@@ -66,13 +66,14 @@ pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Cont
     joined(&entries, motor.name, &label, line + " }", path, context)
 }
 
-/// The two keys of a motor: for the value that it keeps with a stiffness, and for the speed that it keeps with a strength.
+/// Returns the two keys of a motor that give its target: the angle or position, which a motor with a stiffness drives to, and the speed.
 fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     let key = |name: &str| spec.key(name).map(|key| key.name);
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])
 }
 
-/// The missing line of a motor. The motor's other keys decide between value and speed.
+/// Returns the missing line of a motor. The line gives a target value if the motor has a stiffness or a damping, and a speed if the motor
+/// has a maximum torque or force.
 pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     let [value, speed] = values(spec)?;
     let has = |names: [&str; 2]| names.iter().any(|name| table.get(name).is_some());
@@ -83,7 +84,7 @@ pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     }
 }
 
-/// Corrects an end that names the world: a point takes its place.
+/// Corrects an end that names the world, such as `"ground"`: replaces it by the point `[0, 0, 0]` of the world.
 pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diagnostic> {
     let Kind::Either(kinds) = kind else { return None };
     let is_point = |kind: &Kind| matches!(kind, Kind::Numbers(3, _));
@@ -96,8 +97,7 @@ pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diag
     })
 }
 
-/// Finds a joint among the forces, or a force among the joints. Returns a label with the right table, and the fix of
-/// the header.
+/// Finds a joint in `[force.NAME]`, or a force in `[joint.NAME]`. Returns a label with the right table header, and the fix of the header.
 pub(super) fn other_section(
     entry: &Entry,
     table: &Table,
@@ -121,15 +121,17 @@ pub(super) fn other_section(
     Some((label, is_header.then(|| (place, other.to_owned()))))
 }
 
-/// The fix for `type = "hinge"` below `[joint.knee]` in a table with no other keys than those of the hinge.
+/// A fix for `type = "hinge"` below `[joint.knee]`: the header becomes `[joint.knee.hinge]`. All other keys of the table must be keys of
+/// the hinge.
 pub(super) struct KindInHeader {
-    /// The edits that move the kind into the header.
+    /// The edits that add the kind to the header and remove the line with the kind.
     pub(super) edits: [(Span, String); 2],
-    /// The places of the keys that the fix makes right.
+    /// The spans of the keys that are valid after the fix.
     pub(super) keys: Vec<Span>,
 }
 
-/// The fix that moves a kind from its word into the header of the table. `None` if it is impossible.
+/// Returns the fix that moves the kind of a joint from a line, such as `type = "hinge"`, into the header of the table. `None` if the table
+/// has no header or has keys of another kind.
 pub(super) fn kind_in_header(
     word: &Entry,
     kind: &str,

@@ -1,4 +1,4 @@
-//! Finds the kind that was meant if a table has the keys of a kind outside of the kind's own table.
+//! Guesses the kind of a body's shape, force or joint if the keys of the kind stand outside of the kind's own table.
 
 use super::super::Context;
 use super::ends::is_end;
@@ -9,27 +9,27 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// The kind that a table was meant to be, such as `shape.sphere` of a body.
+/// The kind that the user probably meant for a table, such as `shape.sphere` for a body.
 pub(in crate::scene::check) struct MeantKind {
-    /// The path from the table to the kind.
+    /// The path of keys from the table to the kind's own table.
     pub(in crate::scene::check) way: Vec<&'static str>,
-    /// The description of the kind's keys.
+    /// The grammar of the kind's own table.
     pub(super) spec: &'static TableSpec,
-    /// The place of the key whose word names the kind, such as `type = "sphere"`. `None` without such a key.
+    /// The span of the key that names the kind in a word, such as `type = "sphere"`. `None` if there is no such key.
     pub(in crate::scene::check) word: Option<Span>,
-    /// Whether the table has keys of the kind.
+    /// Whether the table has keys that belong to the kind.
     has_keys: bool,
 }
 
 impl MeantKind {
-    /// The path from the table to a key of the kind.
+    /// Returns the path from the table to the key `word` of the kind. `None` if the kind has no such key.
     pub(super) fn way_to(&self, word: &str) -> Option<Vec<&'static str>> {
         let key = key_of(word, self.spec)?;
         Some(self.way.iter().copied().chain([key.name]).collect())
     }
 }
 
-/// Finds the kind that a table was meant to be: by a word, by a kind in the table, or by the table's name and keys.
+/// Guesses the kind of a table from a word such as `type = "sphere"`, from its keys, and from its name.
 pub(in crate::scene::check) fn meant_kind(
     table: &Table,
     spec: &'static TableSpec,
@@ -38,7 +38,7 @@ pub(in crate::scene::check) fn meant_kind(
     by_word(table, spec).or_else(|| by_keys(table, spec, path))
 }
 
-/// The kinds that a table may be, and the path to them. The kinds of a body are those of its shape.
+/// Returns the path from a table to its kinds, and the grammar with these kinds. The kinds of a body are those of its `shape`.
 fn kinds_of(spec: &'static TableSpec) -> Option<(Vec<&'static str>, &'static TableSpec)> {
     match (&spec.rule, spec.key("shape").map(|key| &key.kind)) {
         (Rule::ExactlyOne(_), _) => Some((Vec::new(), spec)),
@@ -47,7 +47,7 @@ fn kinds_of(spec: &'static TableSpec) -> Option<(Vec<&'static str>, &'static Tab
     }
 }
 
-/// Finds the kind that a table names by a word: `shape = "sphere"`, `type = "point"`.
+/// Finds the kind that a table names in a word, such as `shape = "sphere"` or `type = "point"`.
 fn by_word(table: &Table, spec: &'static TableSpec) -> Option<MeantKind> {
     let found = table.entries.iter().find_map(|entry| {
         let word = entry.node.as_str()?;
@@ -68,12 +68,12 @@ fn by_word(table: &Table, spec: &'static TableSpec) -> Option<MeantKind> {
     Some(MeantKind { way, spec, word: Some(word), has_keys })
 }
 
-/// Finds the kind that has most of the table's unknown keys. Among several, prefers the kind with the name of the
+/// Finds the kind that has most of the table's unknown keys. If several kinds have equally many, prefers the kind with the name of the
 /// table.
 fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantKind> {
     let (way, kinds) = kinds_of(spec)?;
     let Rule::ExactlyOne(names) = &kinds.rule else { return None };
-    // A key of the table itself has priority over the same key of a kind.
+    // A key of the table itself has priority over an equal key of a kind.
     let is_free = |entry: &&Entry| {
         let word = &*entry.name.text;
         let own = key_of(word, spec);
@@ -88,12 +88,12 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         None => Some(table),
     };
     let is_there = |name: &str| present.is_some_and(|table| table.get(name).is_some());
-    // A table can have one kind only, so a second kind cannot be meant.
+    // If the table has a kind already, exclude other kinds: a table can have only one.
     let is_table = |name: &str| kinds.key(name).is_some_and(|key| key.kind.table().is_some());
     let is_full = names.iter().any(|name| is_there(name) && is_table(name));
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
     let is_named = |key: &Key| key_of(name, kinds).is_some_and(|named| named.name == key.name);
-    // A key of this language counts twice as much as a name from other programs.
+    // A key of jabuka counts twice as much as a name from other programs.
     let fits = |inner: &'static TableSpec| -> usize {
         let worth = |word: &&str| match inner.key(word) {
             Some(_) => 2,
@@ -106,7 +106,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         .filter_map(|key| Some((key, key.kind.table()?)))
         .map(|(key, inner)| ((is_there(key.name), fits(inner), is_named(key)), key, inner))
         .filter(|((_, fits, _), ..)| *fits > 0)
-        // A kind is likely only if the table has its name or one of its required keys.
+        // Accept a kind only if the table contains it, has its name, or has one of its required keys.
         .filter(|((is_there, _, is_named), _, inner)| {
             *is_there || !is_full && (*is_named || is_begun(inner, table))
         })
@@ -116,7 +116,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
     Some(MeantKind { way: way.into_iter().chain([key.name]).collect(), spec, word: None, has_keys })
 }
 
-/// Whether a table has one of the kind's required keys. Also true if the kind requires none.
+/// Returns whether a table has at least one of the kind's required keys. Also true if the kind requires no key.
 pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     let mut required = spec.keys.iter().filter(|key| key.required).peekable();
     let is_it =
@@ -126,7 +126,7 @@ pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     required.peek().is_none() || has_ends || required.any(is_said)
 }
 
-/// Corrects the word that names a kind. Changes the diagnostics after the first `before`.
+/// Adds the fix for a word that names a kind, such as `type = "sphere"`, to the diagnostics after the first `before`.
 pub(in crate::scene::check) fn mend_word(
     meant: &MeantKind,
     table: &Table,

@@ -1,4 +1,4 @@
-//! Corrects a velocity that is given by its magnitude and its angle above the ground.
+//! Corrects a velocity that the user gives by a speed and an angle above the ground.
 
 use super::super::Context;
 use super::text::operand;
@@ -9,7 +9,7 @@ pub(super) const SPEEDS: [&str; 8] =
 pub(super) const ANGLES: [&str; 8] =
     ["angle", "launch_angle", "elevation", "theta", "alpha", "direction", "inclination", "pitch"];
 
-/// The text of a vector, from the speed, m/s, and the angle, degrees, in a table.
+/// Returns the text of a velocity vector from the speed (m/s) and the angle above the ground (degrees) in a table.
 pub(super) fn by_angle(table: &Table, context: &Context<'_>) -> Option<String> {
     let (speed, angle) = (find(table, &SPEEDS)?, find(table, &ANGLES)?);
     let (speed, angle) = (operand(speed, "m/s", context)?, operand(angle, "degrees", context)?);

@@ -1,4 +1,4 @@
-//! Corrects missing keys by an example.
+//! Adds fixes to errors about missing keys. Each fix inserts the key with an example value.
 
 use super::super::Context;
 use super::text::{header_end, is_file};
@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
 use crate::scene::source::Table;
 
-/// Adds a fix that inserts a missing key with an example value.
+/// Adds a fix that inserts the missing key `key` with an example value into the table whose name is at the span `at`.
 pub(in crate::scene::check) fn mend_missing(
     error: Diagnostic,
     key: &Key,
@@ -29,7 +29,7 @@ pub(in crate::scene::check) fn mend_missing(
     inserted(error, text, at, context)
 }
 
-/// Adds a fix to the error for a table without a kind: an example of the kind that has the table's name.
+/// Adds a fix to the error for a table without a kind. The fix inserts an example of the kind that has the table's name.
 pub(in crate::scene::check) fn mend_kind(
     error: Diagnostic,
     table: &Table,
@@ -54,11 +54,11 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
     }
 }
 
-/// The text of an example of a kind: `shape.sphere.radius = 0.5`.
+/// Returns the TOML text of an example of a kind, such as `shape.sphere.radius = 0.5`. `None` if a required key has no example value.
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
     let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {
-        // An empty drag or Lorentz force has no effect, so the example gives `linear` or `magnetic`.
+        // Add one optional key: an empty drag or Lorentz force would have no effect.
         keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
     }
     let values: Vec<(&str, String)> =
@@ -74,7 +74,7 @@ pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<
     })
 }
 
-/// The text of an example value for a key.
+/// Returns the TOML text of an example value for a key. `None` if there is no example for this kind of value.
 pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
     let text = match (&key.kind, key.name) {
         (Kind::List { .. }, "between") => return ends::example(context),
@@ -95,7 +95,8 @@ pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
     Some(text.to_owned())
 }
 
-/// The place for a missing line of a named table, and the text to insert there.
+/// Returns the source position at which a missing line of a named table is to be inserted, and the text to insert. `at` is the span of the
+/// table's name.
 pub(in crate::scene::check) fn insertion(
     at: Span,
     line: &str,

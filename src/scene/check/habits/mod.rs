@@ -1,4 +1,4 @@
-//! Corrects wrong keys and values by text that the user can paste.
+//! Suggests corrections for wrong keys and values, as text that can replace the mistake.
 
 mod ends;
 mod joint;
@@ -33,14 +33,14 @@ pub(super) use self::not_built::is_word_to_come;
 use self::not_built::not_built;
 use crate::scene::grammar::{Key, TableSpec, quoted};
 
-/// The key of a table with this name, in this language or in other programs.
+/// Returns the key of a table that has this name in jabuka or in other programs.
 fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static Key> {
     let folded = word.to_lowercase();
     let is_it = |key: &&Key| key.name == folded || key.also.contains(&folded.as_str());
     spec.keys.iter().find(is_it)
 }
 
-/// Words in backquotes, joined by `and`: `a`, `b` and `c`.
+/// Joins words in backquotes with commas and `and`: `a`, `b` and `c`.
 pub(super) fn quoted_and(words: &[&str]) -> String {
     match words {
         [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first)),

@@ -1,4 +1,4 @@
-//! Corrects tables that lack a name or the word for their sort, such as `body`.
+//! Corrects table headers that lack a name (`[body]`) or the collection's key (`[ball]` instead of `[body.ball]`).
 
 use super::super::validate::as_key;
 use super::super::{Context, suggest};
@@ -10,8 +10,8 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// The error for a table without the word for its sort (`[ball]` for `[body.ball]`), or for a key of a body outside
-/// of any body. Also returns the key of the scene that was meant.
+/// Returns the error for a table without the key of its collection (`[ball]` instead of `[body.ball]`), or for a key of a body outside of
+/// any body. Also returns the top-level key that was meant.
 pub(in crate::scene::check) fn nameless(
     entry: &Entry,
     context: &Context<'_>,
@@ -40,7 +40,7 @@ pub(in crate::scene::check) fn nameless(
 
 pub(super) type Edits = Vec<(Span, String)>;
 
-/// The keys of the scene with named tables, and the description of these tables.
+/// Returns the top-level keys whose values are named tables, such as `body`, each with the grammar of these tables.
 fn collections() -> impl DoubleEndedIterator<Item = (&'static str, &'static TableSpec)> {
     SCENE.keys.iter().filter_map(|key| match key.kind {
         Kind::Named(inner) => Some((key.name, inner)),
@@ -52,7 +52,7 @@ fn collection(name: &str) -> Option<&'static TableSpec> {
     collections().find(|(key, _)| *key == name).map(|(_, spec)| spec)
 }
 
-/// Corrects a table that has the name of a kind: `[drag]`, `[spring.left]`, `[sphere.ball]`.
+/// Corrects a table whose header begins with a kind, such as `[drag]`, `[spring.left]` or `[sphere.ball]`.
 fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let (word, table) = (&*entry.name.text, entry.node.as_table()?);
     let is_kind = |spec: &TableSpec| matches!(&spec.rule, Rule::ExactlyOne(kinds) if kinds.contains(&word));
@@ -80,7 +80,7 @@ fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edit
     Some(("body", edits))
 }
 
-/// Corrects the header of a named camera, `[camera.top]`, to that of a view. The main camera has no name.
+/// Corrects the header of a named camera: `[camera.top]` becomes `[view.top]`. The main camera has no name.
 pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Option<Edits> {
     let camera = SCENE.key("camera")?.kind.table()?;
     let table = entry.node.as_table().filter(|_| spec.noun == camera.noun)?;
@@ -96,7 +96,7 @@ pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Op
     Some(vec![(place, text)])
 }
 
-/// Replaces the first word in headers by `first`, and adds `kind` after the names.
+/// Returns the edits that replace the first word in the headers of named tables by `first`, and that append `kind` to their names.
 fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, context: &Context<'_>) -> Edits {
     let mut edits = Vec::new();
     for inner in &table.entries {
@@ -112,8 +112,7 @@ fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, contex
     edits
 }
 
-/// Corrects a key of a body outside of any body: moves it to the defaults of all bodies, or to an example body if the
-/// scene has none.
+/// Corrects a key of a body outside of any body: moves the key to `[defaults.body]`, or to an example body if the scene has no bodies.
 fn of_bodies(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let key = collection("body")?.key(&entry.name.text)?;
     let (kind, place) =
@@ -121,7 +120,7 @@ fn of_bodies(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edit
     Some((kind, vec![(entry.name.span, format!("{place}.{}", key.name))]))
 }
 
-/// The sort of thing that has most of the keys in a table. Of several, the first.
+/// Returns the collection, such as `body`, whose grammar has most of the keys in a table. If several fit equally well, returns the first.
 fn best(table: &Table) -> Option<&'static str> {
     let worth = |inner: &'static TableSpec, entry: &Entry| match inner.key(&entry.name.text) {
         Some(_) => 2,
@@ -133,7 +132,7 @@ fn best(table: &Table) -> Option<&'static str> {
     (count > 0).then_some(name)
 }
 
-/// Adds a name to a value that stands in the place of a named table.
+/// Adds a fix to the error for a table of a collection that lacks its name, such as `[body]` instead of `[body.ball]`.
 pub(in crate::scene::check) fn mend_unnamed(
     error: Diagnostic,
     entry: &Entry,
@@ -152,7 +151,7 @@ pub(in crate::scene::check) fn mend_unnamed(
     if all && header_end(entry.name.span, context).is_some() {
         return error.fix(entry.name.span, format!("{word}.{}", name_of(word)));
     }
-    // In `clock = "t = ${t}"` of [label], the name is there and the key is missing.
+    // In `clock = "t = ${t}"` below `[label]`, the user gave the name `clock`, but not the key `text`.
     let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     match required.as_slice() {
         [only] if spec.key(key).is_none() && only.kind.takes(&inner.node.value) => {
@@ -162,8 +161,8 @@ pub(in crate::scene::check) fn mend_unnamed(
     }
 }
 
-/// Corrects a list of tables, `[[body]]`, to tables with headers. The `name` in a table becomes its name. A table without
-/// a `name` gets an example name with a number.
+/// Corrects an array of tables, `[[body]]`, to tables with names. The `name` in a table becomes the table's name. A table without a `name`
+/// gets an example name, with a number if there are several tables.
 pub(in crate::scene::check) fn mend_array(
     error: Diagnostic,
     node: &Node,
@@ -191,7 +190,7 @@ pub(in crate::scene::check) fn mend_array(
     edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text))
 }
 
-/// An example name for a thing of this sort.
+/// Returns an example name for a table of the collection `word`, such as `ball` for `body`.
 fn name_of(word: &str) -> &'static str {
     match word {
         "body" => "ball",

@@ -1,22 +1,22 @@
-//! Features that users look for and that jabuka lacks or has in another form.
+//! Features that users look for and that jabuka lacks or offers in another way.
 
 use crate::scene::grammar::{SCENE, TableSpec};
 
-/// A feature without a key.
+/// A feature that users look for under a key which jabuka does not have.
 pub(in crate::scene::check) struct NotBuilt {
-    /// The noun of the table in which users look for the feature.
+    /// The noun of the table in which users look for the feature, such as `a body`.
     of: &'static str,
-    /// The names of the feature in other programs.
+    /// The keys of the feature in other programs.
     words: &'static [&'static str],
-    /// Says what jabuka has today, and what to write instead.
+    /// The help text: what jabuka offers, and what to write instead.
     pub(super) help: &'static str,
-    /// The future key of the feature, in the table or the scene. Empty if no key is planned.
+    /// The key that the feature will have in the table or at the top level. Empty if no key is planned.
     pub(super) comes_with: &'static str,
-    /// Whether the fix removes the line. The scene is then right without it.
+    /// Whether the fix may remove the line.
     pub(super) can_go: bool,
 }
 
-/// The missing feature with this key in other programs. `None` if jabuka has the feature or does not know the key.
+/// Returns the missing feature that has this key in other programs. `None` if jabuka has the feature, or if the key is not in the list.
 pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option<&'static NotBuilt> {
     let folded = word.to_lowercase();
     let is_it = |thing: &&NotBuilt| thing.of == spec.noun && thing.words.contains(&folded.as_str());
@@ -24,7 +24,7 @@ pub(in crate::scene::check) fn not_built(word: &str, spec: &TableSpec) -> Option
     NOT_BUILT.iter().find(is_it).filter(|thing| !is_built(thing.comes_with))
 }
 
-/// Whether a word is a future value of a key.
+/// Returns whether `word` is a planned value of `key` that this version does not support yet.
 pub(in crate::scene::check) fn is_word_to_come(key: &str, word: &str) -> bool {
     key == "contacts" && word == "time-stepping"
 }

@@ -1,4 +1,4 @@
-//! Corrects keys that stand one table too deep: `repeat` among the keys of a joint's rod.
+//! Corrects keys that stand one table too deep, such as `repeat` in the `rod` of a joint instead of the joint itself.
 
 use super::super::Context;
 use super::key_of;
@@ -8,19 +8,19 @@ use crate::diagnostic::{Code, Span};
 use crate::scene::grammar::{Key, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// A named thing: a body, a force, a joint.
+/// A named table, such as a body, a force or a joint. Misplaced keys of its inner tables may belong to it.
 pub(in crate::scene::check) struct Owner<'a> {
     pub(in crate::scene::check) table: &'a Table,
     pub(in crate::scene::check) spec: &'static TableSpec,
-    /// The place of the thing's name.
+    /// The span of the table's name.
     pub(in crate::scene::check) at: Span,
-    /// The header of the thing's table: `[joint.string]`.
+    /// The header of the table, such as `[joint.string]`.
     pub(in crate::scene::check) path: &'a str,
 }
 
 impl Owner<'_> {
-    /// Corrects unknown keys of inner tables that are keys of this thing. Changes the diagnostics after the first
-    /// `before`.
+    /// Finds unknown keys of inner tables that are keys of this table, and adds fixes that move them. Changes the diagnostics after the
+    /// first `before`.
     pub(in crate::scene::check) fn mend_deep(&self, before: usize, context: &mut Context<'_>) {
         for number in before..context.diagnostics.len() {
             let error = &context.diagnostics[number];
@@ -44,7 +44,8 @@ impl Owner<'_> {
         }
     }
 
-    /// The edits that move an entry to this thing's table. `None` if the right place is unclear.
+    /// Returns the edits that move an entry to this table. `None` if the table has this key already, or if the position for the entry is
+    /// unclear.
     fn edits(&self, entry: &Entry, key: &Key, context: &Context<'_>) -> Option<[(Span, String); 2]> {
         if self.table.get(key.name).is_some() || entry.name.span.source != self.at.source {
             return None;
@@ -54,8 +55,8 @@ impl Owner<'_> {
         Some([(removal(whole(entry), context)?, String::new()), place])
     }
 
-    /// A new header for this thing with a line below it, above the header of the inner table. `None` if the thing has
-    /// a header.
+    /// Returns an edit that inserts a new header for this table, with `line` below it, above the header of the inner table. `None` if the
+    /// table has a header.
     fn header_above(&self, line: &str, context: &Context<'_>) -> Option<(Span, String)> {
         let text = &context.sources.get(self.at.source).text;
         header_end(self.at, context)?;
@@ -66,7 +67,7 @@ impl Owner<'_> {
     }
 }
 
-/// Finds the entry whose name stands at a place, in the tables below `entry`.
+/// Finds the entry whose key has the span `at`, in the tables below `entry`.
 fn find(entry: &Entry, at: Span) -> Option<&Entry> {
     let inner = entry.node.as_table()?;
     inner.entries.iter().find_map(|entry| if entry.name.span == at { Some(entry) } else { find(entry, at) })

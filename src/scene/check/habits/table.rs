@@ -1,4 +1,4 @@
-//! Corrects a value in the place of a table: `trail = 2`, `follow = "ball"`.
+//! Corrects a simple value where a table is expected, such as `trail = 2` or `follow = "ball"`.
 
 use super::super::Context;
 use super::missing::example_of;
@@ -8,7 +8,8 @@ use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
 use crate::scene::source::{Node, Value};
 use crate::scene::units;
 
-/// The text of a table with this value under the required key, or else under the most likely key.
+/// Returns the TOML text of a table that holds the given value under the required key. Without a required key, guesses the key from the
+/// type of the value.
 pub(super) fn as_table(
     spec: &'static TableSpec,
     node: &Node,
@@ -35,7 +36,7 @@ pub(super) fn as_table(
         ([only], value) if only.kind.takes(value) => entry(only, raw),
         ([only], Value::Boolean(true)) => entry(only, &example_of(only, context)?),
         ([_], _) => None,
-        // Show one kind of arrow as an example.
+        // Show the first kind of arrow as an example.
         ([], Value::Boolean(true)) if name == "arrows" => entry(spec.keys.first()?, "true"),
         ([], Value::Boolean(true)) => Some("{}".to_owned()),
         ([], Value::Integer(_) | Value::Float(_)) => {
@@ -60,7 +61,7 @@ pub(super) fn as_table(
     }
 }
 
-/// The text of the entry that a word means: a word of a key, a color, a number with its unit, or a switch.
+/// Returns the TOML text of the entry that a word stands for: a choice, a color, a number with its unit, or a switch.
 fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
     let find = |is: &dyn Fn(&Key) -> bool| spec.keys.iter().find(|key| is(key));
     let is_choice = |key: &Key| matches!(key.kind, Kind::Choice(words) if words().contains(&word));
@@ -79,7 +80,7 @@ fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
     Some(format!("{} = true", switch(spec, word)?))
 }
 
-/// The key of a table that a word switches on: `velocity` of `arrows`.
+/// Returns the key of a table that a word switches on, such as `velocity` for `arrows`. `None` if the table has no such switch.
 fn switch(spec: &'static TableSpec, word: &str) -> Option<&'static str> {
     super::key_of(word, spec).filter(|key| key.kind.takes(&Value::Boolean(true))).map(|key| key.name)
 }

@@ -1,26 +1,26 @@
-//! Finds parts of a scene's text: lines, headers, entries.
+//! Finds lines, table headers and entries in the text of a scene.
 
 use super::super::Context;
 use crate::diagnostic::{SourceId, Span};
 use crate::scene::source::Entry;
 use crate::scene::units;
 
-/// The text at a place.
+/// Returns the source text of a span.
 pub(super) fn raw<'a>(span: Span, context: &'a Context<'_>) -> &'a str {
     context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
 }
 
-/// Whether a source is a file, and not the argument `--set`.
+/// Returns whether a source text is a file. False for a `--set` argument.
 pub(in crate::scene::check) fn is_file(source: SourceId, context: &Context<'_>) -> bool {
     context.sources.get(source).name != "--set"
 }
 
-/// The place of a key together with its value.
+/// Returns the span of an entry from its key to the end of its value.
 pub(super) fn whole(entry: &Entry) -> Span {
     Span { end: entry.node.span.end, ..entry.name.span }
 }
 
-/// The end of the line if the name at a place stands in the header of a table.
+/// Returns the end of the line that contains a table's name, if that line is the table's header. `None` if the line is no header.
 pub(super) fn header_end(at: Span, context: &Context<'_>) -> Option<usize> {
     let text = &context.sources.get(at.source).text;
     let start = text[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -28,7 +28,7 @@ pub(super) fn header_end(at: Span, context: &Context<'_>) -> Option<usize> {
     text[start..end].trim_start().starts_with('[').then_some(end)
 }
 
-/// The line of an entry with its line break. `None` if the line has other content.
+/// Returns the span of the line that contains an entry, with its line break. `None` if the line has other content.
 pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     let text = &context.sources.get(entry.source).text;
     let start = text[..entry.start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -39,7 +39,7 @@ pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     alone.then_some(Span { start, end, ..entry })
 }
 
-/// The text to remove with an entry: its line, or a comma beside it in an inline table.
+/// Returns the span to remove with an entry: its whole line, or in an inline table the entry and one comma.
 pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     whole_line(entry, context).or_else(|| {
         let text = &context.sources.get(entry.source).text;
@@ -52,7 +52,7 @@ pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     })
 }
 
-/// The text of a number or a formula in the given unit, for use inside a larger formula.
+/// Returns the text of a number or a formula in the given unit, for use as an operand in a larger formula. `None` for other values.
 pub(super) fn operand(entry: &Entry, unit: &str, context: &Context<'_>) -> Option<String> {
     let text = match entry.node.as_str() {
         Some(text) => text.trim(),
@@ -66,7 +66,7 @@ pub(super) fn operand(entry: &Entry, unit: &str, context: &Context<'_>) -> Optio
     Some(if is_plain { text.to_owned() } else { format!("({text})") })
 }
 
-/// The place before an entry, and the text that inserts another entry of the same table there.
+/// Returns the source position before an entry, and the text that inserts another entry of the same table at that position.
 pub(in crate::scene::check) fn before(name: Span, entry: &str, context: &Context<'_>) -> (Span, String) {
     let text = &context.sources.get(name.source).text;
     let start = text[..name.start].rfind('\n').map_or(0, |newline| newline + 1);

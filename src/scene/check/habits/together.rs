@@ -1,4 +1,4 @@
-//! Corrects several keys that together mean one key of the language.
+//! Corrects groups of keys that stand for a single key of jabuka, such as `x`, `y` and `z` for `location`.
 
 use super::super::Context;
 use super::kind::MeantKind;
@@ -10,17 +10,17 @@ use crate::scene::grammar::{Key, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 use crate::scene::units;
 
-/// Several keys that together mean one key.
+/// Several unknown keys that stand for a single key of jabuka.
 pub(in crate::scene::check) struct Together {
-    /// The error for the keys.
+    /// The error that reports all of these keys, with its fix.
     pub(in crate::scene::check) error: Diagnostic,
-    /// The places of the keys.
+    /// The spans of the unknown keys.
     pub(in crate::scene::check) spans: Vec<Span>,
-    /// The key that was meant.
+    /// The key of jabuka that was meant.
     pub(in crate::scene::check) key: &'static str,
 }
 
-/// Finds the keys of a table that together mean one key of the language.
+/// Finds groups of unknown keys in a table that each stand for a single key of jabuka.
 pub(in crate::scene::check) fn together(
     table: &Table,
     spec: &'static TableSpec,
@@ -49,7 +49,7 @@ pub(in crate::scene::check) fn together(
         .collect()
 }
 
-/// The error for several entries. Its fix replaces the first entry by a line and removes the others.
+/// Returns one error for several entries. Its fix replaces the first entry by `line` and removes the other entries.
 pub(super) fn joined(
     entries: &[&Entry],
     key: &'static str,
@@ -65,8 +65,7 @@ pub(super) fn joined(
     let error = Diagnostic::error(Code::UnknownKey, message).at(first.name.span, label);
     let mut error = error.fix(whole(first), line);
     for entry in rest {
-        // Remove the line break before the entry rather than after it, so that two fixes of neighbouring lines do not
-        // overlap.
+        // Remove the line break before the entry rather than the one after it. Otherwise, the edits of adjacent lines would overlap.
         let gone = match whole_line(whole(entry), context).filter(|line| line.start > 0) {
             Some(line) => {
                 let is_last = raw(line, context).ends_with('\n');
@@ -79,7 +78,7 @@ pub(super) fn joined(
     Some(Together { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
 }
 
-/// Corrects a speed and an angle to the velocity of a body.
+/// Corrects the speed and the launch angle of a body to its `velocity`.
 fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let key = spec.key("velocity").filter(|_| spec.key("angular_velocity").is_some())?.name;
     if table.get(key).is_some() {
@@ -90,7 +89,7 @@ fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) ->
     joined(&[speed, angle], key, "`velocity` is a vector", line, path, context)
 }
 
-/// Corrects coordinates with a key each to one vector.
+/// Corrects coordinates that are given one by one, such as `x`, `y` and `z`, to a single vector.
 fn components(
     table: &Table,
     spec: &TableSpec,
@@ -114,7 +113,7 @@ fn components(
     joined(&entries, key, &format!("`{key}` is a list"), line, path, context)
 }
 
-/// Corrects the width and the height of images to one size.
+/// Corrects the `width` and the `height` of images to their `size`.
 fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     let key = spec.key("size").filter(|_| spec.key("layout").is_some())?.name;
     let (width, height) = (table.get("width")?, table.get("height")?);
@@ -122,7 +121,7 @@ fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     joined(&[width, height], key, "`size` is width and height", line, path, context)
 }
 
-/// Corrects a number of timesteps or of frames to the timestep or frame rate that follows from the duration.
+/// Corrects a number of timesteps or frames: computes the timestep or the frame rate from that number and the duration.
 fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     const STEPS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
     const FRAMES: [&str; 5] = ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
@@ -149,7 +148,7 @@ fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<
     joined(&[entry], key, label, format!("{key} = {}", units::written(rate)), path, context)
 }
 
-/// Corrects `ring = 12, radius = 2`: the count of a kind as the kind's value, beside other keys of the kind.
+/// Corrects `ring = 12, radius = 2` to `ring.count = 12, ring.radius = 2`: the user gave the count as the value of the kind.
 fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Together> {
     let Rule::ExactlyOne(names) = &spec.rule else { return None };
     let kind = table
@@ -176,13 +175,13 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
     Some(Together { error: others.iter().fold(error, fix), spans, key: key.name })
 }
 
-/// The text of a number or a formula.
+/// Returns the source text of a number or a formula. `None` for other values.
 fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
     let is_value = entry.node.as_number().is_some() || entry.node.as_str().is_some();
     is_value.then(|| raw(entry.node.span, context).to_owned())
 }
 
-/// Corrects a drag coefficient, an area and a density of the air to a quadratic drag.
+/// Corrects a drag coefficient, an area and a density of the air to the key `quadratic` of a drag force.
 fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
     const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
     const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];
@@ -193,7 +192,7 @@ fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     let mut entries = vec![coefficient, area];
     entries.extend(density);
     entries.sort_by_key(|entry| entry.name.span);
-    // Without a density: the density of air at 20 °C and sea level, kg/m³.
+    // The default is the density of air at 20 °C and sea level, kg/m³.
     let of_air = match density {
         Some(entry) => operand(entry, "kg/m³", context)?,
         None => "1.2".to_owned(),

@@ -1,4 +1,4 @@
-//! Reports keys that a table does not have.
+//! Reports unknown keys of a table, with suggestions.
 
 use super::super::Context;
 use super::kind::MeantKind;
@@ -11,8 +11,8 @@ use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::units;
 
-/// The error for an unknown key, with a fix if the right text is clear. Also returns the key of the table that was
-/// meant.
+/// Returns the error for an unknown key, with a fix if the correction is clear. Also returns the key of the table that was meant. The key
+/// is `None` if the table has no such key.
 pub(in crate::scene::check) fn unknown(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -57,14 +57,14 @@ pub(in crate::scene::check) fn unknown(
     (beside(error, meant, &way, table, spec), Some(way[0]))
 }
 
-/// A list of the keys of a table, in words.
+/// Returns a sentence that lists the keys of a table.
 pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
     let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
     let s = if names.len() == 1 { "" } else { "s" };
     format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }
 
-/// Adds a fix that replaces a key or its line.
+/// Adds a fix that replaces the unknown key by the path `way`, or that moves its line.
 fn mended(
     error: Diagnostic,
     entry: &Entry,
@@ -79,17 +79,17 @@ fn mended(
         Some(first) => {
             let line = whole_line(whole(entry), context);
             match (&first.node.value, header_end(first.name.span, context), line) {
-                // The table `first` has its own header, so insert the key below that header.
+                // The table `first` has its own header: insert the key below that header.
                 (Value::Table(_), Some(end), Some(line)) => {
                     let text = format!("\n{} = {}", way[1..].join("."), raw(entry.node.span, context));
                     error.fix(line, "").fix(Span { start: end, end, ..line }, text)
                 }
-                // `mend_word` removes the word that names the kind.
+                // This fix only replaces the key. `mend_word` handles the word that names the shape.
                 (Value::String(_), ..) if way[0] == "shape" => {
                     error.fix(entry.name.span, way.join(".")).fix_is_said()
                 }
                 (Value::Table(_), None, _) => error.fix(entry.name.span, way.join(".")).fix_is_said(),
-                // A color beside a library material tints this material.
+                // The scene names a library material and a color: give the material this color.
                 (Value::String(like), _, Some(line)) if way == ["material", "color"] => {
                     let text = format!("{{ like = \"{like}\", color = {} }}", raw(entry.node.span, context));
                     error.fix(line, "").fix(first.node.span, text)
@@ -100,7 +100,8 @@ fn mended(
     }
 }
 
-/// Converts the value if the word means another measure of the same quantity: a diameter is two radii.
+/// Also converts the value if the key means another measure of the same quantity. For example, a diameter is multiplied by 0.5 to give the
+/// radius.
 fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     let factor = match &*entry.name.text {
         "diameter" => "0.5",
@@ -131,7 +132,8 @@ fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     }
 }
 
-/// Adds fixes for keys that are valid in the table but belong to the same kind, such as the `count` of a ring.
+/// Adds edits for other keys that the user meant for the same kind, such as `count` for a ring, although these keys are valid in the table
+/// itself.
 fn beside(
     error: Diagnostic,
     meant: Option<&MeantKind>,

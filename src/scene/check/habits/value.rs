@@ -8,7 +8,7 @@ use crate::scene::Color;
 use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
-/// Corrects values of a wrong type or length. Changes the diagnostics after the first `before`.
+/// Adds fixes for a value of a wrong type or length to the diagnostics after the first `before`.
 pub(in crate::scene::check) fn mend_value(
     before: usize,
     node: &Node,
@@ -40,7 +40,8 @@ pub(in crate::scene::check) fn mend_value(
     }
 }
 
-/// The line that gives a material the color whose numbers stand in the material's place.
+/// Corrects a list of three numbers where a material is expected. Returns the span of the entry, and a line that gives the material this
+/// color.
 fn numbers_of_a_color(
     node: &Node,
     kind: &Kind,
@@ -52,14 +53,16 @@ fn numbers_of_a_color(
     is_material.then(|| (whole(entry), format!("{}.color = {}", entry.name.text, raw(node.span, context))))
 }
 
-/// The line that makes a camera follow the body whose name stands in the place of a point.
+/// Corrects the name of a body in the camera's `look_at`. Returns the span of the entry, and a line that makes the camera follow this
+/// body.
 fn body_to_look_at(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
     let name = node.as_str().filter(|name| context.names.bodies.contains_key(*name))?;
     let is_it = &*entry.name.text == "look_at" && !name.contains(['"', '\\']);
     is_it.then(|| (whole(entry), format!("follow.body = \"{name}\"")))
 }
 
-/// The line that moves a body by the file whose name stands in the place of the body's motion.
+/// Corrects the name of a file where a body's motion is expected. Returns the span of the entry, and a line that reads the trajectory from
+/// this file.
 fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
     let is_file = |name: &str| {
         let name = name.to_lowercase();
@@ -69,7 +72,7 @@ fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option
     is_it.then(|| (whole(entry), format!("motion.trajectory.file = {}", raw(node.span, context))))
 }
 
-/// The numbers in a text such as `1920x1080`.
+/// Reads `count` whole numbers from a text such as `1920x1080`, and returns them as a TOML list.
 fn numbers_of(text: &str, count: usize) -> Option<String> {
     let numbers = text.split(['x', 'X', '×', '*', ',', ';', ' ', ':']).map(str::trim);
     let numbers: Vec<&str> = numbers.filter(|number| !number.is_empty()).collect();
@@ -77,7 +80,7 @@ fn numbers_of(text: &str, count: usize) -> Option<String> {
     (are_whole && numbers.len() == count).then(|| format!("[{}]", numbers.join(", ")))
 }
 
-/// The error for a color in the place of a material.
+/// Replaces the error for an unknown material by a better error if the word is a color.
 pub(in crate::scene::check) fn color_for_material(
     error: Diagnostic,
     word: &str,
@@ -91,12 +94,12 @@ pub(in crate::scene::check) fn color_for_material(
         .fix(whole(entry), text)
 }
 
-/// A value of the right type that a wrong value was probably meant to be.
+/// Returns the TOML text of a value of the right type that the user probably meant. `None` if there is no good guess.
 fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) -> Option<String> {
     let raw = raw(node.span, context);
     match (kind, &node.value) {
         (Kind::Either(kinds), Value::Integer(_) | Value::Float(_)) => {
-            // A number rarely means a switch, so try the other kinds first.
+            // Try booleans last: a number rarely stands for a boolean.
             let switches = kinds.iter().filter(|kind| matches!(kind, Kind::Boolean));
             let others = kinds.iter().filter(|kind| !matches!(kind, Kind::Boolean));
             others.chain(switches).find_map(|kind| better(node, kind, key, context))

@@ -1,4 +1,4 @@
-//! Corrects three numbers given in another form.
+//! Corrects vectors that are not written as a list of numbers.
 
 use super::super::Context;
 use super::launch;
@@ -6,7 +6,8 @@ use super::text::raw;
 use crate::scene::source::{Node, Table, Value, habits};
 use crate::scene::units;
 
-/// The list of `count` numbers that a value of another type means.
+/// Returns the TOML list of `count` numbers that the user probably meant by a value of another type or length. `None` if there is no good
+/// guess.
 pub(super) fn list(
     node: &Node,
     key: &str,
@@ -36,7 +37,7 @@ pub(super) fn list(
             Some(format!("{}{zeros}]", raw.strip_suffix(']')?.trim_end().trim_end_matches(',')))
         }
         Value::Array(_) => listed(raw.strip_prefix('[')?.strip_suffix(']')?, key, count),
-        // A fix at this place cannot replace a table that has its own header.
+        // A fix at this span cannot replace a table that has its own header, so require an inline table.
         Value::Table(table) if count == 3 && raw.starts_with('{') => by_component(table, context)
             .or_else(|| launch::by_angle(table, context))
             .or_else(|| by_axis(table, unit)),
@@ -44,7 +45,7 @@ pub(super) fn list(
     }
 }
 
-/// The direction that a letter or a word names: `z`, `-y`, `up`.
+/// Returns the unit vector in a direction given by a letter or a word, such as `z`, `-y` or `up`.
 pub(super) fn axis(text: &str) -> Option<String> {
     let word = text.trim().to_lowercase();
     let (sign, name) = match word.strip_prefix('-') {
@@ -61,7 +62,7 @@ pub(super) fn axis(text: &str) -> Option<String> {
     }
 }
 
-/// The vector that a single number means: along the most likely axis.
+/// Returns the vector for a single number: along the axis that is most likely for this key, such as −y for `gravity`.
 pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     match key {
         "gravity" if number > 0.0 => format!("[0, -{raw}, 0]"),
@@ -71,7 +72,7 @@ pub(super) fn along_an_axis(raw: &str, number: f64, key: &str) -> String {
     }
 }
 
-/// The vector in a table of components: `{ x = 1, y = 2 }`.
+/// Returns the vector of a table with components, such as `{ x = 1, y = 2 }`.
 fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
     let place = |name: &str| match name.to_lowercase().as_str() {
         "x" => Some(0),
@@ -86,7 +87,7 @@ fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
     (!table.entries.is_empty()).then(|| format!("[{}]", parts.join(", ")))
 }
 
-/// The vector in a table of a direction and a magnitude: `{ axis = [0, 1, 0], rate = 100 }`.
+/// Returns the vector of a table with a direction and a magnitude, such as `{ axis = [0, 1, 0], rate = 100 }`.
 fn by_axis(table: &Table, unit: &str) -> Option<String> {
     const SIZES: [&str; 8] = ["rate", "speed", "omega", "magnitude", "value", "size", "w", "strength"];
     let [one, two] = table.entries.as_slice() else { return None };
@@ -111,7 +112,7 @@ fn by_axis(table: &Table, unit: &str) -> Option<String> {
     is_direction.then(|| format!("[{}]", parts.collect::<Vec<_>>().join(", ")))
 }
 
-/// The list of exactly `count` numbers in a text with any separators.
+/// Returns the TOML list of the numbers in a text with any separators. `None` if there are not exactly `count` numbers.
 fn listed(inner: &str, key: &str, count: usize) -> Option<String> {
     let (text, _) = habits::list(inner, key)?;
     let numbers =

@@ -1,4 +1,4 @@
-//! The path from a table to the key that an unknown key was meant to be.
+//! Finds the path from a table to the key that an unknown key was meant to be.
 
 use super::super::{Context, suggest};
 use super::key_of;
@@ -9,7 +9,7 @@ use crate::diagnostic::Span;
 use crate::scene::grammar::{Key, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// The path from a table to the key that was meant.
+/// Returns the path from a table to the key that the unknown key `entry` was meant to be. `None` if no key is similar.
 pub(super) fn way(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -17,7 +17,7 @@ pub(super) fn way(
     spec: &'static TableSpec,
 ) -> Option<Vec<&'static str>> {
     let word = &*entry.name.text;
-    // A table cannot move to a key that takes no table.
+    // An entry whose value is a table can only become a key that takes a table.
     let takes = |way: &Vec<&'static str>| {
         let is_table = entry.node.as_table().is_some();
         let can = |key: &Key| key.kind.table().is_some() || key.kind.takes(&entry.node.value);
@@ -27,12 +27,12 @@ pub(super) fn way(
     if of_kind.is_some() {
         return of_kind;
     }
-    // A key of the simulation belongs there, although the trail of a body has a `duration`, too.
+    // A key of the simulation, such as `duration`, belongs to `[simulation]`, although the `trail` of a body also has this key.
     if spec.key("shape").is_some() && key_of(word, spec).is_none() && of_simulation(word).is_some() {
         return None;
     }
     let fits = |way: &Vec<&'static str>| takes(way) && !is_excluded(way, meant, table, spec);
-    // A key of the table that does not take the value may have an inner key of the same name that does.
+    // If the table's own key does not take the value, try an inner key of the same name.
     let own = || {
         let own = key_of(word, spec)?;
         let inner = own.kind.table().filter(|_| !own.kind.takes(&entry.node.value));
@@ -55,7 +55,7 @@ pub(super) fn way(
         .or_else(|| suggest::deeper_also(word, spec).filter(fits))
 }
 
-/// Whether a path leads to another kind than the present or intended kind. Two kinds exclude each other.
+/// Returns whether a path leads to another kind than the kind that the table has or was meant to have. A table can have only one kind.
 fn is_excluded(
     way: &[&'static str],
     meant: Option<&MeantKind>,
@@ -81,14 +81,15 @@ fn is_excluded(
     is_full || meant.is_some_and(is_other)
 }
 
-/// The key at the end of a path.
+/// Returns the key at the end of a path of keys.
 pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static Key> {
     let (first, rest) = way.split_first()?;
     let key = spec.key(first)?;
     if rest.is_empty() { Some(key) } else { key_at(rest, key.kind.table()?) }
 }
 
-/// The right place of a key that its table does not have: the path, and the edits that move the key.
+/// Finds the table, such as `[simulation]`, to which an unknown key belongs. Returns the path of the key in that table, and the edits that
+/// move the entry.
 pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String, Vec<(Span, String)>)> {
     let word = &*entry.name.text;
     let way = of_simulation(word).map(|key| vec!["simulation", key.name]);
@@ -112,8 +113,7 @@ pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String,
     Some((path, fix))
 }
 
-/// The key of the simulation with this name. `None` for words with other meanings as well, such as « length » and «
-/// rate ».
+/// Returns the key of `[simulation]` with this name. `None` for ambiguous names from other programs, such as `length` and `rate`.
 fn of_simulation(word: &str) -> Option<&'static Key> {
     const PLAIN: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
     let key = key_of(word, SCENE.key("simulation")?.kind.table()?)?;

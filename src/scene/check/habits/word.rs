@@ -1,6 +1,6 @@
-//! Values from other programs for keys with a choice of words.
+//! Translates values from other programs, such as names of integrators.
 
-/// The word in `words` that another program's word means. `None` if there is none.
+/// Returns the word in `words` that corresponds to a word from another program. `None` if no word corresponds.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
     const OTHERS: [(&str, &[&str]); 21] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4"]),
