@@ -1,4 +1,5 @@
-//! The largest sizes in a run of the things shown beside bodies, to report those of which nothing can be seen.
+//! The largest sizes of arrows, trails, ghosts, springs and sliders in a run. They serve to warn about requested things that are too small
+//! to see.
 
 use glam::{DQuat, DVec3};
 
@@ -7,90 +8,91 @@ use super::{Frame, Load, Moments};
 use crate::dynamics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
-/// The largest sizes in a run of the requested things.
+/// The largest sizes of the requested arrows, trails, ghosts, springs and sliders in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Asked {
-    /// The arrows, in the order of their bodies and of [`Quantity::OF_BODIES`].
+    /// The requested arrows for motion and force, in the order of bodies, then of [`Quantity::OF_BODIES`].
     pub arrows: Vec<AskedArrow>,
-    /// The arrows for weight and contacts, in the order of their bodies and of [`Quantity::OF_LOADS`].
+    /// The requested arrows for weight and contact forces, in the order of bodies, then of [`Quantity::OF_LOADS`].
     pub loads: Vec<AskedArrow>,
-    /// The trails, in the order of their bodies.
+    /// The requested trails, in the order of bodies.
     pub trails: Vec<AskedTrail>,
-    /// The ghosts, in the order of their bodies.
+    /// The requested ghosts, in the order of bodies.
     pub ghosts: Vec<AskedGhosts>,
-    /// The springs that are drawn, in the order of the forces and their links.
+    /// The drawn springs, in the order of the forces and their links.
     pub springs: Vec<AskedSpring>,
-    /// The sliders that are drawn, in the order of the joints.
+    /// The drawn sliders, in the order of the joints.
     pub sliders: Vec<AskedSlider>,
 }
 
-/// An arrow of a body.
+/// A requested arrow of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AskedArrow {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// The quantity that it shows.
+    /// The quantity that the arrow shows.
     pub quantity: Quantity,
-    /// Its longest vector, in the unit of its quantity.
+    /// The length of the longest vector in the run, in the SI unit of its quantity.
     pub longest: f64,
-    /// The time of the first frame in which its tip is not finite, s.
+    /// The time of the first frame in which the tip of the arrow is not finite, s. `None` if all tips are finite.
     pub lost: Option<f64>,
 }
 
-/// The trail of a body.
+/// A requested trail of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AskedTrail {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// Its root, m, once the body is present.
+    /// The first point of the trail, m. `None` until the body is present.
     begin: Option<DVec3>,
-    /// The largest distance of the body from there, m.
+    /// The largest distance between the body and the first point of its trail, m.
     pub way: f64,
 }
 
-/// The ghosts of a body.
+/// The requested ghosts of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AskedGhosts {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
     every: f64,
-    /// The time of the first possible ghost, s, once the body is present.
+    /// The time of the first possible ghost, s. `None` until the body is present.
     first: Option<f64>,
-    /// The pose of the first ghost: location, m, and orientation.
+    /// The pose of the first ghost: its location (m) and orientation. `None` before the time of the first ghost.
     stands: Option<(DVec3, DQuat)>,
-    /// The largest distance of the body from there, m. `None` if the body is gone before.
+    /// The largest distance between the body and its first ghost, m. `None` if there is no ghost.
     pub way: Option<f64>,
-    /// The largest rotation from there: the cosine of half the angle.
+    /// The largest rotation of the body relative to its first ghost, as the cosine of half the angle.
     pub turn: f64,
 }
 
 /// A drawn spring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedSpring {
-    /// The name of its force.
+    /// The name of the force that the spring belongs to.
     pub force: String,
-    /// Its ends.
+    /// The two ends of the spring.
     ends: [End; 2],
-    /// The largest gap between the surfaces at its ends, m; negative if they always overlap.
+    /// The largest gap between the surfaces at the two ends of the spring, m. Negative if these surfaces overlap in all frames.
     pub room: f64,
 }
 
 /// A slider whose rail is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AskedSlider {
-    /// The number of the joint.
+    /// The index of the joint.
     pub joint: usize,
     way: Coordinate,
-    /// The smallest distance of the second end from the first along the axis, m.
+    /// The smallest distance from the first end of the slider to the second end, along the axis, m. Negative if the second end is behind.
     pub least: f64,
-    /// The largest such distance, m.
+    /// The largest distance from the first end of the slider to the second end, along the axis, m.
     pub most: f64,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum End {
     Point(DVec3),
-    /// A point in the frame of a body, as it is drawn. At the centre, it ends at the surface of the shape.
+    /// A point on a body, in body axes and in the drawn scale, m. A spring attached at the body's center is drawn from the surface of the
+    /// shape.
     Body {
         number: usize,
         at: DVec3,
@@ -99,7 +101,7 @@ enum End {
 }
 
 impl Asked {
-    /// The requests of a scene, before its first frame.
+    /// Lists the things that a scene requests, with their sizes before the first frame.
     pub(super) fn new(scene: &Scene) -> Asked {
         let end = |anchor: Anchor| match anchor {
             Anchor::Point(point) => End::Point(point),
@@ -148,7 +150,7 @@ impl Asked {
         asked
     }
 
-    /// Updates the sizes with the next frame of the run, and the loads on its bodies.
+    /// Updates the sizes with the next frame of the run and the weights and contact forces in this frame.
     pub(super) fn see(&mut self, scene: &Scene, frame: &Frame, loads: &[Load]) {
         for arrow in &mut self.loads {
             let its = loads.iter().filter(|load| (load.body, load.quantity) == (arrow.body, arrow.quantity));
@@ -223,7 +225,7 @@ impl AskedSlider {
 }
 
 impl End {
-    /// Its position, m. `None` while its body is absent.
+    /// The position of the end, m. `None` while its body is absent.
     fn place(&self, frame: &Frame) -> Option<DVec3> {
         match self {
             End::Point(point) => Some(*point),
@@ -234,7 +236,7 @@ impl End {
         }
     }
 
-    /// The distance from the centre to the surface in a direction, m.
+    /// The distance from the center of the body to its surface in a direction, m. 0 if the end is not at a center.
     fn depth(&self, frame: &Frame, direction: DVec3) -> f64 {
         match self {
             End::Body { number, shape: Some(shape), .. } => {
@@ -259,11 +261,12 @@ mod tests {
             [force.s.spring]\nbetween = ['wall', 'ball', [9, 0, 0]]\nstiffness = 0";
         let asked = survey(&Scene::parse(text).unwrap(), |_| {}).unwrap().asked;
         let [velocity] = asked.arrows[..] else { panic!("one is asked for") };
-        // 5 m/s upward become 15 m/s downward.
+        // The velocity changes from 5 m/s upward to 15 m/s downward.
         assert!((velocity.longest - 15.0).abs() < 1e-9 && velocity.lost.is_none(), "{velocity:?}");
-        // Back through the start, and 10 m below; the error of the method is at most v·dt.
+        // The ball returns to its start, then falls to 10 m below. The method's error is at most v·dt.
         assert!((asked.trails[0].way - 10.0).abs() < 0.1, "{:?}", asked.trails);
-        // At the end: 10 m below, √(3² + 10²) from the centre of the wall, of which 0.5/3 is inside the wall, and the ball.
+        // At the end, the ball is 10 m below its start: √(3² + 10²) m from the center of the wall. The wall covers 0.5/3 of this distance,
+        // and the ball 0.5 m.
         let far = libm::hypot(3.0, 10.0);
         let [wall, _] = &asked.springs[..] else { panic!("a chain of two") };
         assert!((wall.room - (far * 2.5 / 3.0 - 0.5)).abs() < 0.1, "{wall:?}");

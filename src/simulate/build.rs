@@ -1,4 +1,4 @@
-//! Scene → world.
+//! Builds the world of a scene.
 
 #[cfg(feature = "time-stepping")]
 mod stepping;
@@ -14,8 +14,8 @@ use crate::dynamics::{
 use crate::scene::ContactLaw;
 use crate::scene::{Body, Scene};
 
-/// Builds the dynamics that suits the scene; `effort` counts the pair interactions. Engines with their own steps are built here instead
-/// of in the world.
+/// Builds the dynamics of a scene: a world, an adaptive method that advances the world, or the time-stepping engine. `effort` counts the
+/// evaluated interactions between pairs of bodies.
 pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
@@ -32,8 +32,8 @@ pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
     }
 }
 
-/// The world of a scene in its initial state. Bodies are added in the order of the scene, so a body has the same index in both. A ground
-/// that stops bodies is one more body, after all of the scene's.
+/// Builds the world of a scene in its initial state. A body has the same index in the scene and in the world. A ground that stops bodies
+/// becomes an additional body, after all bodies of the scene.
 pub fn world(scene: &Scene) -> World {
     let mut world = free_world(scene);
     scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
@@ -44,11 +44,11 @@ pub fn world(scene: &Scene) -> World {
     world
 }
 
-/// The world without joints and contacts.
+/// Builds the world of a scene with its bodies and forces, but without joints and contacts.
 fn free_world(scene: &Scene) -> World {
     let mut world = World::new();
     world.set_integrator(scene.simulation.method);
-    // Given motion needs no intermediate steps.
+    // Prescribed motion is a function of time, so it needs no intermediate steps.
     world.set_step(if is_given(scene) { f64::INFINITY } else { scene.simulation.step });
     world.reserve(scene.bodies.len());
     scene.bodies.iter().for_each(|body| add(&mut world, body));
@@ -61,12 +61,12 @@ fn free_world(scene: &Scene) -> World {
     world
 }
 
-/// Whether no body is moved by forces.
+/// True if every body is fixed or has a prescribed motion.
 fn is_given(scene: &Scene) -> bool {
     scene.bodies.iter().all(|body| body.start.fixed || body.motion.is_some())
 }
 
-/// Adds the ground as a plane. It is a body of the world, but not of the scene.
+/// Adds the ground to the world as a fixed plane. The ground is a body of the world, but not of the scene.
 fn add_ground(world: &mut World, scene: &Scene) {
     let Some(height) = scene.ground_that_stops().map(|(height, _)| height) else { return };
     let plane = Shape::Plane { normal: DVec3::Y };
@@ -74,7 +74,7 @@ fn add_ground(world: &mut World, scene: &Scene) {
     world.add_shapes([plane]);
 }
 
-/// The contacts of a scene. Bodies joined together pass through each other, and so do those of one group.
+/// Collects the surfaces of a scene's bodies, and the pairs that pass through each other: bodies joined together, and bodies of one group.
 fn contacts(scene: &Scene) -> Contacts {
     let surface = |body: &Body| body.collider.as_ref().map(|collider| collider.surface);
     let ground = scene.ground_that_stops().map(|(_, surface)| Some(surface));
@@ -94,7 +94,7 @@ fn contacts(scene: &Scene) -> Contacts {
     let moves = |id: usize| !scene.bodies[id].start.fixed && scene.bodies[id].motion.is_none();
     for group in groups.values() {
         for (place, &one) in group.iter().enumerate() {
-            // Two bodies that no force moves cannot come into contact.
+            // Two bodies that are both fixed or prescribed need no contact.
             let others = group[place + 1..].iter().filter(|&&two| moves(one) || moves(two));
             apart.extend(others.map(|&two| (one, two)));
         }
@@ -116,7 +116,7 @@ fn add(world: &mut World, body: &Body) {
 mod tests {
     use super::*;
 
-    /// A chain of three balls from a point, 1 m from each to the next; the last one 0.5 m too far.
+    /// A chain of springs from a fixed point through three balls. Neighbors are 1 m apart, except the last two, which are 1.5 m apart.
     #[test]
     fn a_chain_is_a_spring_from_each_end_to_the_next() {
         let scene = |rest_length: &str| {

@@ -1,10 +1,10 @@
-//! Why a run cannot be simulated, as a diagnostic.
+//! Converts a simulation error into a diagnostic.
 
 use super::{Broken, SimulateError};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
 
 impl SimulateError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// The diagnostic code of the error.
     pub fn code(&self) -> Code {
         match self {
             SimulateError::Diverged(_) => Code::Diverged,
@@ -30,7 +30,7 @@ impl SimulateError {
         }
     }
 
-    /// The error as a diagnostic, with its places in the scene.
+    /// Converts the error into a report with one diagnostic, which points to the bodies, joint or formula in the scene's text.
     pub fn report(&self) -> Report {
         let diagnostic = Diagnostic::error(self.code(), self.message());
         let diagnostic = match self.help() {
@@ -60,7 +60,7 @@ impl SimulateError {
         Report { sources, diagnostics: vec![diagnostic] }
     }
 
-    /// A way to mend it, unless the message makes it plain.
+    /// Suggests a remedy. `None` if the message is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             SimulateError::Diverged(_) => Some(

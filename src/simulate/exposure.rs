@@ -1,4 +1,4 @@
-//! The view of a camera while its shutter is open.
+//! The moments that a camera sees while its shutter is open.
 
 use std::sync::Arc;
 
@@ -8,15 +8,15 @@ use super::recording::{Reader, Recording};
 use super::{Frame, SimulateError};
 use crate::scene::Shutter;
 
-/// A frame, or another moment, and the run from there on.
+/// A frame, or a moment between frames, with access to the recorded moments after it.
 pub struct Exposure {
-    /// The moment at which the shutter opens.
+    /// The state at the time when the shutter opens.
     pub frame: Frame,
-    /// The past up to that moment.
+    /// The trails, ghosts and lagging points up to the time when the shutter opens.
     history: History,
-    /// The particles of the last frame up to that moment.
+    /// The particles at the last frame before the shutter opens, or at the frame itself.
     clouds: Clouds,
-    /// The recording, and the number of its next moment.
+    /// The recording, and the number of the first moment after the shutter opens.
     rest: (Arc<Recording>, usize),
 }
 
@@ -29,8 +29,8 @@ impl Exposure {
         Exposure { frame, history, clouds, rest }
     }
 
-    /// The moments at which a camera looks while its shutter is open. Each is read on demand. They may be later than the last frame, and
-    /// have the number of the frame at which the shutter opened.
+    /// Reads the moments at which a camera with this shutter takes its samples. Each moment has the index of the frame at which the
+    /// shutter opened. Moments may be later than the last frame.
     pub fn moments(&self, shutter: Shutter) -> impl Iterator<Item = Result<Frame, SimulateError>> {
         let (recording, next) = &self.rest;
         let mut reader = recording.read();
@@ -43,7 +43,7 @@ impl Exposure {
     }
 }
 
-/// The moment at a time (s), which is not before the reader's.
+/// Reads on to the moment at a time (s). Fails if the moment was not recorded, or if the reader is already past it.
 #[allow(clippy::float_cmp, reason = "moments are recorded at these very times")]
 fn moment(
     reader: &mut Reader,

@@ -7,42 +7,42 @@ use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot
 /// The state of a run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Its number, from 0.
+    /// The number of the frame, counted from 0. Between two frames, the number of the frame before.
     pub index: usize,
-    /// Its time, s.
+    /// The time of the frame, s.
     pub time: f64,
-    /// The present bodies, in the order of the scene.
+    /// The bodies that are present in the frame, in the order of the scene.
     pub bodies: Vec<BodySnapshot>,
-    /// The reactions of the joints on the bodies, in the order of the scene.
+    /// The constraint force and torque of each joint on its second body, in the order of the scene.
     pub reactions: Vec<Reaction>,
-    /// The lasting contacts.
+    /// The contacts that persist at this time, with their forces.
     pub contacts: Vec<ContactSnapshot>,
-    /// The greatest penetration of bodies, m.
+    /// The largest penetration between two bodies, m.
     pub penetration: f64,
-    /// Energies, momenta and the drift.
+    /// The energies and momenta of the system, and its energy error.
     pub balance: Balance,
-    /// The numbers of impacts so far.
+    /// The numbers of impacts from the start to this frame.
     pub impacts: ImpactCounts,
-    /// The living particles, for each emitter in the order of the scene.
+    /// The living particles of each emitter, in the order of the scene.
     pub particles: Vec<Swarm>,
-    /// The remembered past.
+    /// The earlier positions of bodies, for trails, ghosts and following cameras.
     pub past: Past,
 }
 
 impl Frame {
-    /// The frame of a moment, with the impacts up to it, but without particles and past.
+    /// Creates a frame from a snapshot of the dynamics. Its impact counts, particles and past are empty.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
         let Snapshot { time, bodies, reactions, contacts, penetration, balance } = moment;
         let (impacts, past, particles) = (ImpactCounts::default(), Past::default(), Vec::new());
         Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, particles, past }
     }
 
-    /// The frame of a moment of a run, without its past.
+    /// Creates a frame from a moment of a run, with its impact counts. Its particles and its past are empty.
     pub(super) fn of_entry(index: usize, entry: Entry) -> Frame {
         Frame { impacts: entry.counts, ..Frame::of(index, entry.snapshot) }
     }
 
-    /// A body, by its index in the scene; `None` if it is absent.
+    /// Finds a body by its index in the scene. `None` if the body is absent in this frame.
     pub fn body(&self, id: usize) -> Option<&BodySnapshot> {
         find(&self.bodies, id)
     }

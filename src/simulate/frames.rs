@@ -1,4 +1,4 @@
-//! The frames of a run, one after another.
+//! An iterator over the frames of a run.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -11,9 +11,10 @@ use super::{Frame, Moments, SimulateError};
 use crate::dynamics::Effort;
 use crate::scene::Scene;
 
-/// The frames of a run in order, each made on demand.
+/// An iterator over the frames of a run. Each frame is simulated or read on demand.
 ///
-/// The scene knows the initial state. So another `Frames` of the same scene restarts the run, and gives the same frames, bit for bit.
+/// The scene holds the initial state. Another `Frames` of the same scene therefore restarts the run, and gives the same frames, bit for
+/// bit.
 pub struct Frames<'a> {
     scene: &'a Scene,
     source: Source<'a>,
@@ -21,21 +22,21 @@ pub struct Frames<'a> {
     clouds: Clouds,
 }
 
-/// The source of the moments.
+/// Where the moments of a run come from.
 enum Source<'a> {
-    /// They are computed.
+    /// A simulation, and its moments that have been computed but not yet returned.
     Live(Simulation<'a>, VecDeque<Entry>),
-    /// They are read.
+    /// A recording, and a reader of its moments.
     Recorded(Arc<Recording>, Reader),
 }
 
 impl<'a> Frames<'a> {
-    /// The frames of a scene from its initial state, computed one by one.
+    /// Simulates the frames of a scene from its initial state, on demand.
     pub fn new(scene: &'a Scene) -> Frames<'a> {
         Frames::watched(scene, &Effort::default())
     }
 
-    /// The same frames; `effort` counts the pair interactions.
+    /// Simulates the frames of a scene like [`new`](Self::new). `effort` counts the evaluated interactions between pairs of bodies.
     pub fn watched(scene: &'a Scene, effort: &Effort) -> Frames<'a> {
         Frames::with(scene, Moments::of_ghosts(scene), effort)
     }
@@ -50,14 +51,14 @@ impl<'a> Frames<'a> {
         Frames { scene, source, history: History::new(scene), clouds: Clouds::new(scene) }
     }
 
-    /// The frames of a recorded run.
+    /// Reads the frames of a recorded run.
     pub fn recorded(scene: &'a Scene, recording: &Arc<Recording>) -> Frames<'a> {
         let source = Source::Recorded(Arc::clone(recording), recording.read());
         Frames::from(scene, source)
     }
 
-    /// The state at any time of the run, s. At the time of a frame, it is that frame, bit for bit; otherwise it lies between two frames.
-    /// Times outside the run give its first or last moment. The run is computed up to that time.
+    /// Simulates a scene up to a time (s), and returns its state at that time. At the time of a frame, the result equals that frame, bit
+    /// for bit. A time outside the run gives its first or last moment.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time.
@@ -67,7 +68,7 @@ impl<'a> Frames<'a> {
         Frames::with(scene, moments, &Effort::default()).moment(time)
     }
 
-    /// The moment at a time (s), which must be that of a frame or a recorded one, with its past.
+    /// Returns the first moment at a time (s) or later, with its trails, ghosts and particles.
     fn moment(mut self, time: f64) -> Result<Frame, SimulateError> {
         let mut before = 0;
         while let Some(entry) = self.entry()? {
@@ -81,7 +82,8 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// A moment of the recording, with its past. The frame at or before it is known.
+    /// Returns a moment of the recording by its number, with its trails, ghosts and particles, and the state needed to read on. `index` is
+    /// the number of the frame at or before the moment.
     pub(super) fn recorded_moment(
         mut self,
         moment: usize,
@@ -107,12 +109,12 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// Whether frames have a past.
+    /// True if frames have trails, ghosts or lagging points.
     pub fn remember_anything(&self) -> bool {
         !self.history.is_idle()
     }
 
-    /// The number of the next moment of the recording.
+    /// The number of the next moment of the recording. 0 for a simulated run.
     pub(super) fn position(&self) -> usize {
         match &self.source {
             Source::Recorded(_, reader) => reader.position(),
@@ -120,7 +122,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// The past up to the last frame.
+    /// The trails, ghosts and lagging points up to the last frame.
     pub(super) fn history(&self) -> &History {
         &self.history
     }
@@ -130,7 +132,7 @@ impl<'a> Frames<'a> {
         &self.clouds
     }
 
-    /// Continues with a frame. Skips earlier frames, unless their past or their particles are needed.
+    /// Moves to a frame of the recording. Skips earlier frames, except those that its trails, ghosts or particles depend on.
     pub(super) fn pass_to(&mut self, frame: usize) {
         let Source::Recorded(recording, reader) = &mut self.source else { return };
         if self.clouds.is_idle() {
@@ -150,7 +152,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Restarts the run, like the space key in a simulation with a window.
+    /// Restarts the run, like the space key in an interactive simulation.
     pub fn reset(&mut self) {
         *self = match &self.source {
             Source::Live(..) => Frames::new(self.scene),
@@ -158,7 +160,7 @@ impl<'a> Frames<'a> {
         };
     }
 
-    /// The next moment of the run.
+    /// Returns the next moment of the run. `None` after the end.
     fn entry(&mut self) -> Result<Option<Entry>, SimulateError> {
         match &mut self.source {
             Source::Recorded(_, reader) => Ok(reader.entry()?),
@@ -182,7 +184,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Adds particles and past to a moment.
+    /// Adds particles, trails, ghosts and lagging points to a moment.
     fn see(&mut self, is_frame: bool, mut moment: Frame) -> Frame {
         if is_frame {
             self.clouds.note(&moment);
@@ -224,7 +226,7 @@ impl Iterator for Frames<'_> {
     }
 }
 
-/// The nearest time of a run, s.
+/// Limits a time (s) to the duration of a run.
 pub fn within(scene: &Scene, time: f64) -> f64 {
     let simulation = &scene.simulation;
     let end = simulation.duration.max(simulation.time(simulation.frames() - 1));

@@ -1,11 +1,12 @@
-//! Counts the impacts of a run.
+//! Counts the impacts in a run.
 
 use crate::dynamics::Impact;
 use crate::scene::Scene;
 
-/// The numbers of impacts up to a moment. Without contacts, nothing is counted.
+/// The numbers of impacts up to a moment. The list is empty if the scene has no contacts.
 ///
-/// The list holds whole numbers: the total of the run, those of its bodies, and at the end those of the pairs that the scene asks for.
+/// The elements are whole numbers: first the total of the run, then one total for each body, then the totals of the pairs that the scene
+/// asks for, in reverse order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImpactCounts(pub(super) Vec<f64>);
 
@@ -15,12 +16,12 @@ impl ImpactCounts {
         scene.simulation.contacts.map_or(0, |_| 1 + scene.bodies.len() + scene.pairs.len())
     }
 
-    /// The counts of a run that has not begun.
+    /// Creates the counts at the start of a run.
     pub(super) fn new(scene: &Scene) -> ImpactCounts {
         ImpactCounts(vec![0.0; ImpactCounts::size(scene)])
     }
 
-    /// Counts an impact.
+    /// Counts an impact for the run, for its bodies and for their pair.
     pub(super) fn note(&mut self, scene: &Scene, impact: &Impact) {
         let bodies = impact.bodies.into_iter().filter(|&id| id < scene.bodies.len()).map(|id| 1 + id);
         let pairs = scene.pairs.iter().enumerate().filter(|(_, pair)| **pair == impact.bodies);
@@ -31,17 +32,17 @@ impl ImpactCounts {
         }
     }
 
-    /// The total of the whole run.
+    /// The number of all impacts in the run.
     pub fn of_run(&self) -> f64 {
         self.0.first().copied().unwrap_or_default()
     }
 
-    /// The total of a body, by its index in the scene.
+    /// The number of impacts of a body, given by its index in the scene.
     pub fn of_body(&self, body: usize) -> f64 {
         self.0.get(1 + body).copied().unwrap_or_default()
     }
 
-    /// The total of a pair, by its index among those of the scene.
+    /// The number of impacts between the two bodies of a pair, given by its index in the scene's pairs.
     pub fn of_pair(&self, pair: usize) -> f64 {
         let place = self.0.len().checked_sub(1 + pair);
         place.and_then(|place| self.0.get(place)).copied().unwrap_or_default()

@@ -1,4 +1,4 @@
-//! The amount of computation in a run, before it begins.
+//! Estimates the cost of a run before it begins.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -7,32 +7,32 @@ use super::world;
 use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
-/// Writing the script of a body takes about as long as this many interactions.
+/// The number of pair interactions that take about as long as writing the script lines of one body.
 const SCRIPT: u64 = 100;
 
-/// The pair interactions in the frames of a run: as many as an [`Effort`](crate::dynamics::Effort) will count if all bodies are always
-/// present; approximate if some come and go. Without pair interactions, no frame takes long.
+/// The expected number of pair interactions in each frame of a run. It equals the count of an [`Effort`](crate::dynamics::Effort) if all
+/// bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Labour {
     first: u64,
     each: u64,
     frames: usize,
-    /// The number of interactions that take about as long as writing a script.
+    /// The number of pair interactions that take about as long as writing one script.
     script: u64,
 }
 
 impl Labour {
-    /// The labour of a scene.
+    /// Computes the expected number of pair interactions in each frame of a scene.
     pub fn of(scene: &Scene) -> Labour {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
-        // Adaptive methods do not know the number of steps between two frames in advance.
+        // The number of steps of an adaptive method is not known in advance.
         if pairs == 0 || scene.simulation.method.ahead.is_some() {
             return Labour::default();
         }
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
         let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
-        // Each frame computes its potential energy and its forces; the first one also those for the start of the run.
+        // Each frame evaluates its potential energy and its forces. The first frame needs one more evaluation, for the start of the run.
         Labour {
             first: pairs.saturating_mul(3),
             each: pairs.saturating_mul(evaluations.saturating_add(2)),
@@ -41,23 +41,24 @@ impl Labour {
         }
     }
 
-    /// The interactions of one frame.
+    /// The number of pair interactions in the frame with this index.
     pub fn of_frame(&self, index: usize) -> u64 {
         if index == 0 { self.first } else { self.each }
     }
 
-    /// The interactions of a step of a command that simulates all frames and then writes scripts, in equivalent interactions.
+    /// The cost of a step of a command that first simulates all frames and then writes one script per step. The unit is one pair
+    /// interaction.
     pub fn of_step(&self, step: usize) -> u64 {
         if step < self.frames { self.of_frame(step) } else { self.script }
     }
 
-    /// Whether there are no interactions.
+    /// True if the run has no pair interactions.
     pub fn is_empty(&self) -> bool {
         self.each == 0
     }
 }
 
-/// The number of force evaluations of a method in a step, found by a trial.
+/// Counts the force evaluations in a step of a method by a trial run.
 pub fn evaluations(method: &'static Method) -> u64 {
     struct Counting(Arc<AtomicU64>);
 
@@ -70,7 +71,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
             0.0
         }
 
-        // Like pair forces, which take most of the time.
+        // Pair forces, which take most of the time, do not depend on velocities either.
         fn depends_on_motion(&self) -> bool {
             false
         }
@@ -81,7 +82,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
     world.set_integrator(method);
     world.add(RigidBody::new(&Shape::Sphere { radius: 1.0 }, 1.0));
     world.add_force(Counting(Arc::clone(&count)));
-    // The first step may cost more, since a method may keep values for the next step.
+    // The first step may cost more, since some methods keep values for the next step.
     world.step(1.0);
     let before = count.load(Ordering::Relaxed);
     world.step(1.0);

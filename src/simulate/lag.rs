@@ -1,25 +1,25 @@
-//! Points that follow bodies, for cameras that follow one with a lag, or one that is not always present.
+//! Points that follow bodies. Cameras look at these points if they follow a body with a lag, or a body that is sometimes absent.
 
 use glam::DVec3;
 
 use super::Frame;
 use crate::scene::Scene;
 
-/// A point that follows a body: x' = (b − x) / τ, where b is the location of the body. It stays in place while the body is absent.
+/// A point that follows a body: x' = (b − x) / τ, where b is the location of the body. The point stays in place while the body is absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lagging {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// The time τ by which it is behind uniform motion, s. Without it, the point is at the last location of the body.
+    /// The time constant τ, s: the delay behind a body with constant velocity. If 0, the point is at the last known location of the body.
     pub lag: f64,
-    /// The position, m.
+    /// The position of the point, m.
     pub location: DVec3,
-    /// The last time (s), and the location of the body at that time.
+    /// The time of the last frame with the body present (s), and the location of the body in that frame (m).
     seen: Option<(f64, DVec3)>,
 }
 
 impl Lagging {
-    /// The points that a scene's cameras need, before the run has begun.
+    /// Creates the points that a scene's cameras need, at the start of the run.
     pub(super) fn of(scene: &Scene) -> Vec<Lagging> {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut all: Vec<Lagging> = Vec::new();
@@ -36,13 +36,13 @@ impl Lagging {
         all
     }
 
-    /// Whether it follows this body with this lag, s.
+    /// True if the point follows this body with this lag (s).
     #[allow(clippy::float_cmp, reason = "it is the very number of the scene")]
     pub fn is_of(&self, body: usize, lag: f64) -> bool {
         self.body == body && self.lag == lag
     }
 
-    /// The point at a frame, which is not earlier. It is exact for a body that moves uniformly between frames.
+    /// Advances the point to a frame that is not earlier. The result is exact if the body has a constant velocity between frames.
     #[must_use]
     pub(super) fn at(self, frame: &Frame) -> Lagging {
         let Some(there) = frame.body(self.body).map(|body| body.location) else { return self };
@@ -65,7 +65,7 @@ mod tests {
     use super::super::Frames;
     use super::*;
 
-    /// Behind a body that moves at v from 0 on: x = v (t − τ + τ e^(−t/τ)), for any frame rate.
+    /// Behind a body that moves from 0 at speed v, the point is at x = v (t − τ + τ e^(−t/τ)), for any frame rate.
     #[test]
     fn it_is_behind_by_its_lag_when_the_body_moves_evenly() {
         for rate in [5, 50] {
@@ -85,7 +85,7 @@ mod tests {
                 let x = frame.past.lagging[0].location.x;
                 assert!((x - exact).abs() < 1e-12, "{rate} {}: {x}, not {exact}", frame.time);
             }
-            // Also between frames.
+            // The formula also holds between frames.
             let between = Frames::at(&scene, 1.23).unwrap();
             let exact = 3.0 * (1.23 - 0.5 + 0.5 * libm::exp(-1.23 / 0.5));
             assert!((between.past.lagging[0].location.x - exact).abs() < 1e-12);

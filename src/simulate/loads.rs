@@ -8,39 +8,39 @@ use super::Frame;
 use crate::dynamics::{BodySnapshot, ContactSnapshot};
 use crate::scene::{Arrow, Quantity, Scene};
 
-/// A force on a body that an arrow shows: its weight, or a contact force of another body.
+/// A force on a body that is shown by an arrow: its weight, or the normal force or friction from another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// The index of the body on which it acts.
+    /// The index of the body on which the force acts.
     pub body: usize,
-    /// The quantity.
+    /// The kind of force: weight, normal force or friction.
     pub quantity: Quantity,
-    /// The arrow that the scene asks for.
+    /// The look of the arrow.
     pub arrow: Arrow,
-    /// The point of action, m: the centre of the body, or the point of contact.
+    /// The point of action, m: the center of the body, or the center of pressure of the contact.
     pub root: DVec3,
-    /// The force, N.
+    /// The force in world axes, N.
     pub vector: DVec3,
 }
 
-/// The contact force of one body on another, as one force at one point.
+/// The contact force of one body on another, summed over their points of contact.
 #[derive(Default)]
 struct Touch {
     normal: DVec3,
     friction: DVec3,
-    /// The points of contact, weighted by the sizes of their normal forces.
+    /// The sum of the points of contact, each multiplied by its normal force, m N.
     places: DVec3,
-    /// The sum of these weights.
+    /// The sum of the normal forces, N.
     sizes: f64,
 }
 
-/// The loads of a frame that a scene shows, in the order of the bodies. If two bodies touch at several points, a single arrow shows the
-/// total force at the centre of pressure.
+/// Computes the weights and contact forces that a frame shows, in the order of bodies. If two bodies touch at several points, a single
+/// arrow at the center of pressure shows their total force.
 pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
     loads_on(scene, &frame.bodies, &frame.contacts)
 }
 
-/// The loads on some bodies, from all their contacts.
+/// Computes the weights and contact forces that some bodies show. `contacts` must hold all contacts of these bodies.
 pub fn loads_on(scene: &Scene, bodies: &[BodySnapshot], contacts: &[ContactSnapshot]) -> Vec<Load> {
     let asks = |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.has_loads());
     let mut touches: BTreeMap<(usize, usize), Touch> = BTreeMap::new();

@@ -1,19 +1,19 @@
 //! Checked scene → world → recording → frames.
 //!
-//! This is the only place where a [`Scene`] meets the [`dynamics`]. A scene is simulated once; everything that draws, measures or exports
-//! reads the recording.
+//! Only this module connects a [`Scene`] with the [`dynamics`]. A scene is simulated once; all code that draws, measures or exports reads
+//! the recording.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | the world of a scene | `build` |
 //! | the requested moments | `moments` |
 //! | the run while it is computed | `simulation` |
-//! | all of its moments, readable in any order | `recording`, `record` |
-//! | the frames in order, with their past | `frames`, `past`, `lag` |
+//! | all moments of a run, readable in any order | `recording`, `record` |
+//! | the frames in order, with trails and ghosts | `frames`, `past`, `lag` |
 //! | the frames in order, without a recording | `snapshots` |
 //! | the particles of emitters | `particles`, `swarms` |
 //! | the moments while a shutter is open | `exposure` |
-//! | figures on the run as a whole | `survey`, `span`, `reach`, `overlap`, `asked` |
+//! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `asked` |
 
 mod asked;
 mod build;
@@ -72,12 +72,12 @@ pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 
-/// The error of a run whose state became non-finite: this step and method cannot compute the scene.
+/// The error of a run with a non-finite state: the timestep is too long for the method, or the forces are too large.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {
-    /// The name of the first body whose position or velocity is not finite.
+    /// The name of the first body with a non-finite position or velocity.
     pub body: String,
-    /// The time of the frame, s.
+    /// The time of the frame with this state, s.
     pub time: f64,
 }
 
@@ -86,42 +86,42 @@ pub struct Diverged {
 pub enum SimulateError {
     /// The state became non-finite.
     Diverged(Diverged),
-    /// A force has no finite value.
+    /// The formula of a force has no finite value.
     Undefined(Box<Undefined>),
-    /// A joint cannot be kept.
+    /// The constraints of a joint cannot be satisfied.
     Broken(Broken),
-    /// A contact cannot be computed.
+    /// The contact between two bodies cannot be computed.
     Stuck(Box<Stuck>),
-    /// No step is short enough for a body.
+    /// No timestep is short enough for the motion of a body.
     Stalled(Box<Stalled>),
-    /// Its recording cannot be written or read.
+    /// The recording cannot be written or read. The text is the message.
     Recording(String),
 }
 
-/// The error of a force whose formulas have no finite value on a body.
+/// The error of a force whose formula has no finite value for a body.
 #[derive(Clone, Debug)]
 pub struct Undefined {
     /// The name of the force.
     pub force: String,
-    /// The name of the body.
+    /// The name of the body on which the force acts.
     pub body: String,
-    /// The time, s.
+    /// The time of the evaluation, s.
     pub time: f64,
-    /// The reason: its code, the message, and the note at the span.
+    /// The cause: the code and the message of the diagnostic, and the label at its span.
     pub why: (diagnostic::Code, String, String),
-    /// The span in the scene's text, and the texts of the scene.
+    /// The span of the failed operation, and the texts that the scene was read from.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
 impl PartialEq for Undefined {
-    /// The texts do not count.
+    /// Ignores the span and the texts of the scene.
     fn eq(&self, other: &Undefined) -> bool {
         (&self.force, &self.body, self.time, &self.why) == (&other.force, &other.body, other.time, &other.why)
     }
 }
 
 impl Undefined {
-    /// The error for a force, by its index in the world.
+    /// Creates the error for a force, given by its index in the world. Returns `None` if the force has no formula.
     fn of(scene: &Scene, force: usize, at: &dynamics::Undefined) -> Option<Undefined> {
         let gravity = usize::from(scene.simulation.gravity != glam::DVec3::ZERO);
         let mut number = force.checked_sub(gravity)?;
@@ -167,34 +167,34 @@ impl std::error::Error for Undefined {}
 pub struct Stalled {
     /// The name of the body whose motion changes too fast.
     pub body: String,
-    /// The time, s.
+    /// The time at which the method failed, s.
     pub time: f64,
-    /// The span that names the body, and the texts of the scene.
+    /// The span of the body's name, and the texts that the scene was read from.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
 impl PartialEq for Stalled {
-    /// The texts do not count.
+    /// Ignores the span and the texts of the scene.
     fn eq(&self, other: &Stalled) -> bool {
         (&self.body, self.time) == (&other.body, other.time)
     }
 }
 
-/// The error of a joint that cannot be kept.
+/// The error of a joint whose constraints cannot be satisfied.
 #[derive(Clone, Debug)]
 pub struct Broken {
     /// The name of the joint.
     pub joint: String,
-    /// The time, s.
+    /// The time at which the joint failed, s.
     pub time: f64,
-    /// The error of the joint, in metres, or in radians for a rotation.
+    /// The remaining violation of the joint's constraints: m, or rad for a rotation.
     pub missing: f64,
-    /// The span that names the joint, and the texts of the scene.
+    /// The span of the joint's name, and the texts that the scene was read from.
     pub place: (Option<diagnostic::Span>, Sources),
 }
 
 impl PartialEq for Broken {
-    /// The texts do not count.
+    /// Ignores the span and the texts of the scene.
     fn eq(&self, other: &Broken) -> bool {
         (&self.joint, self.time, self.missing) == (&other.joint, other.time, other.missing)
     }
@@ -203,18 +203,18 @@ impl PartialEq for Broken {
 /// The error of a contact that cannot be computed.
 #[derive(Clone, Debug)]
 pub struct Stuck {
-    /// The names of the two bodies; `None` for the ground.
+    /// The names of the two touching bodies; `None` for the ground.
     pub bodies: [Option<String>; 2],
-    /// The time, s.
+    /// The time at which the contact failed, s.
     pub time: f64,
-    /// Their overlap when contacts begin, m. `None` if their impacts do not end.
+    /// The overlap of the two bodies when their contact begins, m. `None` if the bodies are jammed: their impacts have no end.
     pub depth: Option<f64>,
-    /// The spans that name them, and the texts of the scene.
+    /// The spans of the bodies' names, and the texts that the scene was read from.
     pub place: (Vec<diagnostic::Span>, Sources),
 }
 
 impl PartialEq for Stuck {
-    /// The texts do not count.
+    /// Ignores the spans and the texts of the scene.
     fn eq(&self, other: &Stuck) -> bool {
         (&self.bodies, self.time, self.depth) == (&other.bodies, other.time, other.depth)
     }
@@ -230,7 +230,7 @@ impl Stuck {
 }
 
 impl SimulateError {
-    /// The error for a breakdown of the dynamics.
+    /// Converts a breakdown of the dynamics into an error with the names of the scene.
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {

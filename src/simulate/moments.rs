@@ -1,21 +1,21 @@
-//! The requested times between frames: for ghosts, open shutters, and stills.
+//! The requested times between frames: for ghosts, open shutters and still images.
 
 use crate::scene::{Scene, Shutter};
 
 /// The requested times between frames. They depend on the scene alone, and do not affect the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moments {
-    /// The intervals of ghosts, s.
+    /// The intervals between ghosts, s.
     intervals: Vec<f64>,
     shutters: Vec<Shutter>,
-    /// Single times, s.
+    /// Single requested times, s.
     others: Vec<f64>,
     frames: usize,
     frame_rate: f64,
 }
 
 impl Moments {
-    /// All moments that the pictures of a scene need: those of ghosts, and those of open shutters.
+    /// Collects all times that the pictures of a scene need: those of ghosts and those of open shutters.
     pub fn of(scene: &Scene) -> Moments {
         let cameras = scene.views.iter().map(|view| &view.camera).chain([&scene.camera]);
         let mut shutters: Vec<Shutter> = Vec::new();
@@ -27,7 +27,7 @@ impl Moments {
         Moments { shutters, ..Moments::of_ghosts(scene) }
     }
 
-    /// The moments of ghosts only.
+    /// Collects only the times of ghosts.
     pub fn of_ghosts(scene: &Scene) -> Moments {
         let mut intervals: Vec<f64> =
             scene.bodies.iter().filter_map(|body| Some(body.showing.ghosts?.every)).collect();
@@ -37,12 +37,12 @@ impl Moments {
         Moments { intervals, shutters: Vec::new(), others: Vec::new(), frames, frame_rate }
     }
 
-    /// No moments besides the frames.
+    /// Creates an empty list of times: the run has only frames.
     pub(super) fn none(scene: &Scene) -> Moments {
         Moments { intervals: Vec::new(), ..Moments::of_ghosts(scene) }
     }
 
-    /// The same moments, and a time (s) at which the shutters open as well.
+    /// Adds a time (s), and the sample times of cameras whose shutters open then.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {
         let times: Vec<f64> = self.times_of(time).collect();
@@ -50,25 +50,26 @@ impl Moments {
         self
     }
 
-    /// A time (s), and those of the cameras whose shutter opens then.
+    /// Returns a time (s), and the sample times of cameras whose shutters open then.
     pub(super) fn times_of(&self, time: f64) -> impl Iterator<Item = f64> {
         let opened = self.shutters.iter().flat_map(move |shutter| shutter.moments(time));
         std::iter::once(time).chain(opened)
     }
 
-    /// The largest rounding difference at which a ghost's time counts as that of a frame, s.
+    /// The tolerance for rounding errors: a ghost's time within this distance of a frame's time counts as that frame, s.
     pub(super) fn slack(frame_rate: f64) -> f64 {
         1e-6 / frame_rate
     }
 
-    /// The times after a frame and before the next, in rising order. After the last frame, the end of its interval counts as well.
+    /// The sorted times after a frame and before the next frame, s. After the last frame, the times at the end of its interval are
+    /// included.
     pub(super) fn after(&self, frame: usize) -> Vec<f64> {
         let [begin, end] = [frame, frame + 1].map(|frame| self.time(frame));
         let is_within =
             |time: &f64| *time > begin && (*time < end || (*time == end && frame + 1 >= self.frames));
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
         for shutter in &self.shutters {
-            // Up to rounding, it closes at the next frame at the latest.
+            // A shutter closes at the next frame at the latest, except for rounding errors.
             for opened in frame.saturating_sub(1)..=frame.min(self.frames - 1) {
                 times.extend(shutter.moments(self.time(opened)).filter(is_within));
             }
@@ -88,7 +89,7 @@ impl Moments {
         times
     }
 
-    /// The number of intervals between frames that must be simulated to reach all moments.
+    /// The number of intervals between frames that must be simulated to reach all requested times.
     pub(super) fn intervals(&self) -> usize {
         let last = self.frames - 1;
         let open = self.shutters.iter().map(|shutter| shutter.open).fold(0.0, f64::max);
@@ -148,7 +149,7 @@ mod tests {
         let moments = Moments::of(&scene("")).with(0.123);
         assert_eq!(moments.after(1), [0.123]);
         assert!(moments.after(0).is_empty() && moments.after(2).is_empty());
-        // A moment at a frame's time is that frame.
+        // A requested time that equals a frame's time adds nothing.
         assert!(Moments::of(&scene("")).with(0.2).after(1).is_empty());
     }
 }

@@ -1,4 +1,4 @@
-//! Bodies that move into each other, since no contacts keep them apart.
+//! Detects bodies that move into each other in scenes without contacts.
 
 mod grid;
 mod near;
@@ -14,48 +14,50 @@ use super::Frame;
 use crate::dynamics::{Placed, Shape};
 use crate::scene::Scene;
 
-/// Bodies overlap if they still do after shrinking by this fraction.
+/// The tolerance: two bodies overlap if they still do after each shrinks by this fraction.
 const DEEP: f64 = 0.01;
 
-/// Two overlapping bodies that were apart in the first frame of the later one.
+/// The first two bodies that moved into each other. They did not touch in their first common frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
-    /// The names of the two.
+    /// The names of the two bodies.
     pub bodies: [String; 2],
-    /// The time of the first frame in which they overlap, s.
+    /// The time of the first frame in which the two bodies overlap, s.
     pub time: f64,
 }
 
 /// Watches a run for the first two bodies that move into each other.
 ///
-/// Bodies that touch in their first common frame belong together and may overlap. So may two bodies joined together, and two bodies that
-/// no force moves. Shapes that are not convex (meshes, rings) are not watched, and overlaps between frames are not noticed.
+/// Some overlaps are intended and ignored: between bodies that touch in their first common frame, between bodies joined together, and
+/// between two bodies that no force moves. Shapes that are not convex (meshes, rings) and overlaps between frames are ignored, too.
 ///
 /// The work is proportional to the number of bodies. After a frame with very many near pairs, some frames are skipped. If nearly all
 /// bodies are near each other, the watch ends.
 pub(super) struct Watch<'a> {
     scene: &'a Scene,
     near: Near,
-    /// Pairs that touched in their first common frame.
+    /// The pairs that may overlap: they are joined together, or touched in their first common frame.
     together: HashSet<(usize, usize)>,
-    /// For each body, whether it was present in the last frame.
+    /// For each watched body, whether it was present in the last checked frame.
     were_there: Vec<bool>,
     found: Option<Overlap>,
-    /// The watch has ended.
+    /// True after the watch has ended.
     is_over: bool,
     /// The number of frames to skip.
     pause: u64,
 }
 
-/// The cost of testing a pair, relative to comparing a distance. Shapes other than balls are compared iteratively.
+/// The cost of an overlap test between two convex shapes, relative to a comparison of distances. Shapes other than balls need an iterative
+/// test.
 const OF_SHAPES: u64 = 64;
-/// The allowed mean cost of testing pairs, for each body and frame: less than that of its line in a script.
+/// The allowed mean cost of overlap tests per body and frame. It is less than the cost of the body's line in a script.
 const USUAL: u64 = 32;
-/// The allowed additional cost of each frame, for any number of bodies.
+/// The allowed additional cost of overlap tests per frame, for any number of bodies.
 const ALWAYS: u64 = 16_384;
-/// At this multiple of the usual cost, the watch ends.
+/// The watch ends after a frame with more than this multiple of the allowed mean cost.
 const MOST: u64 = 128;
-/// The largest number of pairs, per body, that may touch in their first frame. Equal balls have six.
+/// The largest number of intended overlaps per body. Beyond it, the watch ends. In a packing of equal balls, there are six touching pairs
+/// per ball.
 const TOGETHER: usize = 64;
 
 impl<'a> Watch<'a> {
@@ -73,7 +75,7 @@ impl<'a> Watch<'a> {
         Watch { scene, near, together, were_there, found: None, is_over, pause: 0 }
     }
 
-    /// Checks the next frame of the run.
+    /// Checks the next frame of the run for overlaps.
     pub(super) fn see(&mut self, frame: &Frame) {
         if self.is_over {
             return;
@@ -111,17 +113,17 @@ impl<'a> Watch<'a> {
         self.pause = cost / self.usual();
     }
 
-    /// The overlap found, if any.
+    /// Returns the first overlap. `None` if no bodies moved into each other.
     pub(super) fn finish(self) -> Option<Overlap> {
         self.found
     }
 
-    /// The allowed mean cost of testing pairs in a frame.
+    /// The allowed mean cost of overlap tests in a frame.
     fn usual(&self) -> u64 {
         ALWAYS + USUAL * self.near.bodies.len() as u64
     }
 
-    /// Whether two bodies overlap if both are scaled by a factor.
+    /// True if two bodies overlap after both are scaled by a factor.
     fn meet(&self, frame: &Frame, i: usize, j: usize, scale: f64) -> bool {
         let placed = |i: usize| {
             let id = self.near.bodies[i].id;
@@ -137,7 +139,7 @@ impl<'a> Watch<'a> {
         placed(i).any(|one| placed(j).any(|other| one.meets(&other)))
     }
 
-    /// The cost of testing whether two bodies overlap.
+    /// The cost of an overlap test between two bodies.
     fn cost(&self, i: usize, j: usize) -> u64 {
         let [one, other] = [i, j].map(|i| &self.scene.bodies[self.near.bodies[i].id].shape);
         match (one, other) {
@@ -147,7 +149,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// The convex parts of a shape, with their poses in its frame.
+/// Returns the convex parts of a shape, each with its pose in body axes.
 fn parts(shape: &Shape) -> impl Iterator<Item = (&Shape, DVec3, DQuat)> {
     let (whole, parts) = match shape {
         Shape::Compound(compound) => (None, compound.parts()),

@@ -1,7 +1,7 @@
 //! The particles of a scene's emitters.
 //!
-//! They are not recorded. Each particle depends on its number, the recorded bodies and the forces alone, so particles are computed while
-//! frames are read. A reader that starts at a later frame computes the living particles from their births on, and gets the same bits.
+//! Particles are not recorded. Each particle depends only on its number, the recorded bodies and the forces, so particles are computed
+//! while frames are read. A reader that starts at a later frame computes the living particles from their births, and gets the same bits.
 //! Memory does not grow with time.
 
 use std::sync::Arc;
@@ -16,36 +16,36 @@ use crate::dynamics::{
 };
 use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
 
-/// The particles of one emitter at one moment, in the order of their births.
+/// The particles of one emitter at one moment, in order of birth.
 pub type Swarm = Arc<[Particle]>;
 
-/// All particles of a scene as time advances.
+/// The particles of all emitters of a scene, advanced frame by frame.
 #[derive(Clone)]
 pub(super) struct Clouds {
     makers: Arc<[Maker]>,
-    /// The obstacles of colliding particles; empty if no particles collide.
+    /// The obstacles that stop particles. Empty if no particles collide.
     obstacles: Arc<[Obstacle]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
-    /// For each emitter n, where every n-th particle is computed.
+    /// The stride of each emitter: only every n-th particle is computed.
     strides: Vec<u64>,
-    /// The time between two frames, s, and the number of steps in it.
+    /// The time between two frames (s), and the number of particle steps in this time.
     interval: f64,
     steps: u32,
-    /// The bodies of the last frame.
+    /// The time of the last frame (s), and the bodies in that frame.
     before: Option<(f64, Arc<[BodySnapshot]>)>,
-    /// The frames before this one are not needed.
+    /// The first frame that is needed. Earlier frames are ignored.
     begin: usize,
 }
 
-/// Makes the cloud of an emitter.
+/// An emitter, and the forces on its particles.
 struct Maker {
     emitter: Emitter,
     fields: Vec<Field>,
 }
 
 impl Clouds {
-    /// The particles of a run that has not begun.
+    /// Creates the particles of a scene, at the start of a run.
     pub(super) fn new(scene: &Scene) -> Clouds {
         let maker = |(number, emitter): (usize, &Emitter)| {
             let fields = fields(scene, number);
@@ -67,7 +67,8 @@ impl Clouds {
         }
     }
 
-    /// The same with only some particles of each emitter, evenly chosen: about `most` at once, or fewer.
+    /// Creates the particles of a scene, but computes only every n-th, so that at most about `most` particles of each emitter live at
+    /// once.
     pub(super) fn thinned(scene: &Scene, most: f64) -> Clouds {
         let mut clouds = Clouds::new(scene);
         #[allow(
@@ -81,12 +82,12 @@ impl Clouds {
         clouds
     }
 
-    /// For each emitter n, where every n-th particle is computed.
+    /// The stride of each emitter: only every n-th particle is computed.
     pub(super) fn strides(&self) -> &[u64] {
         &self.strides
     }
 
-    /// The number of steps from one frame to the next.
+    /// The number of particle steps from one frame to the next.
     pub(super) fn steps(&self) -> u32 {
         self.steps
     }
@@ -95,12 +96,13 @@ impl Clouds {
         self.interval / f64::from(self.steps)
     }
 
-    /// Whether there are no emitters.
+    /// True if the scene has no emitters.
     pub(super) fn is_idle(&self) -> bool {
         self.makers.is_empty()
     }
 
-    /// Whether continuing with frame `next` is the fastest way to reach `frame`.
+    /// True if the fastest way to the particles of `frame` is to continue with frame `next`. Otherwise, [`begin_at`](Self::begin_at) must
+    /// restart at an earlier frame.
     pub(super) fn go_on_to(&self, frame: usize, next: usize) -> bool {
         let first = self.first_frame(frame);
         !self.clouds.is_empty() && self.begin <= first && first <= next && next <= frame
@@ -117,18 +119,18 @@ impl Clouds {
         let time = frame as f64 * self.interval;
         let needed = |maker: &Maker| Cloud::needed_from(&maker.emitter.source, time);
         let from = self.makers.iter().map(needed).fold(time, f64::min);
-        // One more, because of the quotient's rounding error.
+        // One frame earlier, because the quotient may be rounded up.
         ((from / self.interval).floor() as usize).saturating_sub(1).min(frame)
     }
 
-    /// Forgets everything, to start at this frame.
+    /// Removes all particles, and restarts at this frame.
     pub(super) fn begin_at(&mut self, frame: usize) {
         self.clouds.clear();
         self.before = None;
         self.begin = frame;
     }
 
-    /// Advances to the next frame.
+    /// Advances the particles to the next frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         if self.is_idle() || frame.index < self.begin {
             return;
@@ -141,7 +143,7 @@ impl Clouds {
         self.before = Some((frame.time, bodies));
     }
 
-    /// Starts with a frame. For particles born before the run, the bodies stand as at its start.
+    /// Creates the particles of the first frame. For particles born before the run, the bodies rest at their initial poses.
     fn start(&mut self, frame: &Frame, bodies: &[BodySnapshot]) {
         let step = self.step();
         let Clouds { makers, method, interval, strides, .. } = &*self;
@@ -169,7 +171,7 @@ impl Clouds {
             let (from, now) = (find(last, body.index()), find(bodies, body.index()));
             match (from.copied(), now.copied()) {
                 (Some(from), Some(now)) => Some(Course::new(begin, from, to, now)),
-                // A body that comes or goes within the interval counts for the whole interval.
+                // A body that is present at one end of the interval only rests there for the whole interval.
                 (Some(only), None) | (None, Some(only)) => Some(Course::still(only)),
                 (None, None) => None,
             }
@@ -179,12 +181,12 @@ impl Clouds {
         self.clouds.iter_mut().for_each(|cloud| cloud.advance_among(to, step, &course, scenery.as_ref()));
     }
 
-    /// The obstacles of an interval. `None` if nothing stops particles.
+    /// The obstacles with their motions in an interval between frames. `None` if no particles collide.
     fn scenery(&self, course: &dyn Fn(BodyId) -> Option<Course>) -> Option<Scenery> {
         (!self.obstacles.is_empty()).then(|| Scenery::new(&self.obstacles, course))
     }
 
-    /// The box around the particles at the last frame, except those below the ground; `None` if there are none.
+    /// The box around all particles at the last frame, except those below the ground. `None` if there are no particles.
     pub(super) fn bounds(&self, scene: &Scene) -> Option<Bounds> {
         let ground = scene.environment.ground.as_ref().and_then(|ground| ground.height);
         let lowest = ground.unwrap_or(f64::NEG_INFINITY);
@@ -200,12 +202,12 @@ impl Clouds {
         self.makers.iter().zip(&self.clouds).filter_map(of_cloud).reduce(Bounds::union)
     }
 
-    /// The particles at the last frame.
+    /// Returns the particles at the last frame, for each emitter.
     pub(super) fn now(&self) -> Vec<Swarm> {
         self.clouds.iter().map(|cloud| cloud.particles().into()).collect()
     }
 
-    /// The particles at a moment after the last frame and before the next one.
+    /// Computes the particles at a moment between the last frame and the next, for each emitter.
     pub(super) fn at(&self, moment: &Frame) -> Vec<Swarm> {
         let mut later = self.clone();
         if let Some(before) = &self.before
@@ -217,14 +219,14 @@ impl Clouds {
     }
 }
 
-/// The number of particle steps in an interval (s), the same as for bodies.
+/// The number of particle steps in an interval (s). Particles use the timestep of bodies.
 fn steps(scene: &Scene, interval: f64) -> u32 {
     let mut world = World::new();
     world.set_step(scene.simulation.step);
     world.steps_within(interval)
 }
 
-/// The obstacles of particles: the colliding bodies, and the ground. The check has refused unsupported shapes.
+/// The obstacles that stop particles: the colliding bodies and the ground. The scene's check has refused unsupported shapes.
 fn obstacles(scene: &Scene) -> Arc<[Obstacle]> {
     if scene.emitters.iter().all(|emitter| emitter.collides.is_none()) {
         return [].into();
@@ -236,7 +238,7 @@ fn obstacles(scene: &Scene) -> Arc<[Obstacle]> {
     scene.bodies.iter().enumerate().filter_map(body).chain(ground).collect()
 }
 
-/// The forces on the particles of an emitter.
+/// The forces on the particles of an emitter, including gravity.
 fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
     let mut fields = Vec::new();
     let acceleration = scene.simulation.gravity;
@@ -248,14 +250,14 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
     fields
 }
 
-/// The field of a force on particles of a radius (m). `None` if it does not act on them.
+/// Converts a force into a field that acts on particles of a radius (m). `None` for forces that act on bodies only.
 fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
     let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };
     Some(match &force.kind {
         ForceKind::Constant(ConstantForce { force, .. }) => {
-            // Particles do not rotate, so torques do not matter.
+            // Torques have no effect on particles, which do not rotate.
             let (force, torque) = (*force, DVec3::ZERO);
             Field::new(move |bodies| Arc::new(ConstantForce { bodies, force, torque }))
         }

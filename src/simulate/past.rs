@@ -1,7 +1,7 @@
-//! The remembered past of a run, for trails and ghosts.
+//! The earlier positions of bodies, for trails and ghosts.
 //!
-//! Only the bodies with trails or ghosts have one, and it is bounded: a trail has some hundred points and the corners between them, and
-//! the scene's check limits the ghosts. The past of a frame depends on its time alone, and not on which frames are drawn.
+//! Only bodies with trails or ghosts have a past. Memory is bounded: a trail has some hundred points and the corners between them, and the
+//! scene's check limits the number of ghosts. The past of a frame depends on its time alone, and not on the frames that are drawn.
 
 mod corners;
 #[cfg(test)]
@@ -20,42 +20,42 @@ use super::{Frame, Lagging, Moments};
 use crate::dynamics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
-/// The past of a moment.
+/// The earlier positions of bodies that a frame shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
     /// The requested trails.
     pub trails: Vec<Way>,
     /// The requested ghosts, in order of time.
     pub ghosts: Vec<Arc<Ghost>>,
-    /// The points for cameras that follow with a lag.
+    /// The points that cameras with a lag look at.
     pub lagging: Vec<Lagging>,
 }
 
-/// A body at an earlier moment.
+/// A copy of a body at an earlier time, for drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ghost {
-    /// The time, s.
+    /// The time of the ghost, s.
     pub time: f64,
-    /// The body at that time.
+    /// The state of the body at the time of the ghost.
     pub body: BodySnapshot,
-    /// Its contacts, if its ghosts show the forces there.
+    /// The contacts of the body at the time of the ghost. Empty unless the ghost shows contact forces.
     pub contacts: Vec<ContactSnapshot>,
 }
 
-/// The history of a run while it advances.
+/// Collects the trails, ghosts and lagging points of a run, frame by frame.
 #[derive(Clone, Default)]
 pub(super) struct History {
-    /// The bodies with requests.
+    /// The bodies with trails or ghosts: the index of each, and the things shown with it.
     asks: Arc<[(usize, Showing)]>,
-    /// For each of them, its mass, kg; infinite if no force moves it.
+    /// The mass of each body with trails or ghosts, kg. Infinite for a body that no force moves.
     masses: Arc<[f64]>,
-    /// For each of them, the points of its trail, each with the number of its frame, or of the next frame.
+    /// The points of each trail. The number is the frame of the point, or the next frame for a point between frames.
     ways: Vec<Vec<(usize, Passed)>>,
-    /// For each of them, its state in the last frame, if it was present.
+    /// The state of each body with a trail in the last frame. `None` if the body was absent.
     last: Vec<Option<corners::At>>,
     /// The impacts since the last frame.
     impacts: Vec<Impact>,
-    /// For each of them, whether it is absent after having been present.
+    /// For each body with a trail, whether it was absent in the last frame.
     is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
@@ -63,7 +63,7 @@ pub(super) struct History {
 }
 
 impl History {
-    /// The history of a run that has not begun.
+    /// Creates an empty history at the start of a run.
     pub(super) fn new(scene: &Scene) -> History {
         let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
         let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
@@ -92,12 +92,12 @@ impl History {
         }
     }
 
-    /// Whether no body needs its past.
+    /// True if the scene needs no trails, ghosts or lagging points.
     pub(super) fn is_idle(&self) -> bool {
         self.asks.is_empty() && self.lagging.is_empty()
     }
 
-    /// Stores the ghosts of a moment, and the impacts before it.
+    /// Stores the ghosts at a moment, and the impacts since the moment before.
     pub(super) fn note_moment(&mut self, entry: &Entry) {
         self.note_ghosts(&entry.snapshot);
         if !self.asks.is_empty() {
@@ -106,7 +106,7 @@ impl History {
     }
 
     fn note_ghosts(&mut self, moment: &Snapshot) {
-        // A time that differs from a frame's only by rounding counts as that frame's.
+        // A ghost's time that differs from the moment's time only by rounding counts as equal.
         let slack = Moments::slack(1.0 / self.interval);
         let mut due: Vec<(f64, usize)> = Vec::new();
         for (body, showing) in self.asks.iter() {
@@ -130,7 +130,7 @@ impl History {
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
 
-    /// Stores the bodies of a frame, without ghosts.
+    /// Updates the trails and lagging points with a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         for number in 0..self.asks.len() {
@@ -140,14 +140,14 @@ impl History {
             let corners = self.corners(number, frame, trail);
             let (way, is_away) = (&mut self.ways[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
-                // It may return elsewhere, so its path has a gap.
+                // A body may return at another place, so its old trail ends here.
                 way.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
-            // The kept frames depend only on their numbers and the present one.
+            // The stride depends on the number of the present frame alone, so every reader keeps the same points.
             let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
-                // Interpolation needs the last point before the start.
+                // The last point before the start of the trail is needed for interpolation.
                 let before = way.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
                 way.drain(..before.saturating_sub(1));
             }
@@ -163,7 +163,7 @@ impl History {
         self.impacts.clear();
     }
 
-    /// The points of a trail at the impacts since the last frame.
+    /// Computes the points of a trail at the impacts since the last frame.
     fn corners(&self, number: usize, moment: &Frame, trail: Trail) -> Vec<Passed> {
         let id = self.asks[number].0;
         let (Some(before), Some(now)) = (&self.last[number], moment.body(id)) else { return Vec::new() };
@@ -175,7 +175,7 @@ impl History {
         corners::between((before, &(moment.time, *now)), &self.impacts, impulse, (self.masses[number], trail))
     }
 
-    /// The past of a moment, which is the last frame or later.
+    /// The trails, ghosts and lagging points of a moment at or after the last frame.
     pub(super) fn before(&self, moment: &Frame) -> Past {
         let mut trails = Vec::new();
         for (number, ((body, showing), way)) in self.asks.iter().zip(&self.ways).enumerate() {

@@ -1,24 +1,24 @@
-//! The reach of a run's arrows, for a scale that is chosen after the run.
+//! The region that the arrows of a run reach, as a function of their scale. The scale is chosen after the run.
 
 use glam::DVec3;
 
 use super::Bounds;
 
-/// The largest number of lines of an envelope. Beyond it, every second line is dropped, which lowers the envelope by less than a
+/// The largest number of lines in an envelope. Beyond this number, every second line is dropped, which lowers the envelope by less than a
 /// thousandth.
 const MOST_LINES: usize = 128;
 
-/// The reach of arrows of one kind. An arrow ends at `root + scale · vector`; the scale is not known yet.
+/// The region that all arrows of one quantity reach. An arrow ends at `root + scale · vector`, where the scale is not known yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// The length of the longest vector, in its own unit.
+    /// The length of the longest vector, in the unit of its quantity.
     pub largest: f64,
-    /// The largest coordinates of tips along +x, +y, +z, -x, -y and -z.
+    /// The largest coordinates of arrow tips along +x, +y, +z, −x, −y and −z, as functions of the scale.
     envelopes: [Envelope; 6],
 }
 
 impl Reach {
-    /// Adds an arrow from `root` (m) for a vector.
+    /// Adds an arrow that begins at `root` (m) and shows `vector`. Ignores non-finite arrows.
     pub(super) fn add(&mut self, root: DVec3, vector: DVec3) {
         if !root.is_finite() || !vector.is_finite() {
             return;
@@ -31,7 +31,7 @@ impl Reach {
         }
     }
 
-    /// The box around the tips of all arrows, if one unit of the vector is drawn `scale` long (m). `None` if there are no arrows.
+    /// The box around the tips of all arrows, m, if one unit of the quantity is drawn `scale` meters long. `None` if there are no arrows.
     pub fn tips(&self, scale: f64) -> Option<Bounds> {
         let at = |direction: usize| self.envelopes[direction].at(scale);
         let max = DVec3::new(at(0)?, at(1)?, at(2)?);
@@ -40,7 +40,7 @@ impl Reach {
     }
 }
 
-/// A line over the scale s: `start + slope · s`.
+/// The coordinate of an arrow's tip as a linear function of the scale s: `start + slope · s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Line {
     slope: f64,
@@ -48,16 +48,16 @@ struct Line {
 }
 
 impl Line {
-    /// The scale at which a steeper line overtakes this one.
+    /// The scale at which a steeper line becomes larger than this one.
     fn overtaken_by(self, steeper: Line) -> f64 {
         (self.start - steeper.start) / (steeper.slope - self.slope)
     }
 }
 
-/// The maximum of many lines at any scale s ≥ 0: their upper envelope, a convex chain of lines.
+/// The upper envelope of many lines: their maximum at each scale s ≥ 0, a convex polyline.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Envelope {
-    /// In order of rising slope. Each is the largest at some scale.
+    /// The lines of the envelope by increasing slope. Each is the maximum at some scale.
     lines: Vec<Line>,
 }
 
@@ -75,7 +75,8 @@ impl Envelope {
                 }
             }
         }
-        // The new line hides earlier lines with a lower start, and those that it overtakes too early.
+        // Remove the lines that the new line hides: those that start lower with a smaller slope, and those that are no longer the maximum
+        // anywhere.
         let mut from = place;
         while from > 0 {
             let before = self.lines[from - 1];
@@ -110,7 +111,7 @@ impl Envelope {
         }
     }
 
-    /// The maximum of all lines at a scale; `None` if there are none.
+    /// The maximum of all lines at a scale. `None` without lines.
     fn at(&self, scale: f64) -> Option<f64> {
         self.lines.iter().map(|line| line.start + line.slope * scale).reduce(f64::max)
     }
@@ -130,7 +131,7 @@ mod tests {
         let mut reach = Reach::default();
         let mut arrows = Vec::new();
         for round in 0..3000 {
-            // Some on an ellipse, so that each is the farthest at some scale.
+            // Half of the arrows lie on an ellipse, so that each reaches farthest at some scale.
             let angle = random() * 7.0;
             let (a, b) = (
                 DVec3::new(libm::cos(angle), libm::sin(angle), 0.0),

@@ -1,4 +1,4 @@
-//! A scene simulated once: its recording, and figures on the whole run.
+//! Records a run of a scene, and reads the recorded run.
 
 use std::io;
 use std::sync::Arc;
@@ -12,15 +12,15 @@ use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, 
 use crate::dynamics::{Dynamics, Effort, Impact};
 use crate::scene::Scene;
 
-/// A simulated run, which can be read in any order to draw, measure or export it.
+/// A simulated run with its recording and its survey. Its moments can be read in any order, to draw, measure or export them.
 #[derive(Clone)]
 pub struct Recorded<'a> {
     scene: &'a Scene,
     recording: Arc<Recording>,
     survey: Survey,
-    /// The reason why it ended before its last frame, if it did.
+    /// The error that ended the run before its last frame. `None` if the run is complete.
     breakdown: Option<SimulateError>,
-    /// The time at which it was resumed, s.
+    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     resumed: Option<f64>,
 }
 
@@ -36,8 +36,9 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// Simulates a scene with the caller's own dynamics, at time 0. Its bodies have the indices of the scene. Moments that the scene does
-    /// not request are not recorded: [`at`](Self::at) computes them by the scene's own forces and method.
+    /// Simulates a scene with the caller's own dynamics, which must be at time 0. The bodies of the dynamics have the indices of the
+    /// scene. Only the moments that the scene requests are recorded: for any other moment, [`at`](Self::at) runs the scene's own forces
+    /// and method.
     ///
     /// # Errors
     /// If the run becomes non-finite.
@@ -48,15 +49,16 @@ impl<'a> Recorded<'a> {
         recorder.finish()
     }
 
-    /// A run that was simulated and surveyed elsewhere.
+    /// Combines a scene with the recording and the survey of its complete run.
     pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
         Recorded { scene, recording, survey, breakdown: None, resumed: None }
     }
 
-    /// A run that was recorded earlier; `seen` receives every frame. The survey depends on the drawing, so it reads all frames.
+    /// Surveys a recorded run, and calls `seen` with every frame. The survey depends on the look of the scene, so it is computed again
+    /// from all frames.
     ///
     /// # Errors
-    /// If the recording cannot be read.
+    /// If the recording lacks frames or cannot be read.
     pub fn read(
         scene: &'a Scene,
         recording: Arc<Recording>,
@@ -70,33 +72,33 @@ impl<'a> Recorded<'a> {
         Ok(Recorded::of_parts(scene, recording, surveyor.finish()))
     }
 
-    /// The scene.
+    /// The scene that was simulated.
     pub fn scene(&self) -> &'a Scene {
         self.scene
     }
 
-    /// Figures on the whole run.
+    /// The survey of the run: the space that it takes, its energy error, its contacts, and more.
     pub fn survey(&self) -> &Survey {
         &self.survey
     }
 
-    /// The moments of the run.
+    /// The recorded moments of the run.
     pub fn recording(&self) -> &Arc<Recording> {
         &self.recording
     }
 
-    /// The reason why the run ended before its last frame, if it did.
+    /// The error that ended the run before its last frame. `None` if the run is complete.
     pub fn breakdown(&self) -> Option<&SimulateError> {
         self.breakdown.as_ref()
     }
 
-    /// The time (s) at which the run was resumed, if it had been stopped.
+    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }
 
-    /// The number of frames that can be drawn: all, unless the run broke down. A frame counts if all moments of its open shutters were
-    /// recorded as well.
+    /// The number of frames that can be drawn. After a breakdown, a frame counts only if all moments of its open shutters were recorded,
+    /// too.
     pub fn whole_frames(&self) -> usize {
         let moments = Moments::of(self.scene);
         let is_recorded = |time| self.recording.moment_at(time).is_some();
@@ -108,12 +110,12 @@ impl<'a> Recorded<'a> {
         (0..frames).rev().find(|&frame| is_whole(frame)).map_or(0, |last| last + 1)
     }
 
-    /// All frames, from the first on.
+    /// Reads all frames in order, from the first one.
     pub fn frames(&self) -> Frames<'a> {
         Frames::recorded(self.scene, &self.recording)
     }
 
-    /// All impacts of the run, in the order in which they happened.
+    /// Reads all impacts of the run in order of time.
     pub fn impacts(&self) -> impl Iterator<Item = Result<Impact, SimulateError>> + use<'a> {
         let mut reader = self.recording.read();
         let mut waiting = Vec::new().into_iter();
@@ -130,7 +132,7 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// The selected frames, each with the run from there on as far as shutters are open.
+    /// Reads the selected frames. Each comes with the recorded moments after it, for cameras with an open shutter.
     pub fn exposures(
         &self,
         selection: &Selection,
@@ -153,7 +155,7 @@ impl<'a> Recorded<'a> {
                     Ok(frame) if frame.index < wanted => {}
                     Ok(frame) => {
                         let rest = (Arc::clone(&recording), frames.position());
-                        // Only readers that continue from there need the past.
+                        // Only cameras with shutters read on from this frame, so only they need its past and its particles.
                         let before = match is_exposed {
                             true => (frames.history().clone(), frames.clouds().clone()),
                             false => (History::default(), Clouds::new(scene)),
@@ -166,8 +168,8 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// The moment at any time (s), and the run from there on as far as shutters are open. Times outside the run give its first or last
-    /// moment. A moment that was not recorded is simulated again.
+    /// Returns the moment at any time (s), with the moments after it for cameras with an open shutter. A time outside the run gives its
+    /// first or last moment. If the moment was not recorded, the run is simulated again.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time, or the recording cannot be read.
@@ -195,7 +197,7 @@ fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<
     Ok(Exposure::new(frame, (history, clouds), (Arc::clone(recording), moment + 1)))
 }
 
-/// Reads all frames of a recording.
+/// Reads all frames of a recording, and passes each to the surveyor and to `seen`.
 fn see_all(
     recording: &Arc<Recording>,
     surveyor: &mut Surveyor<'_>,
@@ -216,11 +218,11 @@ fn see_all(
     Ok(())
 }
 
-/// A moment of a run from which it can be resumed.
+/// The saved state of an unfinished run, from which the run can be resumed.
 pub struct Checkpoint {
-    /// The description of the recording so far, as [`Recording::index`] gives it.
+    /// The index of the recording so far, as returned by [`Recording::index`].
     pub index: Vec<u8>,
-    /// The state of the run.
+    /// The state of the simulation as bytes.
     pub simulation: Vec<u8>,
 }
 
@@ -234,7 +236,7 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// A recorder of a run that has not begun. `effort` counts the pair interactions.
+    /// Creates a recorder at the start of a run. `effort` counts the evaluated interactions between pairs of bodies.
     pub fn new(scene: &'a Scene, moments: Moments, effort: &Effort, store: Box<dyn Store>) -> Recorder<'a> {
         Recorder::of(scene, Simulation::new(scene, moments, effort), store)
     }
@@ -244,8 +246,8 @@ impl<'a> Recorder<'a> {
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 
-    /// Resumes from a checkpoint of the same run, whose recorded pages are all in the store; `seen` receives every recorded frame. `None`
-    /// if the checkpoint is invalid, or a page is damaged.
+    /// Resumes a run from its checkpoint. The store must hold all recorded pages. `seen` receives every recorded frame. Returns `None` if
+    /// the checkpoint is invalid or a page is damaged.
     pub fn resume(
         scene: &'a Scene,
         moments: Moments,
@@ -265,16 +267,16 @@ impl<'a> Recorder<'a> {
         Some(Recorder { scene, simulation, surveyor, recording, resumed })
     }
 
-    /// A checkpoint of the present moment, which must be that of a frame. `None` if the run cannot be resumed from it.
+    /// Creates a checkpoint at the present frame. Returns `None` if the dynamics cannot be resumed from this state.
     ///
     /// # Errors
-    /// If there is no room for the recording.
+    /// If the store has no room for the recording.
     pub fn checkpoint(&mut self) -> io::Result<Option<Checkpoint>> {
         let Some(simulation) = self.simulation.checkpoint() else { return Ok(None) };
         Ok(Some(Checkpoint { index: self.recording.index()?, simulation }))
     }
 
-    /// Like [`new`](Self::new), with an empty recording.
+    /// Creates a recorder like [`new`](Self::new), but writes to the given empty recording.
     pub fn into(
         scene: &'a Scene,
         moments: Moments,
@@ -285,20 +287,20 @@ impl<'a> Recorder<'a> {
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 
-    /// The time (s) at which the run was resumed, if it had been stopped.
+    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }
 
-    /// The recording, which can be read while it grows.
+    /// The recording, which can be read while the run continues.
     pub fn recording(&self) -> &Arc<Recording> {
         &self.recording
     }
 
-    /// Simulates up to the next frame, and returns it without its past; `None` after the end.
+    /// Simulates up to the next frame, and returns it without trails, ghosts and particles. Returns `None` after the end.
     ///
     /// # Errors
-    /// If the run becomes non-finite, or there is no room for it.
+    /// If the run becomes non-finite, or the store has no room for the recording.
     pub fn advance(&mut self) -> Result<Option<Frame>, SimulateError> {
         let Self { simulation, surveyor, recording, .. } = self;
         let (mut seen, mut failed): (_, Option<io::Error>) = (None, None);
@@ -322,24 +324,23 @@ impl<'a> Recorder<'a> {
         Ok(seen)
     }
 
-    /// The box around everything so far.
+    /// The box around all bodies and particles in the frames so far. `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<super::Bounds> {
         self.surveyor.bounds()
     }
 
-    /// The simulated run.
+    /// Returns the recorded run after its last frame.
     ///
     /// # Errors
-    /// If there is no room for it.
+    /// If the store has no room for the recording.
     pub fn finish(self) -> Result<Recorded<'a>, SimulateError> {
         self.finish_after(None)
     }
 
-    /// The part of the run before a breakdown. A run that diverges is wrong long before it stops, so none of it is returned.
+    /// Returns the part of the run before a breakdown. A diverging run is wrong long before it stops, so it is refused as a whole.
     ///
     /// # Errors
-    /// Returns the breakdown if there is no frame before it or the run diverged. Also fails if there is no room for the
-    /// recording.
+    /// Returns the breakdown if there is no frame before it or the run diverged. Also fails if the store has no room for the recording.
     pub fn finish_early(self, breakdown: SimulateError) -> Result<Recorded<'a>, SimulateError> {
         if matches!(breakdown, SimulateError::Recording(_) | SimulateError::Diverged(_)) {
             return Err(breakdown);

@@ -1,37 +1,37 @@
-//! Some of a scene's frames: `0,50,90-100`.
+//! A selection of a scene's frames, such as `0,50,90-100`.
 
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// Some of a scene's frames.
+/// A selection of a scene's frames: a list of ranges, optionally thinned to every n-th frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
     ranges: Vec<RangeInclusive<usize>>,
-    /// Keeps every n-th of these, from the first on.
+    /// The step n: only every n-th frame of the ranges is selected, counted from the smallest frame.
     every: usize,
 }
 
 impl Selection {
-    /// The first frames, up to this number.
+    /// Selects the first `frames` frames.
     pub fn first(frames: usize) -> Selection {
         Selection { ranges: if frames == 0 { vec![] } else { vec![0..=frames - 1] }, every: 1 }
     }
 
-    /// Every n-th of these frames, from the first one on.
+    /// Thins the selection to every n-th frame, counted from its smallest frame.
     #[must_use]
     pub fn every(self, every: usize) -> Selection {
         Selection { every: every.max(1), ..self }
     }
 
-    /// Whether the frame is selected.
+    /// True if the frame is selected.
     pub fn contains(&self, frame: usize) -> bool {
         let first = || self.ranges.iter().map(|range| *range.start()).min().unwrap_or(0);
         self.ranges.iter().any(|range| range.contains(&frame))
             && (self.every == 1 || (frame - first()).is_multiple_of(self.every))
     }
 
-    /// The last selected frame.
+    /// The end of the last range. `None` for an empty selection.
     pub fn last(&self) -> Option<usize> {
         self.ranges.iter().map(|range| *range.end()).max()
     }
@@ -43,7 +43,7 @@ impl Selection {
 }
 
 impl FromIterator<usize> for Selection {
-    /// The frames with these numbers; consecutive ones form one range.
+    /// Selects the frames with these numbers. Consecutive numbers become one range.
     fn from_iter<I: IntoIterator<Item = usize>>(numbers: I) -> Selection {
         let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
         for number in numbers {

@@ -1,23 +1,23 @@
-//! A run while it is computed.
+//! Runs the simulation of a scene.
 
 use super::build::dynamics;
 use super::{ImpactCounts, Moments, SimulateError};
 use crate::dynamics::{Breakdown, Dynamics, Effort, Impact, Snapshot};
 use crate::scene::Scene;
 
-/// A moment of a run, which may be that of a frame.
+/// The state of a run at a frame, or at a requested time between frames.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
-    /// The number of the frame; `None` between two frames.
+    /// The number of the frame. `None` between two frames.
     pub(super) frame: Option<usize>,
     pub(super) snapshot: Snapshot,
-    /// The impacts since the last moment.
+    /// The impacts since the previous entry.
     pub(super) impacts: Vec<Impact>,
-    /// The numbers of impacts so far.
+    /// The numbers of impacts from the start of the run.
     pub(super) counts: ImpactCounts,
 }
 
-/// A run of a scene from its initial state on.
+/// A simulation of a scene from its initial state.
 pub(super) struct Simulation<'a> {
     scene: &'a Scene,
     dynamics: Box<dyn Dynamics>,
@@ -25,41 +25,42 @@ pub(super) struct Simulation<'a> {
     next: usize,
     intervals: usize,
     counts: ImpactCounts,
-    /// Impacts after the last moment.
+    /// Impacts since the last entry. They belong to the next one.
     waiting: Vec<Impact>,
 }
 
 impl<'a> Simulation<'a> {
-    /// A run that has not begun; `effort` counts the pair interactions.
+    /// Creates a simulation at the start of its run. `effort` counts the evaluated interactions between pairs of bodies.
     pub(super) fn new(scene: &'a Scene, moments: Moments, effort: &Effort) -> Simulation<'a> {
         Simulation::of(scene, moments, dynamics(scene, effort))
     }
 
-    /// A simulation of the caller's own dynamics, at time 0.
+    /// Creates a simulation of the caller's own dynamics, which must be at time 0.
     pub(super) fn of(scene: &'a Scene, moments: Moments, dynamics: Box<dyn Dynamics>) -> Simulation<'a> {
         let intervals = moments.intervals();
         let counts = ImpactCounts::new(scene);
         Simulation { scene, dynamics, moments, next: 0, intervals, counts, waiting: Vec::new() }
     }
 
-    /// Advances to the next frame. After the last frame, advances by one interval if it has requested moments. `see` receives all moments
-    /// up to there. Returns false after the end.
+    /// Advances to the next frame. After the last frame, advances by one more interval if times in it are requested. Calls `see` with each
+    /// moment on the way, including the frame. Returns false after the end of the run.
     pub(super) fn advance(&mut self, see: &mut dyn FnMut(Entry)) -> Result<bool, SimulateError> {
         if self.next > self.intervals {
             return Ok(false);
         }
         let done = self.advance_to_next(see);
-        // After a non-finite state, no later one could be finite.
+        // All states after a non-finite one would be non-finite, too.
         self.next = if done.is_ok() { self.next + 1 } else { usize::MAX };
         done.map(|()| true).map_err(|error| SimulateError::of(self.scene, error))
     }
 
-    /// The number of timesteps so far.
+    /// The number of timesteps since the start of the run.
     pub(super) fn steps(&self) -> u64 {
         self.dynamics.steps()
     }
 
-    /// The present moment as bytes, from which [`resume`](Self::resume) continues; `None` if this is not possible.
+    /// Saves the present state as bytes, from which [`resume`](Self::resume) continues. `None` if the dynamics has no checkpoints, if the
+    /// run is over, or if impacts wait for the next entry.
     pub(super) fn checkpoint(&mut self) -> Option<Vec<u8>> {
         if !self.waiting.is_empty() || self.next > self.intervals {
             return None;
@@ -72,7 +73,7 @@ impl<'a> Simulation<'a> {
         Some(bytes)
     }
 
-    /// Continues from a checkpoint of the same run. Returns false if it is not one.
+    /// Continues from a checkpoint of the same run. Returns false if the checkpoint is invalid.
     pub(super) fn resume(&mut self, checkpoint: &[u8]) -> bool {
         let (count, (numbers, _)) = (self.counts.0.len(), checkpoint.as_chunks::<8>());
         let [next, counted, counts @ ..] = numbers else { return false };
@@ -110,7 +111,7 @@ impl<'a> Simulation<'a> {
         Ok(())
     }
 
-    /// Calls `see` with moments between two frames, each with the impacts up to it.
+    /// Calls `see` with the moments between two frames. Each gets the impacts since the moment before it.
     fn see_between(&mut self, between: Vec<Snapshot>, see: &mut dyn FnMut(Entry)) {
         if between.is_empty() {
             return;
@@ -125,7 +126,7 @@ impl<'a> Simulation<'a> {
         self.waiting.append(&mut impacts);
     }
 
-    /// A moment with the impacts up to it.
+    /// Adds the impacts since the last entry to a new one, and updates the counts.
     fn with_impacts(&mut self, entry: Entry, impacts: Vec<Impact>) -> Entry {
         let mut all = std::mem::take(&mut self.waiting);
         all.extend(impacts);
@@ -134,7 +135,7 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// A moment between frames without the ground, which is a body of the world only.
+/// Converts a snapshot of the world into an entry without impacts. Removes the ground, which is a body of the world but not of the scene.
 fn of_scene(scene: &Scene, mut snapshot: Snapshot) -> Entry {
     while snapshot.bodies.last().is_some_and(|body| body.id >= scene.bodies.len()) {
         snapshot.bodies.pop();

@@ -1,22 +1,22 @@
-//! The frames of a run while it is computed, without recording, drawing or survey.
+//! An iterator over the frames of a run, without recording, trails, particles or survey.
 
 use super::simulation::Simulation;
 use super::{Moments, SimulateError};
 use crate::dynamics::{Effort, Snapshot};
 use crate::scene::Scene;
 
-/// The frames of a run, each made on demand. They equal those of [`Frames`](super::Frames), bit for bit.
+/// An iterator over the states of a run at its frames. The states equal those of [`Frames`](super::Frames), bit for bit.
 pub struct Snapshots<'a> {
     simulation: Simulation<'a>,
 }
 
 impl<'a> Snapshots<'a> {
-    /// The frames of a scene from its initial state.
+    /// Simulates the frames of a scene from its initial state, on demand.
     pub fn new(scene: &'a Scene) -> Snapshots<'a> {
         Snapshots { simulation: Simulation::new(scene, Moments::none(scene), &Effort::default()) }
     }
 
-    /// The number of timesteps so far.
+    /// The number of timesteps since the start of the run.
     pub fn steps(&self) -> u64 {
         self.simulation.steps()
     }

@@ -1,4 +1,4 @@
-//! The space that a run takes, from its start to several moments.
+//! The space that a run takes, from its start to several times.
 
 use glam::{DMat3, DVec3};
 
@@ -8,49 +8,50 @@ use super::vectors::{anchors, axis, root, shown};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
 
-/// A span is stored whenever the space of the run has grown by this factor.
+/// The growth factor of the run's space after which the next span is stored.
 const GROWTH: f64 = 1.2;
 
-/// An axis-aligned box, m.
+/// An axis-aligned box in the world, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// The corner with the smallest coordinates.
+    /// The corner with the smallest coordinates, m.
     pub min: DVec3,
-    /// The corner with the largest coordinates.
+    /// The corner with the largest coordinates, m.
     pub max: DVec3,
 }
 
-/// The space that a run takes from its start to a moment.
+/// The space that a run takes from its start to some time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
-    /// The time of its last frame, s.
+    /// The time of the last included frame, s.
     pub until: f64,
-    /// The box around all bodies.
+    /// The box around all bodies and particles.
     pub bounds: Bounds,
-    /// The box around all bodies that are not fixed, or around all bodies if all are fixed.
+    /// The box around all particles and all bodies that are not fixed. If there are none, the box around all bodies.
     pub moving: Bounds,
-    /// The box around all bodies, their axes, their arrows with a given scale, and the fixed points of springs.
+    /// The box around everything with a known size: bodies, particles, axes, arrows with a given scale, and the fixed ends of springs and
+    /// joints.
     pub seen: Bounds,
-    /// The reach of arrows without a scale, by the indices of their quantities.
+    /// The reach of arrows whose scale is chosen after the run, indexed by [`Quantity::number`].
     pub arrows: [Reach; Quantity::COUNT],
 }
 
-/// An arrow of a joint, or of a load on a body, at a moment.
+/// An arrow of a joint, or of a weight or contact force on a body, at one moment.
 pub(super) struct JointArrow {
     pub(super) quantity: Quantity,
-    /// Its length for one unit, m, if given.
+    /// The drawn length of one unit of the quantity, m. `None` if it is chosen after the run.
     pub(super) scale: Option<f64>,
-    /// Its root, m.
+    /// The point where the arrow begins, m.
     pub(super) root: DVec3,
-    /// The vector that it shows.
+    /// The vector that the arrow shows, in the unit of its quantity.
     pub(super) vector: DVec3,
 }
 
-/// The spans of a run, updated frame by frame.
+/// Collects the spans of a run, frame by frame.
 #[derive(Default)]
 pub(super) struct Spans {
     kept: Vec<Span>,
-    /// The span until now. Its box around moving bodies may be empty.
+    /// The span up to the last frame, and the box around its moving bodies and particles. The box is `None` if nothing moves.
     now: Option<(Span, Option<Bounds>)>,
     paths: Paths,
     has_arrows: bool,
@@ -59,7 +60,8 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    /// Adds a frame at a time (s), with the bodies that still count, and the arrows of joints.
+    /// Adds a frame at a time (s). `bodies` are those that the camera must show, and `joints` the arrows of joints, weights and contact
+    /// forces.
     pub(super) fn see<'a>(
         &mut self,
         scene: &Scene,
@@ -86,13 +88,13 @@ impl Spans {
         self.keep(time);
     }
 
-    /// The span that starts with the first frame.
+    /// Begins the first span with a box, and with the fixed ends of springs and joints.
     fn begin(scene: &Scene, time: f64, here: Bounds) -> (Span, Option<Bounds>) {
         let seen = anchors(scene).map(Bounds::point).fold(here, Bounds::union);
         (Span { until: time, bounds: here, moving: here, seen, arrows: Default::default() }, None)
     }
 
-    /// Stores the span until now if it has grown.
+    /// Updates the time of the present span, and stores a copy if the span has grown enough.
     fn keep(&mut self, time: f64) {
         let Some((span, _)) = &mut self.now else { return };
         span.until = time;
@@ -112,13 +114,13 @@ impl Spans {
         self.keep(time);
     }
 
-    /// The box around all bodies so far; `None` if all bodies are planes.
+    /// The box around all bodies and particles so far. `None` if all bodies are planes and there are no particles.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.now.as_ref().map(|(span, _)| span.bounds)
     }
 
-    /// The whole run without the bodies that fly far away. `None` if there are none, or if arrows are shown, since these may reach
-    /// far themselves.
+    /// Returns the span of the whole run without strays, the bodies that fly far away. `None` if there are no strays, or if the scene
+    /// shows arrows, since arrows may reach far themselves.
     pub(super) fn without_strays(&self, scene: &Scene) -> Option<Span> {
         if self.has_arrows {
             return None;
@@ -130,7 +132,7 @@ impl Spans {
         Some(Span { bounds, moving, seen, ..self.now()? })
     }
 
-    /// All spans, each longer than the one before. The last is the whole run.
+    /// Returns all stored spans by increasing time. The last is the span of the whole run.
     pub(super) fn finish(mut self) -> Vec<Span> {
         let whole = self.now();
         if self.kept.last().map(|last| last.until) == whole.as_ref().map(|whole| whole.until) {
@@ -147,7 +149,7 @@ impl Spans {
 }
 
 impl Span {
-    /// Adds arrows of joints.
+    /// Adds arrows of joints, weights and contact forces.
     fn see_joints(&mut self, arrows: impl Iterator<Item = JointArrow>) {
         for JointArrow { quantity, scale, root, vector } in arrows {
             match scale {
@@ -157,7 +159,8 @@ impl Span {
         }
     }
 
-    /// Adds a body, the things drawn on it, and its arrows. Returns the box around these.
+    /// Adds a body with its drawn axes, arrows and trail. Returns the box around the body, its axes, its trail and its arrows with a given
+    /// scale.
     fn see_showing(&mut self, here: Bounds, body: &Body, frame: &BodySnapshot) -> Bounds {
         let mut seen = here;
         for ((quantity, arrow), reach) in
@@ -185,7 +188,7 @@ impl Span {
 }
 
 impl Bounds {
-    /// The box around a drawn body; `None` for a plane, which is unbounded.
+    /// The box around a body in its drawn size. `None` for a plane, which has no bounds.
     fn of(body: &Body, frame: &BodySnapshot) -> Option<Bounds> {
         let (shape, factor) = (&body.shape, body.look.scale);
         let reach =
@@ -195,23 +198,23 @@ impl Bounds {
         Some(Bounds { min: frame.location - min, max: frame.location + max })
     }
 
-    /// The box that is a single point.
+    /// Creates a box with a single point.
     fn point(point: DVec3) -> Bounds {
         Bounds { min: point, max: point }
     }
 
-    /// The box around two boxes.
+    /// The smallest box that contains both boxes.
     #[must_use]
     pub fn union(self, other: Bounds) -> Bounds {
         Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The length of its diagonal, m.
+    /// The length of the box's diagonal, m.
     pub fn diagonal(self) -> f64 {
         (self.max - self.min).length()
     }
 
-    /// Its middle.
+    /// The center of the box, m.
     pub fn middle(self) -> DVec3 {
         (self.min + self.max) / 2.0
     }

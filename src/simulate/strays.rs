@@ -1,15 +1,15 @@
-//! Bodies that fly far away from most others.
+//! Finds strays: bodies that fly far away from most other bodies.
 
 use super::Bounds;
 
-/// Fewer bodies than this have no strays.
+/// The smallest number of moving bodies for which strays are searched.
 const MANY: usize = 8;
-/// The largest fraction of bodies that may be strays.
+/// The largest fraction of the moving bodies that may be strays.
 const MOST: f64 = 1.0 / 3.0;
-/// Without the strays, the size of the run is at most this fraction.
+/// The run's size without strays, relative to its size with strays, is at most this fraction. Otherwise no body counts as a stray.
 const SMALLER: f64 = 0.5;
 
-/// The space that each body takes during a run.
+/// The space that each body takes during a run, by the index of the body.
 #[derive(Default)]
 pub(super) struct Paths(Vec<Option<Path>>);
 
@@ -21,23 +21,23 @@ pub(super) struct Path {
     start: Bounds,
     /// The box around the body in all frames.
     all: Bounds,
-    /// The same with the things drawn on the body.
+    /// The box around the body and the things drawn with it, in all frames.
     seen: Bounds,
 }
 
-/// The space of a run in which strays count only at their start.
+/// The space of a run without its strays. Of each stray, only its first frame is included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WithoutStrays {
     /// The box around all bodies.
     pub(super) bounds: Bounds,
     /// The box around the bodies that are not fixed.
     pub(super) moving: Bounds,
-    /// The box around all bodies and the things drawn on them.
+    /// The box around all bodies and the things drawn with them.
     pub(super) seen: Bounds,
 }
 
 impl Paths {
-    /// Adds a frame of a body: the box around it, and the box with the things drawn on it.
+    /// Adds a frame of a body: `here` is the box around the body, and `seen` includes the things drawn with it.
     pub(super) fn see(&mut self, body: usize, is_fixed: bool, here: Bounds, seen: Bounds) {
         if self.0.len() <= body {
             self.0.resize(body + 1, None);
@@ -47,7 +47,8 @@ impl Paths {
         path.seen = path.seen.union(seen);
     }
 
-    /// The space without strays. `None` if there are none.
+    /// Finds the smallest number of strays without which the run is much smaller, and returns the space without them. `None` if there are
+    /// no strays.
     pub(super) fn without_strays(&self) -> Option<WithoutStrays> {
         let mut paths: Vec<Path> = self.0.iter().flatten().copied().collect();
         let moving = paths.iter().filter(|path| !path.is_fixed).count();
@@ -55,7 +56,7 @@ impl Paths {
             return None;
         }
         let centre = middle_of_starts(&paths);
-        // Strays are those that get farthest from the place where most bodies start.
+        // Strays are the bodies that get farthest from the median of all starting points.
         let reach = |path: &Path| {
             let farthest = (path.all.max - centre).abs().max((path.all.min - centre).abs());
             if path.is_fixed { 0.0 } else { farthest.length() }
@@ -72,7 +73,7 @@ impl Paths {
 }
 
 impl WithoutStrays {
-    /// The space if the first `strays` bodies are strays.
+    /// Computes the space if the first `strays` paths belong to strays.
     fn new(paths: &[Path], strays: usize) -> Option<WithoutStrays> {
         let start = |path: &Path| Path { all: path.start, seen: path.start, ..*path };
         let (away, others) = paths.split_at(strays);
@@ -86,7 +87,7 @@ impl WithoutStrays {
     }
 }
 
-/// The median of the coordinates at which bodies start.
+/// The median of each coordinate of the bodies' starting points, m.
 fn middle_of_starts(paths: &[Path]) -> glam::DVec3 {
     let median = |axis: usize| {
         let mut starts: Vec<f64> = paths.iter().map(|path| path.start.middle()[axis]).collect();
@@ -106,7 +107,7 @@ mod tests {
         Bounds { min: at - 0.5, max: at + 0.5 }
     }
 
-    /// A row of bodies; the last flies 50 m away.
+    /// A row of bodies, 1 m apart. The last body flies 50 m upward.
     fn row(bodies: usize) -> Paths {
         let mut paths = Paths::default();
         for i in 0..bodies {

@@ -1,6 +1,6 @@
-//! The survey of a whole run, before its frames are drawn.
+//! Collects statistics of a whole run, before its frames are drawn.
 //!
-//! It is made while frames are recorded, or while a recording is read.
+//! The survey is made while frames are recorded, or while a recording is read.
 
 mod corrected;
 mod crossing;
@@ -20,53 +20,55 @@ use super::{Bounds, Frame, Frames, SimulateError, Span, world};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
-/// Figures on a whole run.
+/// Statistics of a whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// The space that the run takes, from the start to several moments; the last is the end. A body counts until it passes through a
-    /// plane. Empty if all bodies are planes.
+    /// The space that the run takes, from its start to several times, of which the last is the end. A body is ignored after it has passed
+    /// through a plane. Empty if all bodies are planes.
     pub spans: Vec<Span>,
-    /// The space of the whole run without the bodies that fly far away; only their starts count. `None` if there are none.
+    /// The space of the whole run without strays, the bodies that fly far away. Of each stray, only its first frame is included. `None` if
+    /// there are no strays.
     pub without_strays: Option<Span>,
-    /// The first passage of a body through each given plane or ground; empty if contacts stop bodies.
+    /// The first passage of a body through each plane, including a ground with a given height. Empty in scenes with contacts.
     pub crossings: Vec<Crossing>,
-    /// The first two bodies that move into each other; `None` if contacts stop bodies.
+    /// The first two bodies that move into each other. `None` if there are none, or if the scene has contacts.
     pub overlap: Option<Overlap>,
-    /// The first body whose start differs from the scene, because of joints.
+    /// The first body whose initial velocity was changed by joints. `None` if the joints changed nothing.
     pub corrected: Option<Corrected>,
-    /// The largest sizes of the things shown beside the bodies.
+    /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders.
     pub asked: Asked,
     /// The largest energy error, relative to the largest kinetic energy of the whole run. (The drift of a single
-    /// [`Balance`](crate::dynamics::Balance) is relative to the largest so far, which is small at the start of a run from rest.)
+    /// [`Balance`](crate::dynamics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from
+    /// rest.)
     pub drift: f64,
-    /// The same error relative to the converted energy: the largest kinetic energy, or the energy taken by contacts, if that is more.
-    /// Bodies that only settle hardly move, while a first-order method has an error of ½ Δt F·v.
+    /// The largest energy error, relative to the converted energy: the largest kinetic energy, or the energy removed by contacts if that
+    /// is larger. When bodies only settle, little energy is kinetic, although a first-order method has an error of ½ Δt F·v.
     pub drift_of_turnover: f64,
-    /// Totals of the contacts up to the last frame. `None` without contacts.
+    /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,
-    /// The real timestep, s.
+    /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
     pub steps_per_frame: u32,
 }
 
-/// Totals of the contacts in a run.
+/// Statistics of the contacts in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactTotals {
     /// The number of impacts.
     pub impacts: f64,
-    /// The energy that they have taken, J.
+    /// The energy removed by impacts, J.
     pub lost: f64,
-    /// The energy that friction has taken between impacts, J.
+    /// The energy removed by friction between impacts, J.
     pub rubbed: f64,
-    /// The greatest penetration of bodies in any frame, m.
+    /// The largest penetration between two bodies in any frame, m.
     pub penetration: f64,
-    /// The largest error of a joint in any frame, m.
+    /// The largest gap of a joint in any frame, m.
     pub joints: f64,
 }
 
 impl ContactTotals {
-    /// The same totals; amounts within the rounding error of the largest kinetic energy (J) become 0.
+    /// Replaces energies by 0 if they are within the rounding error of the largest kinetic energy, J.
     fn rounded(self, largest_kinetic: f64) -> ContactTotals {
         const ROUNDING: f64 = 1e-11;
         let round = |taken: f64| if taken.abs() <= ROUNDING * largest_kinetic { 0.0 } else { taken };
@@ -74,7 +76,7 @@ impl ContactTotals {
     }
 }
 
-/// Simulates a scene to find the space that it takes; `seen` receives every frame.
+/// Simulates a scene and returns its survey. Calls `seen` with every frame.
 ///
 /// # Errors
 /// If the run becomes non-finite.
@@ -88,43 +90,43 @@ pub fn survey(scene: &Scene, mut seen: impl FnMut(&Frame)) -> Result<Survey, Sim
     Ok(surveyor.finish())
 }
 
-/// The number of particles of an emitter that are followed, to estimate the space of all.
+/// The number of particles of each emitter that the survey follows, to estimate the space of all particles.
 const SOME_PARTICLES: f64 = 500.0;
 
-/// Surveys a run whose frames come from elsewhere.
+/// Makes the survey of a run from its frames.
 pub struct Surveyor<'a> {
     scene: &'a Scene,
     spans: Spans,
-    /// The watched planes. Each knows the bodies that may pass through it, from their first frame on.
+    /// The planes that are watched for bodies passing through them. Each has a list of bodies that were not in contact with it at first.
     planes: Vec<Watched>,
-    /// The bodies that forces move, listed once for all planes.
+    /// The indices of the bodies that forces move, shared by all planes.
     free: Vec<usize>,
-    /// The bodies that forces move and that have not been present yet.
+    /// The indices of the bodies that forces move and that have not yet been present.
     awaited: Vec<usize>,
     /// For each body, whether it has passed through a plane.
     crossed: Vec<bool>,
     overlaps: Watch<'a>,
-    /// Some of the particles, to estimate their space.
+    /// A selection of the particles, to estimate the space of all.
     clouds: Clouds,
     corrected: Option<Corrected>,
     asked: Asked,
-    /// The arrows of joints: their ends, quantities and scales.
+    /// The requested arrows of joints: the end where each begins, its quantity, and its scale if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
-    /// The largest energy error, J.
+    /// The energy error with the largest absolute value, J.
     error: f64,
     largest_kinetic: f64,
 }
 
 impl Survey {
-    /// The box around the whole run; `None` if all bodies are planes.
+    /// The box around everything in the whole run. `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.last().map(|span| span.bounds)
     }
 }
 
 impl<'a> Surveyor<'a> {
-    /// A surveyor of a run that has not begun.
+    /// Creates a surveyor at the start of a run.
     pub fn new(scene: &'a Scene) -> Surveyor<'a> {
         Surveyor {
             scene,
@@ -161,7 +163,7 @@ impl<'a> Surveyor<'a> {
         }
         let loads = super::loads(scene, frame);
         self.asked.see(scene, frame, &loads);
-        // A body that has passed through a plane is behind the scenery, so the camera need not follow it.
+        // The camera need not show a body behind a plane that it has passed through.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
         let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
             let (root, vector) = end.arrow(*quantity, frame)?;
@@ -180,7 +182,7 @@ impl<'a> Surveyor<'a> {
         }
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
-            // Both remove energy; the subtraction avoids a negative zero.
+            // The accounts are negative, since contacts remove energy. `0.0 - account` avoids a negative zero.
             let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
             let penetration = contacts.penetration.max(frame.penetration);
             let gap = |joint: &Joint| joint.kind.gap(|id| frame.body(id.index()).copied());
@@ -194,7 +196,7 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// The survey after the last frame.
+    /// Returns the survey after the last frame.
     pub fn finish(self) -> Survey {
         let Surveyor {
             scene,
@@ -210,7 +212,7 @@ impl<'a> Surveyor<'a> {
             ..
         } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
-        // Particles need steps even if no body does.
+        // A scene without bodies still has particle steps.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
         let turnover = largest_kinetic.max(taken);
@@ -229,13 +231,13 @@ impl<'a> Surveyor<'a> {
         }
     }
 
-    /// The box around everything so far.
+    /// The box around all bodies and particles so far. `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.bounds()
     }
 }
 
-/// The requested arrows of joints in a scene.
+/// Lists the requested arrows of joints: the end where each begins, its quantity, and its scale if given.
 fn joint_arrows(scene: &Scene) -> Vec<(JointEnd, Quantity, Option<f64>)> {
     let joints = scene.joints.iter().enumerate();
     let of_joint = |(number, joint): (usize, &Joint)| {

@@ -1,4 +1,4 @@
-//! Properties of a whole run.
+//! Tests of whole runs.
 
 use super::*;
 
@@ -27,7 +27,7 @@ fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
     }
 }
 
-/// A brick, whole and as two halves with a rotated common frame, tumbles the same way.
+/// A brick as a single box, and as two halves in rotated body axes, must tumble in the same way.
 #[test]
 fn a_compound_tumbles_as_the_solid_that_it_makes_up() {
     let tumble = |shape: &str, orientation: &str| {
@@ -124,7 +124,7 @@ mod between_frames {
         })
     }
 
-    /// Positions, velocities, energies, momenta, drift; ghosts and trails.
+    /// Compares positions, velocities, energies, momenta, drift, ghosts and trails.
     #[test]
     fn a_recording_gives_the_frames_of_the_run_bit_for_bit_and_nobody_changes_it_by_looking() {
         for scene in scenes() {
@@ -169,7 +169,7 @@ mod between_frames {
                 assert!(times.iter().zip([0.0035, 0.0105, 0.0175, 0.0245, 0.0315]).all(near), "{times:?}");
                 assert!(moments.iter().all(|moment| moment.index == exposure.frame.index));
             }
-            // The moment of a frame equals the moment at its time.
+            // A frame among others equals the frame computed alone.
             let alone = recorded.at(exposures[4].frame.time).unwrap();
             assert_eq!(alone.frame, exposures[4].frame);
             let of = |exposure: &Exposure| exposure.moments(shutter).map(Result::unwrap).collect::<Vec<_>>();
@@ -177,7 +177,7 @@ mod between_frames {
         }
     }
 
-    /// A body with uniform rotation has the exact orientation, up to rounding, with every method.
+    /// A uniformly rotating body has the exact orientation up to rounding, with every method.
     #[test]
     fn moments_are_states_of_the_motion_and_not_something_between() {
         for method in METHODS.iter().filter(|method| method.name != "explicit-euler") {
@@ -201,7 +201,7 @@ mod between_frames {
                 let Frame { time, bodies, .. } = moment.unwrap();
                 assert!((bodies[0].location.x - 3.0 * time).abs() < 1e-12);
                 let expected = glam::DQuat::from_rotation_z(40.0 * time);
-                // Runge–Kutta steps of 0.04 rad have an error of 0.04⁵ / 120 each.
+                // A Runge–Kutta step of 0.04 rad has an error of 0.04⁵ / 120.
                 assert!((bodies[0].orientation.dot(expected).abs() - 1.0).abs() < 1e-9, "at {time}");
             }
         }
@@ -222,7 +222,7 @@ mod between_frames {
             assert_eq!((between.index, between.time), (5, 0.21));
             let height = |frame: &Frame| frame.bodies[0].location.y;
             assert!(height(&frames[5]) > height(&between) && height(&between) > height(&frames[6]));
-            // Times before the beginning or after the end.
+            // A time before the start gives the first frame; a time after the end gives the last.
             for (time, index) in [(-1.0, 0), (f64::NAN, 0), (7.0, 10)] {
                 assert_eq!(&recorded.at(time).unwrap().frame, &frames[index]);
             }

@@ -1,4 +1,4 @@
-//! The vectors of bodies shown by arrows, and the roots of these arrows.
+//! The vectors that arrows show, and the points where the arrows begin.
 
 use glam::{DQuat, DVec3};
 
@@ -6,25 +6,25 @@ use super::Frame;
 use crate::dynamics::{Anchor, BodySnapshot, Pulley, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
-/// The vector that an arrow of a body shows, in SI units.
+/// Returns the vector of a body's velocity, acceleration or force, in world axes and SI units.
 pub fn shown(quantity: Quantity, body: &Body, frame: &BodySnapshot) -> DVec3 {
     match quantity {
         Quantity::Velocity => frame.velocity,
         Quantity::Acceleration if body.start.fixed => DVec3::ZERO,
         Quantity::Acceleration => frame.force / body.start.mass,
         Quantity::Force => frame.force,
-        // Only joints show a torque; loads have arrows of their own.
+        // Only joints have torque arrows, and the arrows of weights and contact forces are computed elsewhere.
         Quantity::Torque | Quantity::Weight | Quantity::Normal | Quantity::Friction => DVec3::ZERO,
     }
 }
 
-/// The distance from the centre of a shape to its surface in a direction (a unit vector in world axes), m. With several surfaces, the
-/// last counts. 0 for a plane, and for a direction without material.
+/// The distance from the center of a shape to its surface in a direction, m. The direction is a unit vector in world axes. If a ray in
+/// this direction crosses several surfaces, the last one counts. 0 for a plane, and if the ray meets no surface.
 pub fn surface(shape: &Shape, orientation: DQuat, direction: DVec3) -> f64 {
     shape.exit(DVec3::ZERO, orientation.conjugate() * direction).unwrap_or(0.0)
 }
 
-/// The root of a vector's arrow, m: at the surface of the body, so that the whole arrow is visible.
+/// The point where a vector's arrow begins, m: on the surface of the body, so that no part of the arrow is hidden inside.
 pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     let along = vector.normalize_or_zero();
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
@@ -35,14 +35,14 @@ pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
 pub struct JointEnd {
     /// The index of the joint.
     joint: usize,
-    /// The second end, as it is drawn.
+    /// The second end of the joint: a fixed point, or a point on a body in its drawn scale.
     end: Anchor,
-    /// The shape of the body, if the end is at its centre.
+    /// The drawn shape of the body, if the end is at the body's center.
     shape: Option<Shape>,
 }
 
 impl JointEnd {
-    /// The end of a joint of a scene.
+    /// Finds the end at which the arrows of a joint begin, by the index of the joint in the scene.
     pub fn new(scene: &Scene, joint: usize) -> JointEnd {
         let (end, shape) = match scene.joints[joint].kind.between()[1] {
             end @ Anchor::Point(_) => (end, None),
@@ -55,8 +55,8 @@ impl JointEnd {
         JointEnd { joint, end, shape }
     }
 
-    /// The vector of an arrow, in SI units, and its root, m: on the surface of the body if the end is its centre. `None` while the body
-    /// is absent.
+    /// Returns the point where the arrow begins (m) and the vector of a quantity in SI units. If the end is the center of a body, the
+    /// arrow begins at the body's surface. `None` while the body is absent.
     pub fn arrow(&self, quantity: Quantity, frame: &Frame) -> Option<(DVec3, DVec3)> {
         let reaction = frame.reactions.get(self.joint)?;
         let vector = match quantity {
@@ -74,7 +74,7 @@ impl JointEnd {
     }
 }
 
-/// The drawn length of a body's axis, m, if it is drawn.
+/// The drawn length of each coordinate axis of a body, m. `None` if the scene does not show its axes.
 pub fn axis(body: &Body) -> Option<f64> {
     let axes = body.showing.axes?;
     let reach = |direction| body.drawn().support(DQuat::IDENTITY, direction);
@@ -82,7 +82,7 @@ pub fn axis(body: &Body) -> Option<f64> {
     Some(axes.length.unwrap_or(2.0 * reach))
 }
 
-/// The fixed points of the drawn springs and joints, m.
+/// The fixed ends of all drawn springs and joints, in world axes, m.
 pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(_) } => Some(links),
@@ -117,7 +117,7 @@ mod tests {
             (can.clone(), DQuat::IDENTITY, slanted, 0.5 / 0.6),
             (can, turned, slanted, 0.5 / 0.8),
             (Shape::Plane { normal: DVec3::Y }, DQuat::IDENTITY, DVec3::Y, 0.0),
-            // A ring has no material on its axis.
+            // A ring has no material along its axis.
             (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::X, 0.0),
             (Shape::Torus { radius: 2.0, tube_radius: 0.5 }, turned, DVec3::Y, 2.5),
         ] {

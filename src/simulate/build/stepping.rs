@@ -1,10 +1,11 @@
-//! Scene → the time-stepping engine.
+//! Builds the time-stepping engine for a scene.
 
 use super::{add_ground, contacts, free_world};
 use crate::dynamics::{Effort, Link, LinkKind, TimeStepping};
 use crate::scene::{Body, Joint, JointKind, Scene};
 
-/// The engine with all bodies and joints of the scene.
+/// Builds a time-stepping engine with all bodies, forces, joints and contacts of a scene. `effort` counts the evaluated interactions
+/// between pairs of bodies.
 pub(super) fn stepping(scene: &Scene, effort: &Effort) -> TimeStepping {
     let mut world = free_world(scene);
     add_ground(&mut world, scene);
@@ -15,7 +16,8 @@ pub(super) fn stepping(scene: &Scene, effort: &Effort) -> TimeStepping {
     stepping
 }
 
-/// A joint in the form of time-stepping. The check refuses all others.
+/// Converts a joint into a link of the time-stepping engine. `None` for pulleys and gears, which the scene's check refuses with this
+/// engine.
 fn link(joint: &Joint) -> Option<Link> {
     let kind = match &joint.kind {
         JointKind::Ball(ball) => LinkKind::Ball(*ball),
@@ -29,7 +31,7 @@ fn link(joint: &Joint) -> Option<Link> {
     Some(Link { kind, collides: joint.collides })
 }
 
-/// Whether contacts are drawn. Piles have tens of thousands.
+/// True if the scene shows contact forces. Otherwise contacts are not reported: a pile has tens of thousands.
 fn shows_contacts(scene: &Scene) -> bool {
     let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
     scene.bodies.iter().any(shows)

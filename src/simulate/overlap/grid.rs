@@ -1,8 +1,8 @@
-//! A grid of cells, to find near bodies.
+//! A uniform grid of cells, to find bodies that are near each other.
 
 use glam::DVec3;
 
-/// A cell of a grid.
+/// A cubic cell of a uniform grid, given by three integer coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Cell([i64; 3]);
 
@@ -12,16 +12,17 @@ impl Cell {
         reason = "what is too far away to be counted shares the last cell"
     )]
     pub(super) fn of(edge: f64, location: DVec3) -> Cell {
-        // Below the largest number, so that neighbours have valid indices.
+        // The limits leave room for the coordinates of neighboring cells.
         Cell(location.to_array().map(|coordinate| libm::floor(coordinate / edge).clamp(-9e15, 9e15) as i64))
     }
 
-    /// The cell and the 26 around it.
+    /// Returns the cell itself and its 26 neighbors.
     pub(super) fn around(self) -> impl Iterator<Item = Cell> {
         (0..27).map(move |n| self.moved(n))
     }
 
-    /// Half of the 26 cells around it: each pair of neighbours is visited from one side only.
+    /// Returns 13 of the 26 neighbors of the cell, one of each opposite pair. If every cell searches only these, each pair of cells is
+    /// visited once.
     pub(super) fn half_around(self) -> impl Iterator<Item = Cell> {
         (14..27).map(move |n| self.moved(n))
     }
@@ -31,9 +32,11 @@ impl Cell {
         Cell([x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1])
     }
 
-    /// A hash of the cell. Rarely, two cells have the same.
+    /// Hashes the cell together with the size class of the bodies and whether forces move them. Different inputs rarely have the same
+    /// hash.
     pub(super) fn key(self, size: usize, moves: bool) -> u64 {
-        // Odd numbers with random-looking bits: the golden ratio, and the square roots of 2, 3 and 5, in units of 2⁻⁶⁴.
+        // Odd numbers with random-looking bits: the golden ratio and the square roots of 2, 3 and 5, each times 2⁶⁴, without the integer
+        // part.
         const FACTORS: [u64; 4] =
             [0x9E37_79B9_7F4A_7C15, 0x6A09_E667_F3BC_C909, 0xBB67_AE85_84CA_A73B, 0x3C6E_F372_FE94_F82B];
         let kind = 2 * size as u64 + u64::from(moves);
@@ -44,19 +47,19 @@ impl Cell {
     }
 }
 
-/// The bodies of each cell.
+/// A hash table from cells to the bodies in them.
 #[derive(Default)]
 pub(super) struct Grid {
-    /// The last body in each slot. A cell has one slot; several cells may share it.
+    /// The last body in each slot of the hash table. A cell has one slot; several cells may share a slot.
     last: Vec<u32>,
-    /// For each body, the previous one in the same slot.
+    /// For each body, the previous body in the same slot.
     before: Vec<u32>,
 }
 
 impl Grid {
     const NONE: u32 = u32::MAX;
 
-    /// Replaces the contents: adds each body that has a key to the slot of its cell.
+    /// Refills the table: each body with a key goes to the slot of its cell.
     #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
     pub(super) fn fill(&mut self, keys: impl ExactSizeIterator<Item = Option<u64>>) {
         let bodies = keys.len();
@@ -70,7 +73,7 @@ impl Grid {
         }
     }
 
-    /// Calls `show` for the bodies of a cell, and those of other cells in the same slot.
+    /// Calls `show` for the bodies in a cell, and for the bodies of other cells that share its slot.
     pub(super) fn each(&self, key: u64, mut show: impl FnMut(usize)) {
         let mut next = self.last[self.place(key)];
         while next != Grid::NONE {
@@ -79,7 +82,7 @@ impl Grid {
         }
     }
 
-    /// The first bits of a key. The high bits of a product depend on all bits of its factors.
+    /// The slot of a key, from its high half. The high bits of a product depend on all bits of its factors.
     #[allow(clippy::cast_possible_truncation, reason = "the remainder is less than the number of places")]
     fn place(&self, key: u64) -> usize {
         (key >> 32) as usize & (self.last.len() - 1)

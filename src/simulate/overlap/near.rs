@@ -1,4 +1,4 @@
-//! The pairs of near bodies: those whose bounding balls meet.
+//! Finds the pairs of near bodies: those with overlapping bounding spheres.
 
 use std::collections::BTreeMap;
 
@@ -7,41 +7,41 @@ use super::grid::{Cell, Grid};
 use super::{DEEP, parts};
 use crate::scene::Scene;
 
-/// A watched body.
+/// A body that is watched for overlaps.
 pub(super) struct Watched {
-    /// Its index in the scene.
+    /// The index of the body in the scene.
     pub(super) id: usize,
-    /// The radius of its bounding ball, m.
+    /// The radius of the bounding sphere of the body, m.
     pub(super) radius: f64,
-    /// The index of its size.
+    /// The index of the size class of the body.
     size: usize,
-    /// Whether forces move it.
+    /// True if forces move the body.
     pub(super) moves: bool,
 }
 
-/// Bodies of about the same size, which share a grid.
+/// A size class: bodies of about the same size, which share a grid.
 #[derive(Clone, Copy)]
 struct Size {
-    /// The radii of the bodies are at most 2 to the power of this, and at least half of that, m.
+    /// The binary logarithm of the upper bound of the radii (m) in the class. All radii are larger than half of this bound.
     level: i32,
-    /// The edge of the cells, m: the largest distance at which two of the bodies may meet.
+    /// The edge length of the grid's cells, m: the largest center distance at which two bodies of the class may overlap.
     edge: f64,
-    /// Whether forces move any of the bodies.
+    /// True if forces move some of the bodies in the class.
     has_moving: bool,
-    /// Whether any of the bodies is not moved by forces.
+    /// True if some bodies in the class are not moved by forces.
     has_resting: bool,
 }
 
-/// The watched bodies, by size and by cells of space.
+/// The watched bodies by size class and grid cell.
 pub(super) struct Near {
     pub(super) bodies: Vec<Watched>,
-    /// The existing sizes, the smallest first.
+    /// The size classes of the scene, the smallest first.
     sizes: Vec<Size>,
     grid: Grid,
 }
 
 impl Near {
-    /// The bodies of a scene that can be compared.
+    /// Collects the bodies of a scene that have convex parts, and their size classes.
     pub(super) fn new(scene: &Scene) -> Near {
         let mut levels = BTreeMap::new();
         let mut bodies: Vec<(Watched, i32)> = Vec::new();
@@ -70,20 +70,20 @@ impl Near {
         Near { bodies, sizes, grid: Grid::default() }
     }
 
-    /// Whether forces move any of the bodies.
+    /// True if forces move any of the bodies.
     pub(super) fn has_moving(&self) -> bool {
         self.sizes.iter().any(|size| size.has_moving)
     }
 
-    /// Sorts the bodies of a frame into cells.
+    /// Sorts the bodies of a frame into grid cells.
     pub(super) fn fill(&mut self, frame: &Frame) {
         let mut grid = std::mem::take(&mut self.grid);
         grid.fill(self.bodies.iter().map(|body| self.key(frame, body)));
         self.grid = grid;
     }
 
-    /// Calls `show` for every pair whose balls may meet and one of which moves, with the smaller index first; a few pairs come twice.
-    /// `show` returns its cost. The sum of costs is returned; the search ends when it exceeds `most`.
+    /// Calls `show` for every pair of bodies with overlapping bounding spheres, the smaller index first. Skips pairs that no force moves;
+    /// a few pairs are shown twice. `show` returns its cost. The result is the total cost; the search ends when the total exceeds `most`.
     pub(super) fn each_pair(
         &self,
         frame: &Frame,
@@ -101,19 +101,20 @@ impl Near {
                 let reach = (body.radius + other.radius) * (1.0 + DEEP);
                 let Some(there) = frame.body(other.id) else { return };
                 let square = (there.location - here).length_squared();
-                // A slot may hold unrelated bodies by chance, and also this one.
+                // A slot may contain bodies of unrelated cells, and the searching body itself.
                 let is_pair = j != i && (body.moves || other.moves);
                 let is_near = is_pair && square < reach * reach;
                 cost = cost.saturating_add(if is_near { show(i.min(j), i.max(j)) } else { 1 });
             };
-            // Smaller bodies search for larger ones, so that a large one need not search many cells. Resting bodies search for moving
-            // ones.
+            // Smaller bodies search for larger ones, so that no large body searches many small cells. Bodies that no force moves search
+            // only for moving bodies.
             for (number, size) in self.sizes.iter().enumerate().skip(body.size) {
                 let is_own = number == body.size;
                 let here = Cell::of(size.edge, here);
                 let moving = |cell: Cell| cell.key(number, true);
                 if size.has_moving && is_own && body.moves {
-                    // Each pair once: later bodies of the same cell, and those of half of the cells around it.
+                    // To visit each pair once, search for later bodies in the same cell, and for all bodies in half of the neighboring
+                    // cells.
                     self.grid.each(moving(here), |j| {
                         if j > i {
                             look(j);
@@ -131,7 +132,7 @@ impl Near {
         cost
     }
 
-    /// The key of the cell of a body, if the body is present.
+    /// The hash key of the cell that contains a body. `None` if the body is absent.
     fn key(&self, frame: &Frame, body: &Watched) -> Option<u64> {
         let cell = Cell::of(self.sizes[body.size].edge, frame.body(body.id)?.location);
         Some(cell.key(body.size, body.moves))

@@ -1,4 +1,4 @@
-//! Overlapping bodies are found, and the work is proportional to their number.
+//! Tests of the overlap detection: its results, and its cost.
 
 use std::collections::HashSet;
 
@@ -30,15 +30,15 @@ fn balls_that_run_into_each_other_are_found_with_their_time() {
         shape.box.size = [1, 1, 1]
         location = [0, 1.5, 0]
         ";
-    // They touch at t = 1 s, and overlap by more than 0.01 m in the next frame.
+    // The two balls touch at t = 1 s, and overlap by more than 0.01 m in the next frame.
     assert_eq!(overlap(text), found("left", "right", 1.1));
-    // An overlap of a hundredth of their size does not count, and neither does contact from the start.
+    // An overlap of a hundredth of the size is ignored, and so is a contact that exists from the start.
     assert_eq!(overlap(&text.replace("duration = 2", "duration = 1")), None);
     assert_eq!(overlap(&text.replace("[3, 0, 0]", "[1, 0, 0]")), None);
     assert_eq!(overlap(&text.replace("[3, 0, 0]", "[0.2, 0, 0]")), None);
 }
 
-/// The upper half of a folding rule swings against the lower one; without the hinge, they are separate bodies.
+/// The upper half of a folding rule swings into the lower half, which the hinge allows. Without the hinge, the same motion is an overlap.
 #[test]
 fn bodies_that_a_joint_holds_may_be_within_each_other() {
     let text = "
@@ -75,7 +75,7 @@ fn boxes_and_parts_of_compounds_are_found_where_their_surfaces_are() {
     assert_eq!(overlap(&text("box.size = [2, 0.1, 0.1]")), found("wall", "thing", 2.0));
     let dumbbell = "compound.parts = [{ sphere.radius = 0.5, location = [-2, 0, 0] }, { sphere.radius = 0.5, location = [2, 0, 0] }]";
     assert_eq!(overlap(&text(dumbbell)), found("wall", "thing", 0.5));
-    // A ring is not convex: its middle is empty, so it is not watched.
+    // A ring is not convex: a body can pass through its middle, so it is not watched.
     assert_eq!(overlap(&text("torus = { radius = 1, tube_radius = 0.1 }")), None);
 }
 
@@ -95,12 +95,12 @@ fn what_is_given_to_overlap_may_do_so() {
     assert_eq!(overlap(text), None);
 }
 
-/// The first frame of a scene.
+/// Returns the first frame of a scene.
 fn first_frame(scene: &Scene) -> Frame {
     Frames::new(scene).next().unwrap().unwrap()
 }
 
-/// The grid finds the same pairs as a test of every pair, for all sizes, and for resting and moving bodies.
+/// The grid finds the same near pairs as a comparison of all pairs, for bodies of all sizes, resting or moving.
 #[test]
 fn near_pairs_are_those_of_all_pairs() {
     for resting in [1, 3, 400] {
@@ -152,7 +152,7 @@ fn the_work_grows_with_the_number_of_bodies_and_not_with_that_of_pairs() {
     assert!(many < 5 * few, "{few} for 500 bodies, {many} for 2000");
 }
 
-/// A thousand bodies at one position are half a million pairs, all of which overlap as expected.
+/// A thousand bodies at one position form half a million pairs, all of which overlap from the start. The watch must end early.
 #[test]
 fn where_all_is_near_all_nothing_is_watched() {
     let scene = Scene::parse(

@@ -1,4 +1,4 @@
-//! The corners of a trail at impacts between two frames.
+//! Computes the corners of a trail at impacts between two frames.
 
 use glam::DVec3;
 
@@ -6,18 +6,18 @@ use super::way::Passed;
 use crate::dynamics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
-/// The largest number of impacts between two points of a trail. More would be too close to distinguish.
+/// The largest number of impacts between two points of a trail. More corners would be too close together to be seen.
 pub(super) const MOST: usize = 4;
 
-/// A body at a moment.
+/// The time (s) and the state of a body at that time.
 pub(super) type At = (f64, BodySnapshot);
 
-/// The points of a trail at the impacts between two moments, two for each impact: the velocity jumps from the first to the second.
-/// `impulse` returns the impulse of an impact on the body, N s.
+/// Computes the points of a trail at the impacts between two moments. Each impact gives two points at one place, with the velocities
+/// before and after the impact. `impulse` returns the impulse of an impact on the body, N s. Returns no points if there are more than
+/// [`MOST`] impacts.
 ///
-/// An impact has a time, but not the position of the body's centre. The flights before the first and after the last impact follow from
-/// the two moments; those between follow from the impulses. All use the forces of the two moments, so they are exact under a constant
-/// force.
+/// An impact has a time, but no position of the body's center. The path is therefore computed forward from the first moment and backward
+/// from the second, with a constant acceleration and the velocity jumps of the impacts. The result is exact under a constant force.
 pub(super) fn between(
     (before, after): (&At, &At),
     impacts: &[Impact],
@@ -45,7 +45,7 @@ pub(super) fn between(
     let pairs = forth.into_iter().zip(back.into_iter().rev());
     pairs
         .flat_map(|(forth, back)| {
-            // Each flight is most accurate near its starting moment.
+            // Each of the two paths is most accurate near the moment it starts from, so interpolate between them.
             let part = (forth.time - before.0) / (after.0 - before.0);
             let location = forth.location.lerp(back.location, part);
             let point = |velocity| Passed { time: forth.time, location, velocity, frame: None };
@@ -54,7 +54,7 @@ pub(super) fn between(
         .collect()
 }
 
-/// The motion of a point of a body under a constant force, forwards or backwards in time.
+/// The motion of a point of a body under a constant acceleration, forward or backward in time.
 #[derive(Clone, Copy)]
 struct Flight {
     time: f64,
@@ -71,7 +71,7 @@ impl Flight {
         Flight { time: *time, location, velocity, acceleration: body.force / mass + towards_axis }
     }
 
-    /// Advances to an impact and past it. Returns the flight at the impact, before the velocity jumps.
+    /// Advances to an impact, and applies its velocity jump with the sign of `sense`. Returns the state at the impact before the jump.
     fn pass(&mut self, (time, jump): (f64, DVec3), sense: f64) -> Flight {
         let span = time - self.time;
         self.location += self.velocity * span + 0.5 * self.acceleration * (span * span);

@@ -1,4 +1,4 @@
-//! Tests of the remembered past.
+//! Tests of trails and ghosts.
 
 use glam::DVec3;
 
@@ -49,7 +49,7 @@ fn the_past_is_the_same_for_any_way_to_a_moment() {
     for frame in &frames {
         assert_eq!(Frames::at(&scene, frame.time).unwrap(), *frame);
     }
-    // 0.26 s is between two frames.
+    // The ghost at 0.26 s lies between two frames.
     let later = Frames::at(&scene, 0.27).unwrap();
     assert_eq!(later.past.ghosts[..], frames[7].past.ghosts[..]);
     assert_eq!(later.past.ghosts.len(), 3);
@@ -69,7 +69,7 @@ fn a_trail_begins_so_many_seconds_ago_on_the_exact_way() {
     }
 }
 
-/// A point on the rim of a rolling wheel follows a cycloid, and stops where it touches the ground.
+/// A point on the rim of a rolling wheel follows a cycloid: its velocity is 0 whenever it touches the ground.
 #[test]
 fn a_trail_of_a_point_turns_with_its_body() {
     let text = "simulation = { duration = 4, integrator = 'rk4' }\n[body.wheel]\nshape.sphere.radius = 0.5
@@ -80,7 +80,7 @@ fn a_trail_of_a_point_turns_with_its_body() {
     for point in points {
         let (sin, cos) = libm::sincos(2.0 * point.time);
         let place = DVec3::new(point.time - 0.5 * sin, -0.5 * cos, 0.0);
-        // rk4 rotates by 2 rad/s with steps of 1/250 s; its error is (h ω)⁵/120 per step, times 1,000.
+        // In each step of 1/250 s, rk4 rotates by 2 rad/s · h with an error of (h ω)⁵/120. There are 1,000 steps.
         assert!(point.location.abs_diff_eq(place, 3e-10), "{point:?}");
         assert!(point.velocity.abs_diff_eq(DVec3::new(1.0 - cos, sin, 0.0), 1e-9), "{point:?}");
     }
@@ -100,15 +100,15 @@ fn a_long_trail_has_bounded_points() {
     assert!((MOST_POINTS / 2..=MOST_POINTS + 1).contains(&most), "{most}");
 }
 
-/// A ball falls from 1.25 m and bounces. Its trail has a corner at each touch of the floor, for any frame rate, and follows free fall
-/// between them.
+/// A ball falls from 1.25 m and bounces. Its trail has a corner at each impact with the floor, for any frame rate, and follows free fall
+/// between impacts.
 #[test]
 fn a_trail_has_its_corners_at_the_impacts() {
     let text = "simulation = { duration = 4, frame_rate = 7, gravity = [0, -10, 0], integrator = 'velocity-verlet', contacts = 'event-driven' }
         [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 1.35, 0]\nvelocity = [1, 0, 0]\nrestitution = 0.8
         friction = 0\ntrail = true\nghosts.every = 0.03";
     let scene = Scene::parse(text).unwrap();
-    // It hits the floor at 0.5 s, and then after flights of 0.8, 0.64, 0.512 s.
+    // The ball hits the floor at 0.5 s, and again after flights of 0.8, 0.64 and 0.512 s.
     let times = [0.5, 1.3, 1.94, 2.452];
     for time in [2.6, 3.0, 3.01] {
         let frame = Frames::at(&scene, time).unwrap();
@@ -134,7 +134,7 @@ fn a_trail_has_its_corners_at_the_impacts() {
     }
 }
 
-/// A ball that comes to rest bounces infinitely often, and its trail has a bounded number of corners.
+/// A ball that comes to rest bounces infinitely often, but its trail has a bounded number of corners.
 #[test]
 fn where_impacts_are_many_a_trail_has_no_corners() {
     let text = "simulation = { duration = 6, gravity = [0, -10, 0], contacts = 'event-driven' }

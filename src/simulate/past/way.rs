@@ -6,40 +6,41 @@ use super::corners;
 use crate::dynamics::BodySnapshot;
 use crate::scene::Trail;
 
-/// The largest number of points of a trail. With more frames, only every second, fourth, … is kept.
+/// The largest number of points of a trail. In longer runs, only every second, fourth, … frame adds a point.
 pub(super) const MOST_POINTS: usize = 512;
 
-/// The path of a body, or of a point of it, up to a moment.
+/// The path of a point of a body, up to the present time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
     /// The index of the body.
     pub body: usize,
-    /// Points of the path, the oldest first; the last is the present one.
+    /// The points of the path by increasing time. The last one is the present position, if the body is present.
     pub points: Vec<Passed>,
-    /// The number of frames from one kept point to the next.
+    /// The number of frames between two stored points.
     pub stride: usize,
 }
 
 /// A point of the path of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passed {
-    /// The time, s.
+    /// The time at which the body was there, s.
     pub time: f64,
-    /// The position, m.
+    /// The position in world axes, m.
     pub location: DVec3,
-    /// The velocity, m/s.
+    /// The velocity in world axes, m/s.
     pub velocity: DVec3,
-    /// The number of its frame, if the point is kept for later frames; `None` at an impact.
+    /// The number of the frame, for a point that is stored for later frames. `None` at an impact, and for interpolated and present
+    /// positions.
     pub frame: Option<usize>,
 }
 
 impl Passed {
-    /// The position between this point and a later one, m, on a cubic that matches locations and velocities at both. So the path under a
-    /// constant force is exact, for any distance of the points.
+    /// Interpolates the position (m) between this point and the next at a time (s), by a cubic that matches locations and velocities at
+    /// both points. The result is exact under a constant force.
     pub fn towards(&self, next: &Passed, time: f64) -> DVec3 {
         let span = next.time - self.time;
         if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
-            // A body that reverses in between was hit, or is slow: a straight line is as good as any curve.
+            // A body that reverses between two points is slow or had an impact, so a straight line is as good as any curve.
             let part = if span > 0.0 { (time - self.time) / span } else { 1.0 };
             return self.location.lerp(next.location, part);
         }
@@ -57,7 +58,7 @@ impl Passed {
     }
 }
 
-/// Cuts a path to the part from a time on, which may lie between two of its points.
+/// Removes the part of a path before a time (s). The path then starts at exactly that time, which may lie between two points.
 pub(super) fn cut(points: &mut Vec<Passed>, from: f64) {
     let before = points.iter().take_while(|point| point.time <= from).count();
     let Some(last) = before.checked_sub(1) else { return };
@@ -79,14 +80,14 @@ fn frames_within(intervals: f64) -> usize {
     intervals as usize
 }
 
-/// The number of frames from one kept point of a trail to the next at a frame: the smallest power of two that keeps the trail within
-/// [`MOST_POINTS`].
+/// The number of frames between two stored points of a trail: the smallest power of two that keeps the trail within [`MOST_POINTS`].
+/// `interval` is the time between two frames (s), and `frame` the present frame.
 pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
     let within = trail.duration.map_or(usize::MAX, |duration| frames_within(duration / interval));
     (within.min(frame) / MOST_POINTS + 1).next_power_of_two()
 }
 
-/// Drops impacts beyond the limit between two kept points of a path.
+/// Removes the impacts between two stored points if there are more than [`corners::MOST`].
 pub(super) fn thin(way: &mut Vec<(usize, Passed)>) {
     let mut kept = Vec::with_capacity(way.len());
     for run in way.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {

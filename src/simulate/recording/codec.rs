@@ -1,6 +1,6 @@
-//! The encoding of moments: unchanged values take no bytes.
+//! The encoding of moments as bytes. Values that have not changed since the previous moment take no bytes.
 //!
-//! A page is a sequence of moments. Each is, in little-endian numbers:
+//! A page is a sequence of moments. Each moment consists of little-endian numbers:
 //!
 //! | what | type |
 //! | --- | --- |
@@ -11,10 +11,11 @@
 //! | with joints: runs of masks, and numbers, in the same way | |
 //! | with counted impacts: runs of masks, and counts, in the same way | |
 //! | with counted impacts: the number of contacts, and for each: two bodies, position, normal, force, friction | `u32`; `f64` |
-//! | likewise: the number of impacts since the last moment; for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
+//! | with counted impacts: the number of impacts since the previous moment, and for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
 //!
-//! A bit of a mask marks a changed column: for a body, location, orientation, velocity, angular velocity, force; for a joint, force and
-//! torque. Before the first moment of a page, all bodies are at rest at the origin, and all joints are without load.
+//! A run is a sequence of consecutive bodies (or joints, or counts) with the same mask. A bit of a mask marks a changed column: for a
+//! body, location, orientation, velocity, angular velocity, force; for a joint, force and torque. Each page starts from bodies at rest at
+//! the origin, joints without load, and impact counts of 0.
 
 mod decoder;
 mod encoder;
@@ -31,15 +32,15 @@ use super::super::ImpactCounts;
 use crate::dynamics::Accounts;
 use crate::scene::Scene;
 
-/// The numbers before the bodies.
+/// The number of floating-point values in the header of a moment, before the bodies.
 const HEAD: usize = 12 + Accounts::NAMES.len();
-/// The numbers of a body.
+/// The number of values that describe a body.
 const NUMBERS: usize = 16;
-/// The first number of each column of a body, and the end of the last one.
+/// The index of the first value of each column of a body, and the end of the last column.
 const COLUMNS: [usize; 6] = [0, 3, 7, 10, 13, NUMBERS];
 /// The mask of an absent body.
 const ABSENT: u8 = 0x80;
-/// The number for moments between frames.
+/// The frame number of a moment between frames.
 const NO_FRAME: u32 = u32::MAX;
 
 const AT_REST: [f64; NUMBERS] = {
@@ -48,27 +49,27 @@ const AT_REST: [f64; NUMBERS] = {
     numbers
 };
 
-/// The first number of each column of a joint, and the end of the last one.
+/// The index of the first value of each column of a joint, and the end of the last column.
 const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
-/// The numbers of a joint.
+/// The number of values that describe the load of a joint: force and torque.
 const JOINT_NUMBERS: usize = 6;
 
-/// The start and end of the only column of a count.
+/// The start and the end of the single column of an impact count.
 const COUNT_COLUMNS: [usize; 2] = [0, 1];
 
-/// The numbers of bodies, joints and impact counts of a run.
+/// The numbers of bodies, joints and impact counts in each moment of a recording.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     /// The number of bodies.
     pub bodies: usize,
     /// The number of joints.
     pub joints: usize,
-    /// The number of counts of impacts; 0 without contacts.
+    /// The number of impact counts. 0 in scenes without contacts.
     pub impacts: usize,
 }
 
 impl Counts {
-    /// The counts of a scene.
+    /// Counts the bodies, joints and impact counts of a scene.
     pub fn of(scene: &Scene) -> Counts {
         Counts { bodies: scene.bodies.len(), joints: scene.joints.len(), impacts: ImpactCounts::size(scene) }
     }

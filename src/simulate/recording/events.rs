@@ -1,12 +1,12 @@
-//! Contacts and impacts as numbers.
+//! Converts contacts and impacts to and from lists of numbers.
 
 use glam::DVec3;
 
 use crate::dynamics::{ContactSnapshot, Impact};
 
-/// The numbers of a contact.
+/// The number of values that describe a contact: two bodies and four vectors.
 pub(super) const CONTACT_NUMBERS: usize = 14;
-/// The numbers of an impact.
+/// The number of values that describe an impact: two bodies, time, three vectors and energy.
 pub(super) const IMPACT_NUMBERS: usize = 13;
 
 pub(super) fn contact_numbers(contact: &ContactSnapshot) -> [f64; CONTACT_NUMBERS] {
@@ -35,7 +35,7 @@ pub(super) fn impact_of(n: &[f64; IMPACT_NUMBERS]) -> Impact {
     Impact { time: n[2], bodies, place: vector(3), normal: vector(6), impulse: vector(9), energy: n[12] }
 }
 
-/// The number of a body as a floating-point number.
+/// Converts the index of a body to a floating-point number.
 #[allow(clippy::cast_precision_loss, reason = "there are far fewer bodies than 2^53")]
 fn number(id: usize) -> f64 {
     id as f64

@@ -1,7 +1,7 @@
-//! A recorded run: the states of all frames and of moments between them, readable in any order.
+//! The recording of a run: its states at all frames and at the requested moments between them, readable in any order.
 //!
-//! Memory does not grow with the run: a [`Store`] keeps the moments in pages of at most 32 moments or about 1 MB. A page can be read
-//! without those before it. A run can be read while it is still being recorded.
+//! Memory does not grow with the run: a [`Store`] keeps the moments in pages. A page holds at most 32 moments or about 1 MB, and can be
+//! read without the pages before it. A run can be read while it is still being recorded.
 
 mod codec;
 mod events;
@@ -21,12 +21,12 @@ use crate::dynamics::{BodySnapshot, Snapshot};
 pub use codec::Counts;
 pub use store::{MemoryStore, Store};
 
-/// A page is full after this many moments,
+/// The number of moments after which a page is full.
 const MOMENTS: usize = 32;
-/// or after this many bytes.
+/// The number of bytes after which a page is full.
 const BYTES: usize = 1 << 20;
 
-/// The moments of a run, from the first on. One writer adds to it; any number of readers may read.
+/// All recorded moments of a run. One thread appends moments; any number of readers may read them.
 pub struct Recording {
     counts: Counts,
     encoder: Mutex<Encoder>,
@@ -34,28 +34,28 @@ pub struct Recording {
     store: Box<dyn Store>,
 }
 
-/// The index of a recording.
+/// The index of a recording, with the page that is not full yet.
 #[derive(Default)]
 struct Contents {
-    /// The time of each moment, s, in rising order.
+    /// The time of each moment, s, in increasing order.
     times: Vec<f64>,
-    /// The index of each frame's moment.
+    /// The number of the moment at which each frame was recorded.
     frames: Vec<u32>,
-    /// The index of the first moment of each page in the store.
+    /// The number of the first moment in each stored page.
     pages: Vec<u32>,
-    /// The page that is not full yet, and the index of its first moment.
+    /// The bytes of the page that is not full yet, and the number of its first moment.
     open: Vec<u8>,
     first: usize,
 }
 
 impl Recording {
-    /// An empty recording of a run with these numbers of bodies and joints.
+    /// Creates an empty recording of a run with these numbers of bodies, joints and impact counts.
     pub fn new(counts: Counts, store: Box<dyn Store>) -> Recording {
         let (encoder, contents) = (Mutex::new(Encoder::new(counts)), RwLock::default());
         Recording { counts, encoder, contents, store }
     }
 
-    /// A recording from its [index](Self::index), with all pages in the store.
+    /// Opens a complete recording from its [index](Self::index). The store must hold all of its pages.
     ///
     /// # Errors
     /// If the index is invalid.
@@ -64,7 +64,7 @@ impl Recording {
         Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
     }
 
-    /// Like [`with_index`](Self::with_index), for a run that continues.
+    /// Opens a recording like [`with_index`](Self::with_index), to append further moments.
     ///
     /// # Errors
     /// If the index is invalid.
@@ -77,7 +77,7 @@ impl Recording {
         Ok(Recording { encoder: Mutex::new(Encoder::new(counts)), ..recording })
     }
 
-    /// Adds the next moment.
+    /// Appends the next moment.
     pub(super) fn push(&self, entry: &Entry) -> io::Result<()> {
         let Entry { frame, snapshot, .. } = entry;
         let mut encoder = self.encoder();
@@ -96,10 +96,11 @@ impl Recording {
         Ok(())
     }
 
-    /// Puts the last page into the store, and returns an index. With the index and the store, the recording can be read again.
+    /// Stores the last page, even if it is not full, and returns the index of the recording as bytes. The index and the store are
+    /// sufficient to open the recording again.
     ///
     /// # Errors
-    /// If there is no room for the page.
+    /// If the store has no room for the page.
     pub fn index(&self) -> io::Result<Vec<u8>> {
         let mut encoder = self.encoder();
         let mut contents = self.contents.write().unwrap_or_else(PoisonError::into_inner);
@@ -119,12 +120,12 @@ impl Recording {
         Ok(())
     }
 
-    /// The number of frames so far.
+    /// The number of frames recorded so far.
     pub fn frames(&self) -> usize {
         self.contents().frames.len()
     }
 
-    /// A reader at the first moment.
+    /// Creates a reader at the first moment.
     pub fn read(self: &Arc<Self>) -> Reader {
         let decoder = Decoder::new(self.counts);
         Reader {
@@ -147,23 +148,23 @@ impl Recording {
         self.contents.read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The index of the moment at a time (s), if it was recorded.
+    /// The number of the moment at a time (s). `None` if no moment was recorded at this time.
     pub(super) fn moment_at(&self, time: f64) -> Option<usize> {
         self.contents().times.binary_search_by(|other| other.total_cmp(&time)).ok()
     }
 
-    /// The index of a frame's moment.
+    /// The number of the moment at which a frame was recorded. `None` if the frame was not recorded.
     pub(super) fn moment_of(&self, frame: usize) -> Option<usize> {
         self.contents().frames.get(frame).map(|&moment| moment as usize)
     }
 
-    /// The number of the frame at or before a moment.
+    /// The number of the last frame at or before a moment.
     pub(super) fn frame_at(&self, moment: usize) -> usize {
         let contents = self.contents();
         contents.frames.partition_point(|&frame| frame as usize <= moment).saturating_sub(1)
     }
 
-    /// The page of a moment, as far as it is written.
+    /// Returns the page that contains a moment. The last page holds the moments written so far.
     fn page_of(&self, moment: usize) -> io::Result<Page> {
         let contents = self.contents();
         if moment >= contents.first {
@@ -211,7 +212,7 @@ impl Contents {
     }
 }
 
-/// A page at the time of reading. If it was not full, it may have grown since.
+/// A page of a recording, as it was when it was read. The last page of a growing recording may have become longer since.
 struct Page {
     moments: Range<usize>,
     bytes: Arc<[u8]>,
@@ -221,44 +222,44 @@ struct Page {
 pub struct Reader {
     recording: Arc<Recording>,
     next: usize,
-    /// The current page.
+    /// The page that contains the last moment read. `None` before the first.
     page: Option<Page>,
     decoder: Decoder,
-    /// The index of the decoder's moment.
+    /// The number of the moment that the decoder reads next.
     at: usize,
-    /// The only body that the decoder knows; `None` if it knows all.
+    /// The index of the only body that the decoder has followed in this page. `None` if the decoder has followed all bodies.
     known: Option<usize>,
     #[cfg(test)]
     decoded: usize,
 }
 
 impl Reader {
-    /// Moves to a moment.
+    /// Moves to a moment, given by its number.
     pub(super) fn seek(&mut self, moment: usize) {
         self.next = moment;
     }
 
-    /// Moves to a frame. Returns whether it exists.
+    /// Moves to a frame, given by its number. Returns false if the frame was not recorded.
     pub(super) fn seek_frame(&mut self, frame: usize) -> bool {
         let moment = self.recording.moment_of(frame);
         self.next = moment.unwrap_or(usize::MAX);
         moment.is_some()
     }
 
-    /// The index of the next moment.
+    /// The number of the next moment.
     pub(super) fn position(&self) -> usize {
         self.next
     }
 
-    /// The next moment. `None` at the end of the recorded part.
+    /// Reads the next moment. Returns `None` at the end of the recorded part.
     pub(super) fn entry(&mut self) -> io::Result<Option<Entry>> {
         self.advance(None, Decoder::decode)
     }
 
-    /// A frame in its recorded form.
+    /// Reads the state of the world at a frame.
     ///
     /// # Errors
-    /// If it does not exist, or cannot be read.
+    /// If the frame was not recorded or cannot be read.
     pub fn frame(&mut self, frame: usize) -> io::Result<Snapshot> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -266,10 +267,10 @@ impl Reader {
         Ok(self.entry()?.ok_or_else(damaged)?.snapshot)
     }
 
-    /// A frame without its past.
+    /// Reads a frame with its impact counts, without particles, trails and ghosts.
     ///
     /// # Errors
-    /// If it does not exist, or cannot be read.
+    /// If the frame was not recorded or cannot be read.
     pub fn seen(&mut self, frame: usize) -> io::Result<Frame> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -277,11 +278,11 @@ impl Reader {
         Ok(Frame::of_entry(frame, self.entry()?.ok_or_else(damaged)?))
     }
 
-    /// A frame with only one body, and that body; `None` if it is absent. This is faster than reading all bodies, above all for
-    /// consecutive frames.
+    /// Reads a frame with only one of its bodies, and returns this body separately, too. The body is `None` if it is absent. This is
+    /// faster than reading all bodies, especially for consecutive frames.
     ///
     /// # Errors
-    /// If the frame does not exist, or cannot be read.
+    /// If the frame was not recorded or cannot be read.
     pub fn body(&mut self, frame: usize, body: usize) -> io::Result<(Frame, Option<BodySnapshot>)> {
         if !self.seek_frame(frame) {
             return Err(damaged());
@@ -305,7 +306,7 @@ impl Reader {
         }
         if !self.page.as_ref().is_some_and(|page| page.moments.contains(&moment)) {
             let page = self.recording.page_of(moment)?;
-            // If the page has only grown, the decoder's position is still valid.
+            // If the page has only become longer, the decoder keeps its position in the page.
             if self.page.as_ref().is_none_or(|before| before.moments.start != page.moments.start) {
                 self.at = page.moments.start;
                 self.decoder.begin_page();

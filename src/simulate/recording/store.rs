@@ -3,22 +3,22 @@
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Stores the pages of a recording: one writer, any number of readers.
+/// Stores the pages of a recording, for one writer and any number of readers.
 pub trait Store: Send + Sync {
-    /// Adds a page; pages are numbered from 0.
+    /// Appends a page. Pages are numbered from 0.
     ///
     /// # Errors
-    /// If there is no room for it.
+    /// If there is no room for the page.
     fn put(&self, page: &[u8]) -> io::Result<()>;
 
-    /// The page with a number.
+    /// Returns the page with this number.
     ///
     /// # Errors
-    /// If it cannot be read, or is not what was stored.
+    /// If the page cannot be read, or differs from the stored page.
     fn page(&self, number: usize) -> io::Result<Arc<[u8]>>;
 }
 
-/// Any number of pages in memory.
+/// Keeps all pages in memory.
 #[derive(Default)]
 pub struct MemoryStore(Mutex<Vec<Arc<[u8]>>>);
 

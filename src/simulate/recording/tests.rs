@@ -3,7 +3,7 @@ use glam::DVec3;
 use super::*;
 use crate::simulate::ImpactCounts;
 
-/// More than two pages of frames, in which body 0 moves and body 1 rests.
+/// The number of test frames, which fill more than two pages. Body 0 moves and body 1 rests.
 const FRAMES: usize = 2 * MOMENTS + 5;
 
 fn push(recording: &Recording, frame: usize) {
@@ -14,7 +14,8 @@ fn push(recording: &Recording, frame: usize) {
     recording.push(&Entry { frame: Some(frame), snapshot, impacts, counts }).unwrap();
 }
 
-/// A moment holds the changes since the last one. A reader that follows a run must not decode the page from its start for each frame.
+/// A moment holds only the changes since the previous one. A reader that follows a growing recording must still not decode the page from
+/// its start for each frame.
 #[test]
 fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
     let recording =
@@ -23,14 +24,14 @@ fn to_follow_a_run_frame_by_frame_decodes_each_moment_once() {
     for frame in 0..FRAMES {
         push(&recording, frame);
         let x = f64::from(u32_of(frame));
-        // The first frame of a page is also readable before the page is full.
+        // The frames of a page are readable before the page is full.
         assert_eq!(all.frame(frame).unwrap().bodies[0].location.x, x);
         assert_eq!(one.body(frame, 0).unwrap().1.unwrap().location.x, x);
     }
     assert_eq!((all.decoded, one.decoded), (FRAMES, FRAMES));
 }
 
-/// After reading only one body, a reader does not know the others.
+/// A reader that has decoded only one body must restart the page to read the others.
 #[test]
 fn one_body_and_all_can_be_read_in_any_order() {
     let recording =

@@ -1,4 +1,4 @@
-//! Bodies whose start differs from the scene.
+//! Finds bodies whose initial velocity is changed by joints.
 
 use glam::DVec3;
 
@@ -6,23 +6,23 @@ use super::super::Frame;
 use crate::dynamics::BodySnapshot;
 use crate::scene::Scene;
 
-/// A body whose initial velocity differs from the scene's, because joints hold it.
+/// The first body whose initial velocity differs from the scene's, because the given velocity contradicts its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corrected {
-    /// Its name.
+    /// The name of the body.
     pub body: String,
-    /// Its initial velocity, m/s.
+    /// The initial velocity that the joints allow, m/s.
     pub velocity: DVec3,
-    /// Its initial angular velocity, rad/s.
+    /// The initial angular velocity that the joints allow, rad/s.
     pub angular_velocity: DVec3,
-    /// The number of other such bodies.
+    /// The number of other bodies with a changed initial velocity.
     pub others: usize,
 }
 
 impl Corrected {
-    /// Compares the first frame with the scene.
+    /// Compares the velocities in the first frame with the scene. `None` if the joints changed no velocity.
     pub(super) fn find(scene: &Scene, frame: &Frame) -> Option<Corrected> {
-        // Rounding errors are far smaller, and larger changes may be visible.
+        // The relative tolerance: rounding errors are far smaller, and larger changes may be visible.
         const NOTICEABLE: f64 = 1e-6;
         if scene.joints.is_empty() {
             return None;
@@ -32,7 +32,7 @@ impl Corrected {
             let body = &scene.bodies[id];
             let is_free = !body.start.fixed && body.motion.is_none();
             let start = &body.start;
-            // A body without a given velocity may get one from its guide or motor.
+            // A body without a given velocity may correctly start with the velocity of its guide or motor.
             let is_given = start.velocity != DVec3::ZERO || start.angular_velocity != DVec3::ZERO;
             is_free
                 && is_given

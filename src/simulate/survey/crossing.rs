@@ -1,4 +1,4 @@
-//! Planes through which bodies pass, since no contacts stop them.
+//! Finds planes that bodies pass through in scenes without contacts.
 
 use glam::DVec3;
 
@@ -6,40 +6,40 @@ use super::super::Frame;
 use crate::dynamics::{BodySnapshot, RigidBody, Shape};
 use crate::scene::{Body, Scene};
 
-/// A plane through which bodies pass, because nothing stops them.
+/// The passage of bodies through a plane, in a scene without contacts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
-    /// The name of the plane; `None` for the ground of the environment.
+    /// The name of the plane. `None` for the ground of the environment.
     pub plane: Option<String>,
-    /// The name of the first body that passes through it.
+    /// The name of the first body that passes through the plane.
     pub body: String,
-    /// The time of the first frame after its passage, s.
+    /// The time of the first frame after the passage of this body, s.
     pub time: f64,
     /// The number of other bodies that pass through the plane later.
     pub others: usize,
 }
 
-/// The bodies that forces move: only these can pass through a plane. Scenes with many planes have few of them.
+/// The indices of the bodies that forces move. Only these bodies can pass through a plane unintentionally.
 pub(super) fn free(scene: &Scene) -> impl Iterator<Item = usize> {
     let bodies = scene.bodies.iter().enumerate();
     bodies.filter(|(_, body)| !body.start.fixed && body.motion.is_none()).map(|(id, _)| id)
 }
 
-/// A plane that is watched for bodies that pass through it.
+/// A plane that is watched for bodies passing through it.
 pub(super) struct Watched {
     name: Option<String>,
-    /// The body of the plane, if it is one.
+    /// The index of the plane's body. `None` for the ground.
     body: Option<usize>,
-    /// Whether it was present in the last frame.
+    /// Whether the plane was present in the last frame.
     is_there: bool,
     point: DVec3,
     normal: DVec3,
-    /// The indices of bodies that may still pass through it, with their initial sides.
+    /// The bodies that may still pass through the plane: the index of each, and its initial side (1 along the normal, −1 opposite).
     bodies: Vec<(usize, f64)>,
     crossing: Option<Crossing>,
 }
 
-/// The planes of a scene through which bodies can pass.
+/// Lists the planes of a scene, including a ground with a given height. Empty in scenes with contacts.
 pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
     if scene.simulation.contacts.is_some() {
         return Vec::new();
@@ -66,7 +66,8 @@ pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
 }
 
 impl Watched {
-    /// Updates the watched bodies in a frame in which some bodies have come.
+    /// Updates the plane with a frame. `free` are the bodies that forces move, and `come` those of them that appear in this frame. Sets
+    /// `crossed` for bodies that have passed through the plane.
     pub(super) fn see(
         &mut self,
         scene: &Scene,
@@ -79,20 +80,20 @@ impl Watched {
         match (was_there, self.is_there) {
             (_, false) => return self.bodies.clear(),
             (true, true) => self.begin(scene, come.iter().copied()),
-            // The plane itself has come: all bodies start now.
+            // The plane itself appears in this frame, so watch all present bodies from now on.
             (false, true) => self.begin(scene, free.iter().filter_map(|id| frame.body(*id))),
         }
         self.watch(scene, frame, crossed);
     }
 
-    /// Adds the new bodies that do not touch the plane.
+    /// Starts to watch the new bodies that do not touch the plane.
     fn begin<'a>(&mut self, scene: &Scene, come: impl Iterator<Item = &'a BodySnapshot>) {
         for body in come {
             self.bodies.extend(self.beginner(scene, body).map(|side| (body.id, side)));
         }
     }
 
-    /// Finds bodies that have passed through the plane, and marks them in `crossed`.
+    /// Finds the bodies that have passed through the plane since the last frame, and marks them in `crossed`.
     fn watch(&mut self, scene: &Scene, frame: &Frame, crossed: &mut [bool]) {
         let mut gone = Vec::new();
         let mut bodies = std::mem::take(&mut self.bodies);
@@ -117,26 +118,27 @@ impl Watched {
         }
     }
 
-    /// The initial side of a body, if it does not touch the plane.
+    /// The initial side of a body: 1 along the plane's normal, −1 opposite. `None` if the body overlaps the plane.
     fn beginner(&self, scene: &Scene, body: &BodySnapshot) -> Option<f64> {
         let side = if (body.location - self.point).dot(self.normal) < 0.0 { -1.0 } else { 1.0 };
         let shape = &scene.bodies[body.id].shape;
         (self.gap(shape, body, side) >= -self.tolerance(body)).then_some(side)
     }
 
-    /// The distance between the plane and the nearest point of a body that should be on the given side, m.
+    /// The signed distance from the plane to the nearest point of a body, m. Negative if the body reaches beyond the plane, seen from
+    /// `side`.
     fn gap(&self, shape: &Shape, body: &BodySnapshot, side: f64) -> f64 {
         let towards_plane = -side * self.normal;
         let reach = shape.support(body.orientation, towards_plane).unwrap_or(0.0);
         side * (body.location - self.point).dot(self.normal) - reach
     }
 
-    /// The rounding error for a touching body, m.
+    /// The tolerance for rounding errors in the distance between the plane and a touching body, m.
     fn tolerance(&self, body: &BodySnapshot) -> f64 {
         1e-9 * (body.location.abs().max_element() + self.point.abs().max_element())
     }
 
-    /// The crossing found, if any.
+    /// Returns the first passage, with the number of later ones. `None` if no body passed through the plane.
     pub(super) fn finish(self) -> Option<Crossing> {
         self.crossing
     }

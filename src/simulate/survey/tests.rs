@@ -59,8 +59,8 @@ fn the_drift_is_relative_to_the_whole_run() {
         shape.sphere.radius = 1
         ",
     );
-    // Per kilogram: Euler–Cromer falls ½ g t dt too far, so its energy is too small by g times that, 5 J at the end of 10 s; ½ (g t)² is
-    // 5000 J. Relative to the kinetic energy at the first frame, the error would be a quarter.
+    // For each kilogram: Euler–Cromer falls ½ g t dt too far, so the energy is too small by g times this distance, 5 J after 10 s. The
+    // kinetic energy is then ½ (g t)² = 5000 J. Relative to the kinetic energy at the first frame, the error would be a quarter.
     assert!((survey.drift + 1e-3).abs() < 1e-9, "{}", survey.drift);
 }
 
@@ -138,7 +138,8 @@ fn the_given_ground_counts_and_the_default_one_does_not() {
     assert_eq!(survey.crossings[0].plane, None);
 }
 
-/// A box that is lowered into a contact hardly moves: its drift is large, but small compared to the energy taken by contacts.
+/// Boxes that settle into contact hardly move. Their energy error is large relative to the kinetic energy, but small relative to the
+/// energy removed by contacts.
 #[cfg(feature = "time-stepping")]
 #[test]
 fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
@@ -182,6 +183,6 @@ fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
     let rest = survey.without_strays.unwrap();
     assert_eq!((rest.seen.min, rest.seen.max), (DVec3::splat(-0.5), DVec3::new(9.5, 0.5, 0.5)));
     assert!((survey.spans.last().unwrap().seen.max.y - 200.5).abs() < 1e-9);
-    // An arrow may reach beyond the box of the others.
+    // An arrow may reach beyond the box around the other bodies.
     assert_eq!(surveyed(&scene("arrows.velocity = true")).without_strays, None);
 }

@@ -1,4 +1,4 @@
-//! Decodes bytes into moments. They come from a file, so nothing in them is trusted.
+//! Decodes bytes into moments. The bytes come from a file, so they are never trusted.
 
 use std::io;
 
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 
-/// Reads a page from its start.
+/// Decodes the moments of a page one after another, from the start of the page.
 #[derive(Default)]
 pub(in super::super) struct Decoder {
     last: Last,
@@ -21,18 +21,19 @@ pub(in super::super) struct Decoder {
 }
 
 impl Decoder {
-    /// A decoder at the start of a page, for these counts.
+    /// Creates a decoder at the start of a page, for moments with these numbers of bodies, joints and impact counts.
     pub(in super::super) fn new(counts: Counts) -> Decoder {
         Decoder { last: Last::new(counts), at: 0 }
     }
 
-    /// Restarts at the start of a page, of this or another recording with the same counts.
+    /// Restarts at the start of a page. The page may belong to another recording with the same numbers of bodies, joints and impact
+    /// counts.
     pub(in super::super) fn begin_page(&mut self) {
         self.last.begin_page();
         self.at = 0;
     }
 
-    /// The next moment.
+    /// Decodes the next moment of the page.
     pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
         let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts } =
             parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
@@ -81,8 +82,8 @@ impl Decoder {
         Ok(())
     }
 
-    /// Reads only one body and the counts of impacts from the next moment. Returns whether the body is present. The decoder then no
-    /// longer knows the other bodies, joints and contacts.
+    /// Decodes only one body and the impact counts of the next moment. Returns the moment, and whether the body is present. Until the next
+    /// page, the decoder cannot decode other bodies, joints and contacts.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
         let Parts { head, bodies: (runs, mut values), counts, .. } =
             parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
@@ -106,7 +107,7 @@ impl Decoder {
     }
 }
 
-/// The header of a moment, before the bodies.
+/// The header of a moment: the values before the bodies.
 struct Head {
     frame: Option<usize>,
     numbers: [f64; HEAD],
@@ -140,11 +141,11 @@ impl Head {
     }
 }
 
-/// A mask, and the number of bodies to which it applies.
+/// A mask, and the number of consecutive bodies, joints or counts that it applies to.
 type Run = (u8, usize);
 
-/// The parts of a moment in a page: for bodies, joints and impact counts, the runs and the bytes of the values; for contacts and impacts,
-/// the bytes.
+/// The undecoded parts of a moment in a page. For bodies, joints and impact counts: the runs, and the bytes of their values. For contacts
+/// and impacts: the bytes of the list.
 struct Parts<'a> {
     head: Head,
     bodies: (Vec<Run>, &'a [u8]),
@@ -154,7 +155,8 @@ struct Parts<'a> {
     impacts: &'a [u8],
 }
 
-/// The parts of the moment at an offset of a page, for these numbers of joints and impact counts. The offset advances to the next moment.
+/// Splits the moment at offset `at` of a page into its parts, for these numbers of joints and impact counts. Moves the offset to the next
+/// moment.
 fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
@@ -179,14 +181,14 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -
     Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
 }
 
-/// The bytes of a list whose items have `numbers` numbers each, and the bytes after the list.
+/// Splits the bytes after a list from the bytes of the list itself. Each item of the list consists of `numbers` values.
 fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
     rest.split_at_checked(count.saturating_mul(8 * numbers)).ok_or_else(damaged)
 }
 
-/// The items of a list, each made of N numbers.
+/// Decodes the items of a list, each of N values.
 fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> io::Result<Vec<T>> {
     let thing = |bytes: &[u8]| {
         let mut numbers = [0.0; N];
@@ -196,10 +198,10 @@ fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> i
     bytes.chunks(8 * N).map(thing).collect()
 }
 
-/// Runs, the bytes of their values, and the bytes after them.
+/// A list of runs with the bytes of their values, and the remaining bytes.
 type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
 
-/// Reads runs of masks that select columns.
+/// Reads a list of runs, whose masks select from these columns.
 fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
@@ -214,7 +216,7 @@ fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     Ok(((runs, values), rest))
 }
 
-/// The number of values selected by a mask.
+/// The number of values that a mask selects.
 fn width(mask: u8, columns: &[usize]) -> usize {
     if mask == ABSENT {
         return 0;
@@ -227,7 +229,7 @@ fn width(mask: u8, columns: &[usize]) -> usize {
         .sum()
 }
 
-/// Reads the columns selected by a mask, and returns the bytes after them.
+/// Reads the values of the columns that a mask selects into `last`. Returns the remaining bytes.
 fn take_changed<'a>(
     mut values: &'a [u8],
     mask: u8,
@@ -242,7 +244,7 @@ fn take_changed<'a>(
     Ok(values)
 }
 
-/// Reads numbers, and returns the bytes after them.
+/// Reads values into `numbers`. Returns the remaining bytes.
 fn take<'a>(bytes: &'a [u8], numbers: &mut [f64]) -> io::Result<&'a [u8]> {
     let (mine, rest) = bytes.split_at_checked(8 * numbers.len()).ok_or_else(damaged)?;
     for (number, chunk) in numbers.iter_mut().zip(mine.as_chunks::<8>().0) {

@@ -6,24 +6,24 @@ use super::last::Last;
 use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
 use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
 
-/// Encodes moments one after another.
+/// Encodes the moments of a recording one after another.
 pub(in super::super) struct Encoder {
     last: Last,
     masks: Vec<u8>,
 }
 
 impl Encoder {
-    /// An encoder for these counts.
+    /// Creates an encoder for moments with these numbers of bodies, joints and impact counts.
     pub(in super::super) fn new(counts: Counts) -> Encoder {
         Encoder { last: Last::new(counts), masks: Vec::new() }
     }
 
-    /// Starts a new page, which can be read without those before it.
+    /// Starts a new page, which can be decoded without the pages before it.
     pub(in super::super) fn begin_page(&mut self) {
         self.last.begin_page();
     }
 
-    /// Appends a moment.
+    /// Appends a moment to `bytes`.
     pub(in super::super) fn encode(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
         let Self { last, masks } = self;
         let Entry { frame, snapshot, .. } = entry;
@@ -60,7 +60,7 @@ impl Encoder {
         let Self { last: Last { joints, .. }, masks } = self;
         masks.clear();
         let start = bytes.len();
-        // A joint without a reaction exerts no force.
+        // A joint without a recorded reaction has no load.
         let reactions = snapshot.reactions.iter().copied().chain(std::iter::repeat(Reaction::default()));
         for (last, Reaction { force, torque }) in joints.iter_mut().zip(reactions) {
             let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
@@ -70,7 +70,7 @@ impl Encoder {
         put_runs(bytes, start, masks);
     }
 
-    /// Appends the impact counts, the contacts of the moment, and the impacts since the last one.
+    /// Appends the impact counts, the contacts of the moment, and the impacts since the previous moment.
     fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
         let Self { last: Last { impacts, .. }, masks } = self;
         masks.clear();
@@ -89,12 +89,12 @@ impl Encoder {
     }
 }
 
-/// Appends the changed columns of some numbers. Returns the mask that selects them.
+/// Appends the values of the columns that differ from `last`. Returns the mask that selects these columns.
 fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[f64]) -> u8 {
     let mut mask = 0;
     for (column, range) in columns.windows(2).enumerate() {
         let (new, old) = (&numbers[range[0]..range[1]], &last[range[0]..range[1]]);
-        // Compares bits, since -0 differs from 0.
+        // Compare the bits, since `==` treats -0 and 0 as equal.
         if new.iter().zip(old).any(|(new, old)| new.to_bits() != old.to_bits()) {
             mask |= 1 << column;
             put(bytes, new);
@@ -103,7 +103,7 @@ fn put_changed(bytes: &mut Vec<u8>, columns: &[usize], numbers: &[f64], last: &[
     mask
 }
 
-/// Inserts the runs of some masks at an offset.
+/// Inserts the runs of the masks at offset `start`.
 fn put_runs(bytes: &mut Vec<u8>, start: usize, masks: &[u8]) {
     let mut runs = Vec::new();
     for run in masks.chunk_by(|a, b| a == b) {

@@ -1,8 +1,9 @@
-//! The numbers of the last moment, relative to which the next is written and read.
+//! The values of the previous moment. The encoder writes, and the decoder reads, only the differences from them.
 
 use super::{AT_REST, Counts, JOINT_NUMBERS, NUMBERS};
 
-/// The numbers of the last moment. Before the first moment of a page, bodies are at rest at the origin, and joints are without load.
+/// The values of the previous moment. At the start of a page, bodies are at rest at the origin, joints have no load, and impact counts are
+/// 0.
 #[derive(Default)]
 pub(super) struct Last {
     pub(super) bodies: Vec<[f64; NUMBERS]>,
@@ -11,7 +12,7 @@ pub(super) struct Last {
 }
 
 impl Last {
-    /// The numbers at the start of a page.
+    /// Creates the values for the start of a page.
     pub(super) fn new(Counts { bodies, joints, impacts }: Counts) -> Last {
         Last {
             bodies: vec![AT_REST; bodies],
@@ -20,7 +21,7 @@ impl Last {
         }
     }
 
-    /// Restarts at the start of a page.
+    /// Resets the values at the start of a page.
     pub(super) fn begin_page(&mut self) {
         self.bodies.fill(AT_REST);
         self.joints.fill([0.0; JOINT_NUMBERS]);

@@ -50,7 +50,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
     }
 }
 
-/// Bodies come and go; -0 stays -0; unchanged values take no bytes except those of their run.
+/// Bodies appear and disappear, -0 stays -0, and unchanged values take no bytes except those of their run.
 #[test]
 fn moments_are_read_as_they_were_written() {
     let entries = [
