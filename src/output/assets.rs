@@ -1,4 +1,4 @@
-//! Copies of the files that scripts read: images, height fields, fonts.
+//! Copies the files that scripts read (assets: images, height fields, fonts) into an output folder.
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -9,11 +9,11 @@ use super::{Folder, OutputError, Tally};
 use crate::emit::ASSETS;
 use crate::scene::Asset;
 
-/// Copies the assets of a scene to where its scripts find them. Copies of other assets stay, since nothing tells them from a
-/// user's own files.
+/// Copies the assets of a scene to where its scripts find them. Existing copies of other assets stay, since they cannot be told from a
+/// user's own files. Returns the manifest entries of the copies.
 ///
 /// # Errors
-/// If an asset cannot be read, its copy cannot be written, or a folder on the way is a link.
+/// If an asset cannot be read, its copy cannot be written, or a subfolder on its path is a symbolic link.
 pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
     let copy = |asset: &Asset| {
         let name = format!("{ASSETS}/{}", asset.name);
@@ -40,7 +40,7 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
     assets.iter().map(copy).collect()
 }
 
-/// Creates the parent folders of a file below an existing folder. Follows no link.
+/// Creates the missing subfolders on the path of a file below `folder`. Refuses symbolic links.
 fn make_folders(folder: &Path, file: &Path) -> Result<(), OutputError> {
     let mut path: PathBuf = folder.to_owned();
     for part in file.parent().into_iter().flat_map(Path::components) {

@@ -1,4 +1,4 @@
-//! Compares scripts with those in a folder: a snapshot test for everyone.
+//! Compares the scripts that a scene gives now with the scripts in a folder, as a snapshot test that every user can run.
 
 use std::collections::HashSet;
 use std::fs;
@@ -14,43 +14,43 @@ use crate::Run;
 use crate::emit::{frame_name, shutter_name};
 use crate::simulate::{Exposure, Selection};
 
-/// The difference between a frame's script and that in a folder.
+/// A difference between a script that the scene gives now and the script in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// The number of the frame.
     pub frame: usize,
-    /// The name of the script.
+    /// The file name of the script.
     pub name: String,
-    /// The kind of difference.
+    /// How the two scripts differ.
     pub kind: Kind,
 }
 
-/// The kind of difference.
+/// How a script of the scene and a script in a folder differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The folder does not have the script.
+    /// The script is missing in the folder.
     Missing,
-    /// The folder has a script that the scene does not.
+    /// The folder contains a script that the scene does not give.
     Extra,
-    /// Lines differ.
+    /// The folder contains the script with other lines. The list holds the lines that only one of the two scripts has.
     Lines(Vec<Line>),
 }
 
 /// A line that only one of two scripts has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
-    /// Its number in its script, from 1.
+    /// The number of the line in its script, from 1.
     pub number: usize,
-    /// Whether the line is from the scene's script; otherwise it is from the folder's.
+    /// True for a line of the scene's script, false for a line of the script in the folder.
     pub new: bool,
-    /// The line.
+    /// The text of the line, without the line break.
     pub text: String,
 }
 
-/// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is called for every script.
+/// Compares the selected scripts of a run with those in a folder, and writes nothing. `done` is called after every frame.
 ///
 /// # Errors
-/// If the folder cannot be read, the run becomes non-finite, or a script cannot be made.
+/// If the folder cannot be read, a value of the run becomes non-finite, or a script cannot be made.
 pub fn compare(
     run: &Run<'_>,
     path: &Path,
@@ -119,7 +119,7 @@ fn difference(path: &Path, new: &str) -> Result<Option<Kind>, OutputError> {
 }
 
 impl Difference {
-    /// The difference for people: the frame, and each line before and after. Of very many lines, only the first are shown.
+    /// Returns the difference as text for a terminal: the frame, and each line before and after. It shows at most 20 lines.
     pub fn to_text(&self) -> String {
         const MOST_LINES: usize = 20;
         let Difference { frame, name, kind } = self;

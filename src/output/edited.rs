@@ -1,4 +1,4 @@
-//! Sets aside files that somebody has edited since jabuka wrote them, before they are written anew.
+//! Renames files that a user has edited since jabuka wrote them, before jabuka writes these files anew.
 
 use std::fs;
 use std::io;
@@ -11,18 +11,18 @@ use super::{Folder, OutputError, Tally};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::ASSETS;
 
-/// A file that was edited, and where it is now.
+/// An edited file that was renamed, so that jabuka can write the file anew.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct SetAside {
-    /// Its name.
+    /// The original name of the file in the folder.
     name: String,
-    /// The name that it has now.
+    /// The new name of the edited file in the folder.
     now: String,
 }
 
 impl Folder {
-    /// Sets aside the edited ones among files that are about to be rewritten or removed. A file counts as edited if it differs
-    /// from its entry in the manifest.
+    /// Renames the edited files among those that are about to be rewritten or removed. A file counts as edited if it differs from its
+    /// entry in the manifest.
     ///
     /// # Errors
     /// If a file cannot be read or renamed.
@@ -40,8 +40,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Removes copies that were set aside needlessly, because the file was written again with the same bytes. With `same_scene`,
-    /// files that were not written anew get their names back.
+    /// Removes renamed files whose edit equals the file that was written anew. With `same_scene`, edited files that were not written anew
+    /// get their original names back.
     ///
     /// # Errors
     /// If a file cannot be removed or renamed.
@@ -55,7 +55,7 @@ impl Folder {
                 fs::rename(&now, &path).map_err(|error| OutputError::Io(path, error))?;
                 continue;
             }
-            // A file that cannot be compared stays.
+            // A file that cannot be compared stays under its new name.
             if same().unwrap_or(false) {
                 fs::remove_file(&now).map_err(|error| OutputError::Io(now, error))?;
             } else {
@@ -65,9 +65,9 @@ impl Folder {
         Ok(())
     }
 
-    /// The edited files that were set aside, as a warning; it names the first of them.
+    /// Returns a warning that names the first edited files that were renamed. `None` if no file was edited.
     pub fn edits(&self) -> Option<Diagnostic> {
-        /// The number of files that are named.
+        /// The largest number of files that the warning names.
         const SHOWN: usize = 3;
         let set_aside = self.lock_set_aside();
         let moves =
@@ -88,21 +88,21 @@ impl Folder {
     }
 }
 
-/// Whether an existing file differs from its entry.
+/// Returns true if a regular file exists and differs from its entry in the manifest.
 fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
         Err(error) => Err(error),
-        // A link is replaced; its target stays unchanged.
+        // A symbolic link is replaced, which leaves its target unchanged.
         Ok(metadata) if !metadata.is_file() => Ok(false),
         Ok(metadata) if metadata.len() != entry.bytes => Ok(true),
         Ok(_) => Ok(Tally::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
     }
 }
 
-/// Renames a file of a folder: `frame_0002.pov` to `frame_0002.edited.pov`, or to the next name that is free.
+/// Renames an edited file of a folder: `frame_0002.pov` becomes `frame_0002.edited.pov`, with a number if that name is taken.
 fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
-    // Scripts would read files among the assets, so edited ones go to a folder beside the assets.
+    // Scripts can read every file in the folder of assets, so edited assets go to a folder beside it.
     let in_assets = name.strip_prefix(ASSETS).and_then(|name| name.strip_prefix('/'));
     let now = match in_assets {
         Some(name) => format!("{ASSETS}.edited/{name}"),
@@ -118,7 +118,7 @@ fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
     Ok(SetAside { name: name.to_owned(), now })
 }
 
-/// A name with an addition in front of its ending.
+/// Inserts a text before the extension of a file name.
 fn between(name: &str, inserted: &str) -> String {
     match name.rsplit_once('.') {
         Some((stem, ending)) => format!("{stem}{inserted}.{ending}"),
@@ -126,7 +126,7 @@ fn between(name: &str, inserted: &str) -> String {
     }
 }
 
-/// A name that no file in the folder has: the given one, or that one with a number, as in `submit-2.old`.
+/// Returns a name that no file in the folder has: the given name, or that name with a number, as in `submit-2.old`.
 pub(crate) fn free_name(folder: &Path, name: &str) -> String {
     let is_free = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
     let numbered = (2_u64..).map(|number| between(name, &format!("-{number}")));
@@ -150,7 +150,7 @@ mod tests {
         let entries =
             ["frame_0002.pov", "frame_0003.pov", "gone.pov", "assets/a.png"].map(|name| entry(name, b"ours"));
         for name in ["frame_0002.pov", "assets/a.png"] {
-            // The same length as jabuka's file, with other bytes.
+            // The length equals that of jabuka's file, so that only the bytes differ.
             fs::write(at(name), "mine").unwrap();
         }
         fs::write(at("frame_0003.pov"), "ours").unwrap();

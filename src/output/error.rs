@@ -1,4 +1,4 @@
-//! Why scripts could not be written or compared.
+//! The errors of writing and comparing scripts.
 
 use std::fmt;
 use std::io;
@@ -7,20 +7,20 @@ use std::path::PathBuf;
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Why scripts could not be written or compared.
+/// An error of writing or comparing scripts. The path is that of the file or folder concerned.
 #[derive(Debug)]
 pub enum OutputError {
-    /// The folder contains files, but nothing marks it as jabuka's.
+    /// The folder contains files, but no manifest of jabuka's.
     NotOurs(PathBuf),
-    /// There is a file where a folder should be.
+    /// The path of a folder leads to a file.
     NotAFolder(PathBuf),
-    /// There is no such folder to compare with.
+    /// The folder to compare with does not exist.
     NoFolder(PathBuf),
-    /// The folder has no scripts of jabuka's.
+    /// The folder contains no scripts that jabuka wrote.
     NoScripts(PathBuf),
-    /// Not all scripts of the folder were written.
+    /// The folder lacks scripts, because the command that wrote them was interrupted.
     Incomplete(PathBuf),
-    /// A file that jabuka writes to is a link, which may lead anywhere.
+    /// A file or folder that jabuka writes to is a symbolic link, whose target may be anywhere.
     Link(PathBuf),
     /// Another process writes into the folder.
     Locked(PathBuf),
@@ -31,7 +31,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// Returns the diagnostic code of this error.
     pub fn code(&self) -> Code {
         match self {
             OutputError::NotOurs(_) => Code::FolderNotOurs,
@@ -46,7 +46,7 @@ impl OutputError {
         }
     }
 
-    /// The error as a diagnostic; that of a run with its places in the scene or a template.
+    /// Returns the error as a diagnostic. An error of the run has a position in the scene or in a template.
     pub fn report(&self) -> Report {
         if let OutputError::Run(error) = self {
             return error.report();
@@ -59,7 +59,7 @@ impl OutputError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// A way to mend it, unless the message makes it plain.
+    /// Returns advice on how to correct the error. `None` if the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             OutputError::Run(error) => error.help(),
@@ -81,7 +81,7 @@ impl OutputError {
     }
 }
 
-/// Whether there is no room on a disk.
+/// Returns true if the disk or the user's quota is full.
 fn is_full(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
 }
@@ -125,7 +125,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::simulate::Recorded;
 
-    /// Two rods keep the ball 1 m from the origin, and the third wants a little more.
+    /// Two rods keep the ball 1 m from the origin. The third rod contradicts them, because it is 0.5 mm longer than the distance.
     #[test]
     fn joints_that_contradict_each_other_at_the_start_are_located() {
         let text = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [0, -1, 0]

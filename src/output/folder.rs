@@ -1,4 +1,4 @@
-//! An output folder: who owns it, who writes to it, and how.
+//! An output folder: checks that jabuka made it, locks it, and writes files into it.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
@@ -11,29 +11,29 @@ use super::edited::SetAside;
 use super::manifest::{self, MANIFEST};
 use crate::emit::{COMMON, INI, MASTER, is_trail_file};
 
-/// The lock file stays in the folder: removing it would race with another process that has just opened it. The lock belongs to
-/// the open file, so it ends with the process, however that ends.
+/// The name of the lock file. It stays in the folder, since removing it would race with another process that has just opened it. The lock
+/// belongs to the open file, so it ends with the process, however the process ends.
 const LOCK: &str = ".jabuka-lock";
 
-/// An output folder that this process alone writes to.
+/// An output folder that is locked, so that only this process writes to it.
 pub struct Folder {
     path: PathBuf,
     _lock: File,
-    /// The edited files that were set aside since the folder was opened.
+    /// The edited files that were renamed since the folder was opened.
     set_aside: Mutex<Vec<SetAside>>,
 }
 
 impl Folder {
-    /// Opens a folder for writing: creates it if needed, checks that it is jabuka's, locks it, and removes files that a killed
-    /// run left half-written.
+    /// Opens a folder for writing: creates it if needed, checks that jabuka made it, locks it, and removes files that a killed process
+    /// left half-written.
     ///
     /// # Errors
-    /// If the folder belongs to something else, another process writes to it, or it cannot be used.
+    /// If jabuka did not make the folder, another process writes to it, or it cannot be created or read.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
         Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
     }
 
-    /// Like [`Folder::open`], for a folder that something other than a manifest marks as jabuka's.
+    /// Opens a folder like [`Folder::open`], where `marked` decides whether jabuka made it.
     pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
         let io_error = |error| OutputError::Io(path.to_owned(), error);
         match fs::metadata(path) {
@@ -49,7 +49,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Its path.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -58,15 +58,15 @@ impl Folder {
         self.set_aside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts a file into the folder, whole or not at all.
+    /// Writes a file into the folder under a temporary name, and renames it when it is whole.
     ///
     /// # Errors
-    /// If it cannot be written; then an existing file of that name is unchanged.
+    /// If the file cannot be written. An existing file of that name then stays unchanged.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         self.write_with(name, |file| file.write_all(bytes))
     }
 
-    /// Like [`Folder::write`], for a file that is made piece by piece.
+    /// Writes a file like [`Folder::write`]; `fill` writes its contents piece by piece.
     pub(super) fn write_with(
         &self,
         name: &str,
@@ -76,7 +76,7 @@ impl Folder {
         self.try_write_with(name, |file| fill(file).map_err(|error| OutputError::Io(path, error)))
     }
 
-    /// Like [`Folder::write_with`], where making a piece can also fail.
+    /// Writes a file like [`Folder::write_with`]; `fill` may fail for other reasons than writing.
     pub(super) fn try_write_with(
         &self,
         name: &str,
@@ -84,10 +84,10 @@ impl Folder {
     ) -> Result<(), OutputError> {
         let path = self.path.join(name);
         let io_error = |error| OutputError::Io(path.clone(), error);
-        // Temporary files for subfolders are made here as well, where the next run looks for leftovers.
+        // Temporary files for subfolders are in the main folder, too, since the next process looks for leftovers in the main folder only.
         let temporary = self.path.join(format!(".jabuka-{}.tmp", name.replace('/', "-")));
         let fill_and_rename = || {
-            // `create_new` follows no link.
+            // `create_new` does not follow symbolic links.
             let file = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(io_error)?;
             let mut file = BufWriter::new(file);
             fill(&mut file)?;
@@ -95,22 +95,22 @@ impl Folder {
             fs::rename(&temporary, &path).map_err(io_error)
         };
         fill_and_rename().inspect_err(|_| {
-            // If even this fails, the next run removes it.
+            // If the file cannot be removed, the next process that opens the folder removes it.
             let _ = fs::remove_file(&temporary);
         })
     }
 
-    /// The numbers and names of the scripts in the folder whose frames satisfy `of`, in their order.
+    /// Returns the frame numbers and names of the scripts in the folder, sorted by frame. `of` selects the frames.
     pub(super) fn scripts(&self, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
         scripts_of(&self.path, of)
     }
 
-    /// The names of the files with parts of trails in the folder, in their order.
+    /// Returns the sorted names of the include files in the folder that hold parts of trails.
     pub(super) fn trail_files(&self) -> Result<Vec<String>, OutputError> {
         trail_files(&self.path).map_err(|error| OutputError::Io(self.path.clone(), error))
     }
 
-    /// Removes scripts and their files. Returns the numbers of the frames that had a script.
+    /// Removes all scripts, and the include files that jabuka wrote with them. Returns the numbers of the frames that had a script.
     pub(super) fn remove_scripts(&self) -> Result<Vec<usize>, OutputError> {
         let scripts = self.scripts(|_| true)?;
         let mut numbers: Vec<usize> = scripts.iter().map(|(number, _)| *number).collect();
@@ -140,7 +140,7 @@ impl Folder {
     }
 }
 
-/// The numbers and names of the scripts in a folder, in their order: for each frame first the sharp one, then the one with
+/// Returns the frame numbers and names of the scripts in a folder, sorted by frame. Each frame's sharp script comes before its script with
 /// motion blur.
 pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
     scripts_of(path, |_| true)
@@ -161,7 +161,7 @@ fn scripts_of(path: &Path, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, Str
     Ok(scripts)
 }
 
-/// The names of the files with parts of trails in a folder, in their order.
+/// Returns the sorted names of the include files in a folder that hold parts of trails.
 pub(crate) fn trail_files(path: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(path)? {
@@ -171,7 +171,7 @@ pub(crate) fn trail_files(path: &Path) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The number in the name of a script; `None` for every other name.
+/// Returns the frame number in the name of a script. `None` for every other file name.
 pub(super) fn script_number(name: &str) -> Option<usize> {
     let number = name.strip_prefix("frame_").or_else(|| name.strip_prefix("shutter_"))?;
     let digits = number.strip_suffix(".pov")?;
@@ -179,7 +179,7 @@ pub(super) fn script_number(name: &str) -> Option<usize> {
     plain.then(|| digits.parse().ok())?
 }
 
-/// Whether a file of this name in a folder of scripts is a script or belongs to the scripts.
+/// Returns true for the names of files that jabuka writes into a folder of scripts: manifest, scripts and their include files.
 pub(crate) fn is_own_name(name: &str) -> bool {
     [MANIFEST, MASTER, INI, COMMON].contains(&name) || script_number(name).is_some() || is_trail_file(name)
 }
@@ -188,7 +188,7 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }
 
-/// Whether a folder is marked as jabuka's, or contains only leftovers of a killed run.
+/// Returns true if `marked` recognizes a folder as jabuka's, or if it contains only a lock and leftovers of a killed process.
 fn is_ours(path: &Path, marked: &dyn Fn(&Path) -> bool) -> io::Result<bool> {
     for entry in fs::read_dir(path)? {
         let name = entry?.file_name();
@@ -206,7 +206,8 @@ fn lock(folder: &Path) -> Result<File, OutputError> {
     }
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
     let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
-    // A child process has copies of all open files until it executes its program, including a lock that was already released.
+    // A new child process briefly has copies of all open files, until it executes its program. A lock that was just released can therefore
+    // still be held, so this retries for 0.2 s.
     for _ in 0..20 {
         match file.try_lock() {
             Ok(()) => return Ok(file),

@@ -1,17 +1,17 @@
-//! The sizes and digests of the scripts that a run writes, until the manifest lists them.
+//! Stores the sizes and digests of written scripts until the manifest lists them.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The most entries kept in memory. If there are more, all of them go to an unnamed file, so that memory does not grow with the
-/// number of frames.
+/// The largest number of scripts whose records are kept in memory. For more scripts, all records go to an unnamed file, so that memory
+/// does not grow with the number of frames.
 const IN_MEMORY: usize = 16_384;
 
-/// The size of a script and its SHA-256.
+/// A script's length in bytes (8 bytes, little-endian) and its SHA-256 (32 bytes).
 type Record = [u8; 40];
 
-/// The sizes and digests of scripts by their numbers, written by any thread in any order.
+/// The sizes and digests of scripts by number. Any thread can record them in any order.
 pub(super) struct Ledger(Mutex<Records>);
 
 enum Records {
@@ -20,7 +20,7 @@ enum Records {
 }
 
 impl Ledger {
-    /// Makes room for this many scripts.
+    /// Makes an empty ledger for this many scripts.
     pub(super) fn new(scripts: usize) -> io::Result<Ledger> {
         let is_small = scripts <= IN_MEMORY;
         let records = if is_small {
@@ -31,7 +31,7 @@ impl Ledger {
         Ok(Ledger(Mutex::new(records)))
     }
 
-    /// Records a script.
+    /// Records the length and the SHA-256 of the script with this number.
     pub(super) fn put(&self, number: usize, bytes: u64, sha256: [u8; 32]) -> io::Result<()> {
         let mut record = [0; 40];
         record[..8].copy_from_slice(&bytes.to_le_bytes());
@@ -46,7 +46,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// The size and the SHA-256 of a script.
+    /// Returns the length in bytes and the SHA-256 of the script with this number.
     pub(super) fn get(&self, number: usize) -> io::Result<(u64, [u8; 32])> {
         let mut record = [0; 40];
         match &mut *self.lock() {

@@ -1,4 +1,4 @@
-//! The manifest: the contents of an output folder, and their scene.
+//! The manifest: a JSON file that lists the files of an output folder, with data about their scene.
 
 use std::fs;
 use std::io::{self, Write};
@@ -13,31 +13,30 @@ use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
 use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
 
-/// The name of the manifest in its folder.
+/// The file name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
 
-/// The name of jabuka in a manifest.
+/// The name of the program that a manifest of jabuka's gives as its generator.
 const GENERATOR: &str = "jabuka";
 
-/// The largest manifest that is read, bytes: enough for more than a million frames.
+/// The size of the largest manifest that is read, bytes. It is enough for more than a million frames.
 const MAX_BYTES: u64 = 512 << 20;
 
-/// The contents of an output folder, and the scene that they belong to.
+/// The manifest of an output folder: its files, and data about the scene that they belong to.
 ///
-/// Everything in a manifest comes from a file that anyone can change: it tells where to look, but never justifies removing or
-/// overwriting anything.
+/// Anyone can change a manifest. It tells where to look for files, but never justifies removing or overwriting any.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manifest {
-    /// The data of the folder as a whole.
+    /// The data about the whole folder and its scene.
     pub head: Head,
-    /// The files: first those of the whole sequence, then the scripts in the order of their frames. While some are being
-    /// written, only the files that stay as they are.
+    /// The files of the folder: first those of the whole sequence, then the scripts in the order of their frames. While scripts are being
+    /// written, the list holds only the files that stay unchanged.
     pub files: Vec<Entry>,
 }
 
 impl Manifest {
-    /// Reads the manifest of a folder; `None` if there is none, if it is not ours, if it is a link, or if it lists
-    /// files that are not in the folder.
+    /// Reads the manifest of a folder. `None` if it is missing, is a symbolic link, comes from another program, or lists files outside of
+    /// the folder.
     pub fn read(folder: &Path) -> Option<Manifest> {
         #[derive(Deserialize)]
         struct File {
@@ -51,32 +50,32 @@ impl Manifest {
         ours.then_some(Manifest { head: file.head, files: file.files })
     }
 
-    /// The warnings of the run that the scripts belong to.
+    /// Returns the warnings of the run that the scripts belong to.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         self.head.warnings.iter().filter_map(Warning::diagnostic).collect()
     }
 
-    /// Whether all files have been written.
+    /// Returns true if all files of the folder have been written.
     pub fn is_complete(&self) -> bool {
         self.head.state == State::Complete
     }
 }
 
-/// A file of an output folder.
+/// A file in a manifest: its name, length and digest.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(from = "Line")]
 pub struct Entry {
-    /// The number of the frame, for a script.
+    /// The number of the frame, if the file is a script of a frame.
     pub frame: Option<usize>,
-    /// Its name; for a file in a subfolder, its path with `/`.
+    /// The name of the file. For a file in a subfolder, its path with `/`.
     pub name: String,
-    /// Its length in bytes.
+    /// The length of the file in bytes.
     pub bytes: u64,
-    /// The SHA-256 of its bytes.
+    /// The SHA-256 of the file's bytes.
     pub sha256: [u8; 32],
 }
 
-/// A file as a manifest lists it.
+/// A file as the JSON of a manifest lists it.
 #[derive(Deserialize)]
 struct Line {
     name: String,
@@ -92,7 +91,7 @@ impl From<Line> for Entry {
     }
 }
 
-/// A digest in hexadecimal.
+/// Reads a SHA-256 from 64 hexadecimal digits.
 fn digest<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[u8; 32], D::Error> {
     let text = String::deserialize(deserializer)?;
     let wrong = || serde::de::Error::custom("not a SHA-256 in hexadecimal");
@@ -107,31 +106,31 @@ fn digest<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[u8; 32], D::Err
 }
 
 impl Entry {
-    /// The entry of a file that holds these bytes.
+    /// Makes the manifest entry of a file that consists of these bytes.
     pub(super) fn of(frame: Option<usize>, name: String, bytes: &[u8]) -> Entry {
         Entry { frame, name, bytes: bytes.len() as u64, sha256: Sha256::digest(bytes).into() }
     }
 
-    /// Whether its name is a path that stays in the folder.
+    /// Returns true if the name is a relative path that stays inside the folder.
     fn is_inside(&self) -> bool {
         let mut parts = Path::new(&self.name).components().peekable();
         parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
     }
 
-    /// Its digest in hexadecimal, as `sha256sum` prints it.
+    /// Returns the SHA-256 in hexadecimal, as `sha256sum` prints it.
     pub fn hex(&self) -> String {
         self.sha256.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
-/// A warning of a run, as a manifest keeps it.
+/// A warning of a run, as the manifest stores it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warning {
-    /// The kind of warning: `energy-drift`.
+    /// The name of the warning's diagnostic code, such as `energy-drift`.
     pub code: String,
-    /// The message.
+    /// The message of the warning.
     pub message: String,
-    /// A suggestion.
+    /// Advice on how to avoid the warning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub help: Option<String>,
 }
@@ -142,7 +141,7 @@ impl Warning {
         Warning { code: code.name().to_owned(), message, help }
     }
 
-    /// The warning, to be reported again; `None` for an unknown code.
+    /// Returns the warning as a diagnostic. `None` if no warning of a run has this code.
     fn diagnostic(&self) -> Option<Diagnostic> {
         let code = RUN_WARNINGS.into_iter().find(|code| code.name() == self.code)?;
         let warning = Diagnostic::warning(code, self.message.clone());
@@ -153,46 +152,46 @@ impl Warning {
     }
 }
 
-/// The progress of a folder.
+/// How far the writing of an output folder has progressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// Files of another scene may be there.
+    /// Scripts of another scene are being removed, and some may remain.
     Clearing,
-    /// All files are of this scene; some may be missing.
+    /// All scripts belong to this scene, but some may be missing.
     Writing,
-    /// All files are there.
+    /// All files have been written.
     Complete,
 }
 
-/// The head of a manifest: everything but its list of files. Fields added since the first version are optional, so that old
-/// manifests can be read.
+/// The header of a manifest: all of its data except the list of files. Fields that were added after the first version are optional, so
+/// that old manifests can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
-    /// The program that wrote it.
+    /// The name of the program that wrote the manifest.
     pub(super) generator: String,
-    /// The version of that program.
+    /// The version of the program that wrote the manifest.
     pub version: String,
-    /// A digest of its sources: a program from other sources may write other scripts of the same scene.
+    /// A digest of the program's source code. A program from other source code may write other scripts for the same scene.
     #[serde(default)]
     pub build: String,
-    /// The progress of the folder.
+    /// How far the writing of the folder has progressed.
     pub state: State,
     /// The name of the scene.
     pub scene: String,
-    /// The view that shows the scene; absent for the main camera.
+    /// The name of the view whose camera the scripts use. `None` for the scene's main camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// The values of the scene that were replaced: `simulation.step=0.001`.
+    /// The values of the scene that were replaced on the command line, such as `simulation.step=0.001`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<String>,
     /// The digest of the texts that the scene was read from.
     pub digest: String,
-    /// The number of the scene's frames; the folder may hold only some of them.
+    /// The number of the scene's frames. The folder may contain scripts of only some frames.
     pub frames: usize,
-    /// Frames per second.
+    /// The number of frames per second of simulated time.
     pub frame_rate: f64,
-    /// Frames per second of a film, if the scene gives it a rate of its own.
+    /// The number of frames per second of a film. `None` if the scene does not set one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub video_rate: Option<f64>,
     /// The width of the images, pixels.
@@ -201,35 +200,35 @@ pub struct Head {
     /// The height of the images, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<u32>,
-    /// Whether the images have alpha.
+    /// True if the images have an alpha channel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transparent: Option<bool>,
-    /// The time for which the shutter is open, s, if images have motion blur and there are `shutter_` scripts.
+    /// The exposure time of an image with motion blur, s. `None` without motion blur.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shutter: Option<f64>,
-    /// The number of moments in each of those scripts.
+    /// The number of moments that an image with motion blur is the mean of. `None` without motion blur.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
-    /// The energy error, relative to the largest kinetic energy.
+    /// The largest energy error of the run, relative to the largest kinetic energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
     /// The warnings of the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
-    /// While writing: the frames being written.
+    /// The selection of frames whose scripts are being written. `None` once all files have been written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<String>,
 }
 
 impl Head {
-    /// The head of a folder that holds all files of a run.
+    /// Makes the header for a folder that contains all files of a run.
     pub(super) fn new(run: &Run<'_>) -> Head {
         let head = Head::of(run.scene(), run.view(), run.shutter());
         let warnings = run.warnings().into_iter().map(Warning::of).collect();
         Head { drift: Some(run.survey().drift), warnings, ..head }
     }
 
-    /// The part that needs no run of the scene.
+    /// Makes a header from the scene alone, without the energy error and the warnings of its run.
     pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Head {
         Head {
             generator: GENERATOR.to_owned(),
@@ -254,7 +253,8 @@ impl Head {
         }
     }
 
-    /// Whether jabuka can have written it. Impossible numbers would make readers count without end.
+    /// Returns true if jabuka can have written the header. Impossible numbers are refused, since a huge number of frames would make
+    /// readers count forever.
     fn is_ours(&self) -> bool {
         self.generator == GENERATOR
             && is_possible_number_of_frames(self.frames)
@@ -262,45 +262,45 @@ impl Head {
             && self.frame_rate > 0.0
     }
 
-    /// Whether all files of a folder with this manifest are as jabuka would write them now.
+    /// Returns true if both headers have the same program, scene and view, so that jabuka would write the same scripts now.
     pub(super) fn is_of(&self, other: &Head) -> bool {
         let what = |head: &Head| [head.version.clone(), head.build.clone(), head.digest.clone()];
         self.state != State::Clearing && what(self) == what(other) && self.view == other.view
     }
 }
 
-/// Reads the head of a manifest; `None` if there is none, if it is not ours, or if it is a link.
+/// Reads the header of the manifest at a path. `None` if the file is missing, is a symbolic link, or comes from another program.
 pub(crate) fn read(path: &Path) -> Option<Head> {
     let head: Head = serde_json::from_reader(open(path)?).ok()?;
     head.is_ours().then_some(head)
 }
 
-/// Opens a manifest if it is a regular file of a plausible size, and not a link.
+/// Opens a manifest. `None` unless it is a regular file of a plausible size.
 fn open(path: &Path) -> Option<impl io::Read> {
     let metadata = fs::symlink_metadata(path).ok()?;
     let sensible = metadata.is_file() && metadata.len() <= MAX_BYTES;
     sensible.then(|| fs::File::open(path).ok().map(io::BufReader::new))?
 }
 
-/// Writes a manifest, with one line for each file.
+/// Writes a manifest as JSON, with one line for each file.
 pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io::Result<()> {
     write_each(out, head, entries.iter().cloned().map(Ok))
 }
 
-/// Writes a manifest whose list of files is not in memory as a whole.
+/// Writes a manifest as JSON. The entries come from an iterator, so that the whole list need not be in memory.
 pub(super) fn write_each(
     out: &mut impl Write,
     head: &Head,
     entries: impl Iterator<Item = io::Result<Entry>>,
 ) -> io::Result<()> {
     let text = serde_json::to_string_pretty(head)?;
-    // The list of files goes before the closing brace.
+    // The list of files goes before the closing brace of the header's JSON.
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"files\": [")?;
     for (i, entry) in entries.enumerate() {
         let entry = entry?;
         let comma = if i == 0 { "" } else { "," };
-        // A name chosen by somebody else may need escapes.
+        // The file names of assets are arbitrary, so they may need escapes.
         let name = serde_json::to_string(&entry.name)?;
         let (bytes, digest) = (entry.bytes, entry.hex());
         write!(out, "{comma}\n    {{ \"name\": {name}, \"bytes\": {bytes}, \"sha256\": \"{digest}\" }}")?;
@@ -318,7 +318,7 @@ mod tests {
         Head::new(&Run::new(&scene).unwrap())
     }
 
-    /// A folder with a manifest of these entries, whose text is changed.
+    /// Makes a temporary folder that contains a manifest with these entries. `change` edits the text of the manifest.
     fn folder(entries: &[Entry], change: impl Fn(String) -> String) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let mut text = Vec::new();

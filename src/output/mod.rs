@@ -1,7 +1,7 @@
-//! Scripts → files.
+//! Writes scripts into output folders.
 //!
-//! An output folder stays consistent: files appear whole, under their names, or not at all; running again completes a killed
-//! run; and jabuka never touches files that it did not write.
+//! An output folder stays consistent. A file appears under its name only when it is whole. Running a killed command again completes the
+//! folder. jabuka never changes or removes files that it did not write.
 
 mod assets;
 mod compare;

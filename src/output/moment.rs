@@ -1,4 +1,4 @@
-//! The script of a single moment.
+//! Writes the script of a single moment of a run.
 
 use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
@@ -7,14 +7,14 @@ use super::{Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::frame_name;
 
-/// Writes the script of any moment of a run, time in s, in place of all scripts in the folder. Returns the number of the frame
-/// at or before that time, which names the script.
+/// Writes the script of one moment of a run, and removes all other scripts in the folder. `time` (s) may lie between two frames. Returns
+/// the number of the frame at or before that time, which is part of the script's name.
 ///
 /// # Errors
-/// If a file cannot be written, the run becomes non-finite before that time, or the script cannot be made.
+/// If a file cannot be written, a value of the run becomes non-finite before that time, or the script cannot be made.
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
-    // If the script cannot be made, existing files stay.
+    // The script is made before any file is changed, so that existing files stay if this fails.
     let exposure = run.at(time)?;
     let frame = &exposure.frame;
     let script = run.script(frame)?;

@@ -1,4 +1,4 @@
-//! The digest and the length of a file, computed while it is written.
+//! Computes the digest and the length of a file while it is written or read.
 
 use std::fs::File;
 use std::io;
@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::Entry;
 
-/// Counts and digests the pieces of a file.
+/// Computes the SHA-256 and the length of a file from its pieces.
 #[derive(Default)]
 pub(super) struct Tally {
     hash: Sha256,
@@ -16,20 +16,20 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// Counts a piece.
+    /// Adds the next piece of the file.
     pub(super) fn add(&mut self, piece: &[u8]) {
         self.hash.update(piece);
         self.bytes += piece.len() as u64;
     }
 
-    /// The file at a path.
+    /// Reads the file at a path to its end.
     pub(super) fn of_file(path: &Path) -> io::Result<Tally> {
         let mut tally = Tally::default();
         io::copy(&mut File::open(path)?, &mut tally)?;
         Ok(tally)
     }
 
-    /// The entry of the file that consists of the pieces.
+    /// Makes the manifest entry of the file that consists of all added pieces.
     pub(super) fn entry(self, frame: Option<usize>, name: String) -> Entry {
         Entry { frame, name, bytes: self.bytes, sha256: self.hash.finalize().into() }
     }

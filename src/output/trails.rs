@@ -1,4 +1,4 @@
-//! The files with parts of trails, which scripts share.
+//! Writes the include files that hold parts of trails. Several scripts share each of these files.
 
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
@@ -8,7 +8,7 @@ use super::{Folder, OutputError};
 use crate::Run;
 use crate::simulate::Frame;
 
-/// Writes the files with parts of trails into a folder, each once, whichever thread comes first.
+/// Writes each include file with a part of a trail only once, although several threads may need it.
 #[derive(Default)]
 pub(super) struct TrailFiles {
     begun: Mutex<HashSet<String>>,
@@ -16,7 +16,7 @@ pub(super) struct TrailFiles {
 }
 
 impl TrailFiles {
-    /// Writes the files that the script of a frame includes and that do not exist yet.
+    /// Writes the trail files that the script of a frame includes, except those that were written before.
     pub(super) fn put(&self, run: &Run<'_>, folder: &Folder, frame: &Frame) -> Result<(), OutputError> {
         let is_begun =
             |name: &str| !self.begun.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned());
@@ -28,7 +28,7 @@ impl TrailFiles {
         Ok(())
     }
 
-    /// The entries for them in the manifest.
+    /// Returns the manifest entries of all written trail files.
     pub(super) fn into_entries(self) -> Vec<Entry> {
         self.entries.into_inner().unwrap_or_else(PoisonError::into_inner)
     }

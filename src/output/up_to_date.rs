@@ -1,4 +1,4 @@
-//! Checks whether a folder holds everything that a scene would write.
+//! Checks whether a folder already contains exactly the files that a scene gives.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -11,8 +11,8 @@ use crate::emit::{ASSETS, frame_name, shutter_name};
 use crate::scene::{Scene, View};
 use crate::simulate::Selection;
 
-/// The manifest of a folder with exactly the bytes that this program would write for these frames; then the scene need not even
-/// be simulated. `None` if the folder differs, or if that is unknown.
+/// Returns the manifest of a folder that already contains the same bytes that this program would write for the selected frames. The scene
+/// then need not be simulated. `None` if the folder differs, or if a difference cannot be excluded.
 pub fn up_to_date(
     scene: &Scene,
     view: Option<&View>,
@@ -37,7 +37,8 @@ pub fn up_to_date(
     unchanged.then_some(manifest)
 }
 
-/// Whether the folder has copies of the scene's present assets. The digest of the scene does not cover their contents.
+/// Returns true if the folder contains current copies of all assets of the scene. The digest of the scene does not cover the contents of
+/// assets.
 fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
     scene.povray.assets.iter().all(|asset| {
         let name = format!("{ASSETS}/{}", asset.name);
@@ -45,7 +46,7 @@ fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
     })
 }
 
-/// Whether a file matches an entry.
+/// Returns true if a file has the length and the digest of a manifest entry.
 fn is_of(path: &Path, entry: &Entry) -> bool {
     let length = path.metadata().map(|metadata| metadata.len());
     let tally = || Tally::of_file(path).map(|tally| tally.entry(entry.frame, entry.name.clone()));

@@ -1,4 +1,4 @@
-//! All selected scripts of a run into a folder.
+//! Writes all selected scripts of a run into a folder.
 
 use std::collections::{HashMap, HashSet};
 use std::fs;
@@ -16,25 +16,25 @@ use crate::emit::{frame_name, shutter_name};
 use crate::scene::Shutter;
 use crate::simulate::{Exposure, Selection};
 
-/// The written files.
+/// A summary of the files that [`write`] has written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// The number of scripts.
+    /// The number of frames whose scripts were written.
     pub scripts: usize,
-    /// The bytes of all files but the manifest.
+    /// The total length of the written files, without the manifest, in bytes.
     pub bytes: u64,
-    /// The number of kept scripts of other frames of the scene.
+    /// The number of other frames of the same scene whose scripts were kept.
     pub kept: usize,
-    /// The number of removed scripts of other frames. They were of another scene, or of this one before it was changed.
+    /// The number of other frames whose scripts were removed. They belonged to another scene, or to this scene before it was changed.
     pub removed: usize,
 }
 
-/// Writes the selected scripts of a run, and the files that render the whole sequence. `done` is called for every script.
+/// Writes the selected scripts of a run, and the files that render the whole sequence. `done` is called after every frame.
 ///
-/// The manifest exists from the first moment to the last: it marks the folder of a killed run as incomplete.
+/// The manifest is written first, and again when all files are there. In between, it marks the folder as incomplete, also after a crash.
 ///
 /// # Errors
-/// If a file cannot be written, the run becomes non-finite, or a script cannot be made.
+/// If a file cannot be written, a value of the run becomes non-finite, or a script cannot be made.
 pub fn write(
     run: &Run<'_>,
     folder: &Folder,
@@ -48,7 +48,7 @@ pub fn write(
     };
     let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
     let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
-    // Files that this run does not touch stay in the manifest, so that later runs still recognize edits of them.
+    // The manifest goes on listing the scripts of unselected frames, so that later commands still recognize edits of them.
     let is_untouched =
         |entry: &Entry| unchanged && entry.frame.is_some_and(|frame| !selection.contains(frame));
     let (untouched, touched): (Vec<Entry>, Vec<Entry>) = old.into_iter().partition(is_untouched);
@@ -87,27 +87,27 @@ pub fn write(
     Ok(written)
 }
 
-/// The number of frames that have one of these scripts. The scripts are in the order of frames, or side by side for each frame.
+/// Counts the frames that have one of these scripts. The scripts of one frame must be adjacent.
 fn frames(entries: &[Entry]) -> usize {
     entries.chunk_by(|a, b| a.frame == b.frame).count()
 }
 
-/// The scripts that a run has written.
+/// The scripts that a command has written, with their sizes and digests.
 struct Scripts {
     ledger: Ledger,
-    /// The number of frames of the scene.
+    /// The total number of frames of the scene.
     scene_frames: usize,
-    /// The number of scripts of a frame: with motion blur, two.
+    /// The number of scripts for each frame: 2 with motion blur, otherwise 1.
     per_frame: usize,
-    /// The number of frames that have scripts now.
+    /// The number of frames whose scripts were written.
     frames: usize,
-    /// The bytes of all of them.
+    /// The total length of the written scripts, in bytes.
     bytes: u64,
 }
 
 impl Scripts {
-    /// Writes the selected scripts. The frames come one after another, as the recording has them; whichever thread is
-    /// free takes the next, so there are never more frames in memory than threads.
+    /// Writes the selected scripts. The recording yields the frames in order, and any free thread takes the next. So there are never more
+    /// frames in memory than threads.
     fn write(
         run: &Run<'_>,
         folder: &Folder,
@@ -145,7 +145,7 @@ impl Scripts {
         Ok(Scripts { ledger, scene_frames, per_frame, frames, bytes })
     }
 
-    /// The entries of the scripts and other entries, merged in their order.
+    /// Yields the manifest entries of the written scripts, merged with other sorted entries, in the order of the manifest.
     fn merged(&self, others: Vec<Entry>, selection: &Selection) -> impl Iterator<Item = io::Result<Entry>> {
         let frames = (0..self.scene_frames).filter(|&frame| selection.contains(frame));
         let mut scripts = frames
@@ -170,12 +170,12 @@ impl Scripts {
     }
 }
 
-/// First the files of the whole sequence, then the scripts in their order.
+/// Compares two entries by their order in the manifest: first the files of the whole sequence, then the scripts by frame.
 fn in_order(a: &Entry, b: &Entry) -> std::cmp::Ordering {
     (a.frame, &a.name).cmp(&(b.frame, &b.name))
 }
 
-/// Writes the script of an image with motion blur, moment by moment.
+/// Writes the script of an image with motion blur, one moment after another. Returns its manifest entry.
 pub(super) fn put_blurred(
     run: &Run<'_>,
     folder: &Folder,
@@ -201,7 +201,7 @@ pub(super) fn put_blurred(
     Ok(digest.entry(Some(frame.index), name))
 }
 
-/// The trail files of kept scripts. They keep their old entries, if the manifest had them.
+/// Returns the manifest entries of the trail files that were in the folder before and stay. Entries of the old manifest are reused.
 fn kept_trails(
     folder: &Folder,
     written: &[Entry],
@@ -212,7 +212,7 @@ fn kept_trails(
     others.map(|name| kept_entry(folder, None, name, known)).collect()
 }
 
-/// The scripts that were in the folder before and stay. They keep their old entries, if the manifest had them.
+/// Returns the manifest entries of the scripts that were in the folder before and stay. Entries of the old manifest are reused.
 fn kept(
     folder: &Folder,
     selection: &Selection,
@@ -222,7 +222,8 @@ fn kept(
     others.map(|(frame, name)| kept_entry(folder, Some(frame), name, known)).collect()
 }
 
-/// The entry of a file that stays: its known entry, so that a later run recognizes an edit, or else one made from its bytes.
+/// Returns the manifest entry of a file that stays in the folder. An entry of the old manifest is reused, so that a later command
+/// recognizes an edit of the file.
 fn kept_entry(
     folder: &Folder,
     frame: Option<usize>,
