@@ -1,4 +1,4 @@
-//! Reads `[label.NAME]`, `[scale_bar]` and `[grid]`.
+//! Reads the labels, the scale bar and the grid of a scene from `[label.NAME]`, `[scale_bar]` and `[grid]`.
 
 mod dotted;
 mod words;
@@ -16,7 +16,7 @@ use crate::scene::{
     ScaleBar, Side,
 };
 
-/// The maximum length of a label's text, bytes: the limit of POV-Ray's strings, minus room for values.
+/// The maximum length of a label's text, in bytes. POV-Ray limits the length of strings, and the values need room.
 const MAX_LENGTH: usize = 160;
 
 pub(super) fn read(
@@ -75,7 +75,7 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
     LabelPlace::Body { body, side: view.choice("side", Side::ALL, Side::name), ghosts }
 }
 
-/// Splits a text into pieces. Reports mistakes at their places.
+/// Splits the text of a label into words and values. Reports mistakes at their source positions.
 fn pieces(
     text: &str,
     span: Span,
@@ -122,7 +122,7 @@ impl Reader<'_, '_, '_> {
         self.context.diagnostics.push(error.at(at, label));
     }
 
-    /// The place in the scene of a part of the text.
+    /// Returns the source span of a byte range of the label's text.
     fn at(&self, range: &Range<usize>) -> Span {
         let source = &self.context.sources.get(self.span.source).text;
         let raw = source.get(self.span.start..self.span.end).unwrap_or_default();
@@ -144,7 +144,7 @@ impl Reader<'_, '_, '_> {
             let meant = format!("${}", &self.text[here.clone()]);
             let at = self.at(&here);
             let warning = warning.at(at, format!("did you mean `{meant}`?"));
-            // In an escaped string, the place is the whole string, and a fix must not replace it.
+            // In an escaped string, the span is the whole string, which the fix must not replace.
             let is_piece = at.end - at.start == length + 1;
             self.context.diagnostics.push(if is_piece {
                 warning.fix(at, meant).fix_is_said()
@@ -185,12 +185,12 @@ impl Reader<'_, '_, '_> {
         Some(Piece::Value { formula, inputs, format })
     }
 
-    /// The variables of the scene that have values.
+    /// Returns the name and the value of each variable of the scene.
     fn variables(&self) -> impl Iterator<Item = (&str, f64)> {
         self.root.variables()
     }
 
-    /// The names that formulas of the label can use, and the measure behind each input.
+    /// Returns the names that formulas of the label can use, and the measure for each input of these formulas.
     fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<Measure>) {
         let mut scope = Scope::default();
         for (name, value) in self.variables() {
@@ -212,9 +212,9 @@ impl Reader<'_, '_, '_> {
             known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
-            // Beside a body, `impacts` means the impacts of that body.
+            // In a label beside a body, `impacts` means the impacts of that body.
             let is_known = measure != RunMeasure::Impacts || has_contacts && !of_body;
-            // Ghosts keep only their look, so the time is the only measure of the run.
+            // A ghost keeps only the state of its own body, so offer the time but no other measure of the run.
             if is_known && (with_run || measure == RunMeasure::Time) {
                 add(name, Measure::Run(measure));
             }
@@ -228,7 +228,7 @@ impl Reader<'_, '_, '_> {
         (scope, inputs)
     }
 
-    /// Reports the errors of a formula that begins at the byte `start` of the text.
+    /// Returns the value of a result, or reports its errors. The formula begins at the byte `start` of the label's text.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),
@@ -240,7 +240,7 @@ impl Reader<'_, '_, '_> {
                 continue;
             }
             let at = self.at(&(start + error.range.start..start + error.range.end));
-            // For an error about variables, omit the long list of all names of labels.
+            // For an unknown name without a similar name, do not list all names that labels know.
             let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
             let diagnostic = Diagnostic::error(error.code, error.message);
             let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
@@ -261,7 +261,8 @@ impl Reader<'_, '_, '_> {
     }
 }
 
-/// The same letter in POV-Ray's font, or a similar one: a dash for the minus sign. `None` if the font has none.
+/// Returns the character of POV-Ray's font for a character: the same, or a similar one, such as a dash for a minus sign. `None` if the
+/// font has no such character.
 fn letter_of(letter: char) -> Option<char> {
     match letter {
         '−' => Some('–'),
@@ -287,7 +288,7 @@ fn letter_of(letter: char) -> Option<char> {
     }
 }
 
-/// Reads a number format: `.2` or `.2e`.
+/// Parses a number format, such as `.2` or `.2e`.
 fn format_of(text: &str) -> Option<Format> {
     let text = text.trim();
     let (digits, scientific) = match text.strip_suffix(['e', 'E']) {

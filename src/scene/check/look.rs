@@ -1,4 +1,4 @@
-//! Reads `look` of a body, `[light.NAME]`, `[environment]` and `[output]`.
+//! Reads the `look` of bodies, `[light.NAME]`, `[environment]` and `[output]`.
 
 use glam::DVec3;
 
@@ -10,13 +10,13 @@ use crate::scene::{
     Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Simulation, Sky,
 };
 
-/// Reads `look` of a body.
+/// Reads the `look` of a body: the scale at which it is drawn, and its raw SDL.
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
     let look = view.table("look");
     if shape.is_unbounded() {
         let warning = Diagnostic::warning(Code::NoEffect, format!("`scale` of `{name}` has no effect"));
         context.diagnostics.extend(look.key_span("scale").map(|span| warning.at(span, "a plane is endless")));
-        // Without a material, a template draws the whole plane and has no place for raw SDL.
+        // The template for a plane without a material draws the whole plane and cannot insert raw SDL.
         for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has("material")) {
             let message = format!("`material` is missing in [body.{name}]");
             let error = Diagnostic::error(Code::MissingKey, message);

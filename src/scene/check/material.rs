@@ -1,11 +1,11 @@
-//! Reads `[material.NAME]`, and the material of a body.
+//! Reads materials from `[material.NAME]` and from the `material` of bodies.
 
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{Color, Finish, LibraryMaterial, Look, Material};
 
-/// Reads the materials of the scene.
+/// Reads the materials in all `[material.NAME]` tables.
 pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> {
     let tables = root.named("material").into_iter();
     tables
@@ -13,7 +13,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> Vec<Material> 
         .collect()
 }
 
-/// Reads the look in a table.
+/// Reads the look of a material from its table.
 pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) -> Look {
     if let Some(texture) = view.shared_text("texture") {
         is_declared(&texture, view, root, context);
@@ -36,7 +36,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
     }
 }
 
-/// Reports a texture that nothing in the scene can declare.
+/// Reports a texture in a scene that has neither include files nor SDL, so that nothing can declare the texture.
 fn is_declared(texture: &str, view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) {
     let povray = root.table("povray");
     if povray.has("include") || povray.has("sdl") {

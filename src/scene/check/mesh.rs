@@ -1,4 +1,4 @@
-//! Reads `shape.mesh` and `shape.heightfield`: files of triangles and heights.
+//! Reads meshes and heightfields from the files that `shape.mesh` and `shape.heightfield` name.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -11,41 +11,44 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Flaw, Mesh, Shape};
 use crate::scene::{Camera, Layout, Output, Simulation, mesh};
 
-/// The meshes read so far. A mesh that several bodies name is read and written once.
+/// The meshes read so far. Bodies that name the same file with the same settings share one mesh.
 #[derive(Default)]
 pub(super) struct Meshes {
     known: HashMap<Key, Result<Arc<Mesh>, String>>,
-    /// The path and the digest of each file, in the order in which the scene names them.
+    /// The path and the SHA-256 digest of each mesh file, in the order in which the scene names them.
     files: Vec<(PathBuf, [u8; 32])>,
-    /// For each mesh, the place that names it first, and its number of triangles.
+    /// For each mesh, the source span that first names it, and its number of triangles.
     sizes: Vec<(Span, usize)>,
-    /// How often each file has been read again with other settings.
+    /// The number of times that each file has been read again with other settings.
     readings: HashMap<PathBuf, usize>,
-    /// The number of triangles of all meshes.
+    /// The total number of triangles in all meshes.
     triangles: usize,
 }
 
-/// The maximum number of times that one file is read again with other settings.
+/// The maximum number of times that one mesh file is read again with other settings.
 const MOST_READINGS: usize = 1000;
-/// If all meshes have more triangles than this, no file is read again.
+/// The total number of triangles above which no file is read again with other settings.
 const MOST_TRIANGLES: usize = 4_000_000;
 
-/// The path of a file, and the bits of the settings for reading it.
+/// Identifies a mesh: the path of its file, and the bits of the settings with which the file is read.
 type Key = (PathBuf, Vec<u64>);
 
-/// The total size of all scripts, bytes, above which a warning suggests another layout.
+/// The total size of all scripts, in bytes, above which a warning suggests the layout `shared`.
 const LARGE: f64 = 5e8;
-/// The size of a triangle in a script, bytes: the indices of its three vertices, and about half a vertex of three
-/// coordinates.
+/// The estimated size of a triangle in a script, in bytes: the indices of its three vertices, and half a vertex with three coordinates.
 const BYTES_OF_A_TRIANGLE: f64 = 45.0;
 
 impl Meshes {
-    /// The digests of the files, in the order in which the scene names them.
+    /// Returns the SHA-256 digests of the mesh files, in the order in which the scene names them.
     pub(super) fn digests(&self) -> impl Iterator<Item = &[u8; 32]> {
         self.files.iter().map(|(_, digest)| digest)
     }
 
-    /// Returns the mesh of a file for these settings. Reads it if necessary. The error says why the file has no mesh.
+    /// Returns the mesh of a file for these settings, and reads the file only the first time.
+    ///
+    /// # Errors
+    ///
+    /// Returns the reason if the file cannot be read as a mesh, or if there are too many meshes.
     fn get(
         &mut self,
         path: PathBuf,
@@ -82,8 +85,7 @@ impl Meshes {
         mesh
     }
 
-    /// The warning that every script repeats the meshes and that the scripts become too large. `None` if they are
-    /// small.
+    /// Returns a warning that the scripts become too large because each of them repeats the meshes. `None` if the scripts are small.
     #[allow(clippy::cast_precision_loss, reason = "an estimate")]
     pub(super) fn too_large_to_repeat(
         &self,
@@ -104,7 +106,7 @@ impl Meshes {
     }
 }
 
-/// Reads a mesh. `None` if a value is missing or wrong.
+/// Reads the shape `mesh`. `None` if a value is missing or wrong.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let scale = view.number("scale")?;
     let smooth = smooth(view);
@@ -114,7 +116,7 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> 
     Some(Shape::Mesh { mesh: mesh?, scale })
 }
 
-/// Reads a heightfield. `None` if a value is missing or wrong.
+/// Reads the shape `heightfield`. `None` if a value is missing or wrong.
 pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let size = view.vector("size")?;
     let smooth = smooth(view);
@@ -125,7 +127,7 @@ pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<
     Some(Shape::Mesh { mesh: mesh?, scale: 1.0 })
 }
 
-/// Reads the mesh in the file of a table, once for the same settings.
+/// Returns the mesh of the file that the table names. Reports an error if the file is not a mesh.
 fn file(
     view: &View<'_>,
     context: &mut Context<'_>,
@@ -144,7 +146,7 @@ fn file(
     }
 }
 
-/// The largest angle between two faces whose common edge is smoothed, rad.
+/// Reads the largest angle between two faces whose common edge is drawn smooth, rad. `None` if no edge is smooth.
 fn smooth(view: &View<'_>) -> Option<f64> {
     match view.boolean("smooth") {
         Some(true) => Some(std::f64::consts::PI),
@@ -153,7 +155,7 @@ fn smooth(view: &View<'_>) -> Option<f64> {
     }
 }
 
-/// The error for a mesh that does not enclose a solid. `None` if it does.
+/// Returns the error for a mesh that does not enclose a solid. `None` for a closed mesh and for other shapes.
 pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
     let Shape::Mesh { mesh, .. } = shape else { return None };
     let span = view.span("file")?;

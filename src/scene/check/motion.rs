@@ -1,4 +1,4 @@
-//! Reads `motion` of a body.
+//! Reads the prescribed motion of bodies from the key `motion`.
 
 use std::sync::Arc;
 
@@ -15,15 +15,15 @@ use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{TimeFormula, TimedVector};
 
-/// The maximum number of places in all tracks together. Rows of files that several bodies share with different
-/// orientations count once for each orientation.
+/// The maximum number of keyframes in all tracks together. If bodies with different orientations share the rows of a file, the rows count
+/// once for each orientation.
 const MAX_PLACES: usize = 2_000_000;
-/// The maximum number of operations for finding frames at which a formula has no value. Beyond it, the check samples
-/// some frames, and the run reports errors at the others.
+/// The maximum number of formula operations for finding frames at which a formula has no finite value. If the limit is reached, the check
+/// evaluates only some frames, and the run reports errors at the other frames.
 pub(super) const MAX_OPERATIONS: u64 = 50_000_000;
 
-/// Reads a given motion, and when the body is present. `None` if the body has no given motion. `presence` follows
-/// from the body's own keys.
+/// Reads the prescribed motion of a body, and the times at which the body is present. `None` if the body has no prescribed motion.
+/// `presence` comes from the body's keys `start` and `end`.
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
@@ -49,7 +49,7 @@ pub(super) fn read(
     Some((motion, of_file.and(presence)))
 }
 
-/// Warns that `location` has no effect, even if a `repeat` sets it.
+/// Warns that the `location` of a body has no effect because its motion gives the location.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
     let warning = Diagnostic::warning(Code::NoEffect, format!("`location` of `{name}` has no effect"));
     let why = "its motion says where it is";
@@ -92,12 +92,12 @@ fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrien
     }
 }
 
-/// Reports the first frame at which a formula, or a formula in a list, has no value.
+/// Reports the first frame at which a formula has no finite value. If `node` is a list, checks each formula in the list.
 pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut Context<'_>) {
     finite_while(&Presence::ALWAYS, node, simulation, context);
 }
 
-/// Like [`finite`], but only for frames at which the body is present.
+/// Like [`finite`], but checks only the frames at which the body is present.
 fn finite_while(
     presence: &Presence,
     node: Option<&Node>,
@@ -129,7 +129,7 @@ fn finite_while(
     }
 }
 
-/// The frames at which a formula is evaluated: all of them, or as many evenly spaced frames as are affordable.
+/// Returns the frames at which a formula is evaluated: all frames, or evenly spaced ones if too few operations are left.
 fn some_frames(
     formula: &TimeFormula,
     frames: usize,
@@ -173,7 +173,7 @@ fn by_keyframes(
     Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
 }
 
-/// Whether another track with this many places is affordable. Reports an error if not.
+/// Adds a track with this many keyframes to the total. Returns false and reports an error if the total exceeds its limit.
 fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> bool {
     context.places = context.places.saturating_add(places);
     if context.places <= MAX_PLACES
@@ -188,7 +188,8 @@ fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> boo
     false
 }
 
-/// Reads the tracks of a camera's location and of its target. `None` if the scene does not give them.
+/// Reads the keyframes of a camera. Returns the track of its location and the track of its target. A track is `None` if the scene does not
+/// give it.
 pub(super) fn camera_keyframes(
     view: &View<'_>,
     look_at: Option<DVec3>,
@@ -223,7 +224,7 @@ pub(super) fn camera_keyframes(
     })
 }
 
-/// Reports a keyframe that is not later than the keyframe before.
+/// Returns true and reports an error if a keyframe is not later than the preceding one.
 fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: &mut Context<'_>) -> bool {
     if let Some((before, other)) = last.filter(|(before, _)| *before >= time) {
         let message = format!("a keyframe at {time} s stands after one at {before} s");
@@ -278,7 +279,7 @@ fn by_trajectory(
     if let Some((track, presence)) = context.tracks.get(&same) {
         return Some((BodyMotion::Track(track.clone()), presence.clone()));
     }
-    // The size of the file limits the first track from its rows, so count only further tracks.
+    // The file's size limits the first track from these rows, so count only further tracks.
     let is_copied = !context.rows.insert(same.address);
     if is_copied && !has_room(keys.len(), Some(span), context) {
         return None;
@@ -293,20 +294,20 @@ fn by_trajectory(
     Some((BodyMotion::Track(track), presence))
 }
 
-/// The rows of a file, and the settings for making a track from them.
+/// Identifies a track: the rows of a file, and the settings for making the track. Bodies with equal keys share one track.
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct Rows {
-    /// The address of the body's rows in memory. Files stay in memory, so the address identifies the rows.
+    /// The memory address of the body's rows. Files stay in memory, so the address identifies the rows.
     address: usize,
-    /// The bits of the body's orientation, if the rows give none.
+    /// The bits of the body's orientation quaternion. `None` if the rows give the orientation.
     orientation: Option<[u64; 4]>,
     is_linear: bool,
 }
 
-/// Returns the recording in a table's file. `None` if the file has errors, which have been reported.
+/// Returns the recording in the file that the table names. `None` if the file has errors, which have been reported.
 fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
     let node = view.raw("file")?;
-    // An error in the path has been reported.
+    // An error in the path has already been reported.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
     let columns = Columns::read(&view.table("columns"));
     trajectory::read(&path, node.as_str().unwrap_or_default(), &columns, span, context)

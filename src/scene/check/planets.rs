@@ -1,4 +1,4 @@
-//! Checks for planetary integrators, which advance free bodies around a heavy body by gravitation alone.
+//! Checks scenes with a planetary integrator, which moves free bodies around a heavy body by gravitation alone.
 
 use glam::DVec3;
 
@@ -8,10 +8,10 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::{Body, Force, ForceKind, Simulation};
 
-/// The minimum ratio of the heavy body's mass to the mass of all other bodies together.
+/// The minimum ratio of the heaviest body's mass to the total mass of the other bodies.
 const HEAVY: f64 = 20.0;
 
-/// Reports everything that a planetary integrator cannot advance.
+/// Reports all forces and bodies that a planetary integrator does not support. Does nothing for other integrators.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &Simulation,

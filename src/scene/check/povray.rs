@@ -1,4 +1,4 @@
-//! Reads `[povray]`.
+//! Reads the table `[povray]`.
 
 use std::path::{Component, Path};
 
@@ -10,7 +10,7 @@ use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay};
 
-/// The maximum size of an include file, bytes. Every script contains the file.
+/// The maximum size of an include file, in bytes. Every script contains the whole file.
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
 
 pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
@@ -28,11 +28,15 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
     }
 }
 
-/// Finds an include file: one of POV-Ray's own, or a file beside the scene. Its text is checked elsewhere.
+/// Finds an include file: one of POV-Ray's own, or a file in the scene's folder. Does not check the text of the file.
+///
+/// # Errors
+///
+/// Returns an error if the name is unusable, or if the file is missing, too large or not allowed without `--trust`.
 pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Include, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    // The script writes the name in a string, so the name must not end that string.
+    // The script has the name in a string literal, which the name must not terminate.
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
         let message = format!("`{name}` cannot be the name of an include file");
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
@@ -73,7 +77,7 @@ fn include_text(
 ) -> Result<Include, Diagnostic> {
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
     let cannot_read = |e: std::io::Error| error(Code::MissingInclude, format!("cannot read `{name}`: {e}"));
-    // A symbolic link inside the folder may point outside it.
+    // Resolve symbolic links: a link inside the folder may point outside it.
     let real = path.canonicalize().map_err(cannot_read)?;
     let inside =
         folder.and_then(|folder| folder.canonicalize().ok()).is_some_and(|folder| real.starts_with(folder));
@@ -91,7 +95,7 @@ fn include_text(
     Ok(Include::Text { name: name.to_owned(), text })
 }
 
-/// The warning that POV-Ray code does not replace `${…}` by a value, as a label does. `None` if the code has no `${`.
+/// Returns a warning that raw SDL contains `${…}`: unlike in a label, it is not replaced by a value. `None` if the SDL has no `${`.
 pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<Diagnostic> {
     let start = text.find("${")?;
     let end = text[start..].find('}').map_or(text.len(), |length| start + length + 1);

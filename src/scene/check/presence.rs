@@ -1,4 +1,4 @@
-//! The times at which a body is present: `start` and `end`, and the rows of its trajectory file.
+//! Reads the times at which a body is present, from its keys `start` and `end` and from the rows of its trajectory file.
 
 use super::Context;
 use super::read::figure;
@@ -7,10 +7,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Key, Presence};
 use crate::scene::Simulation;
 
-/// A body is absent between two rows if their interval exceeds the usual interval by this factor.
+/// The ratio of an interval between two rows to the median interval above which the body may be absent during the interval.
 const GAP: f64 = 1.5;
 
-/// Reads when a body is present from its own keys.
+/// Reads the times at which a body is present from its keys `start` and `end`.
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
@@ -32,7 +32,7 @@ pub(super) fn read(
     Presence::during(&[[start.map_or(f64::NEG_INFINITY, at), end.map_or(f64::INFINITY, at)]])
 }
 
-/// Warns of a body that is never present in the run.
+/// Warns of a body that is never present during the run.
 pub(super) fn never(
     name: &str,
     view: &View<'_>,
@@ -51,11 +51,11 @@ pub(super) fn never(
     context.diagnostics.push(warning.at(span, label));
 }
 
-/// When a body with rows in a trajectory file is present: from its first row to its last, except in gaps. Also
+/// Returns the times at which a body is present according to its trajectory file: from its first row to its last row, except in gaps. Also
 /// returns the index of each row after a gap.
 ///
-/// A gap is an interval between two rows of the body that is longer than [`GAP`] times the median interval, and in
-/// which the file has rows of other bodies.
+/// A gap is an interval between two rows of the body that is longer than [`GAP`] times the median interval, and in which the file has rows
+/// of other bodies.
 pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (Presence, Vec<usize>) {
     let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
         return (Presence::ALWAYS, Vec::new());
@@ -81,7 +81,8 @@ pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (
     (Presence::during(&intervals), gaps)
 }
 
-/// Rounds the times to frames. A time less than one frame from the start or the end of the run becomes infinite.
+/// Rounds the first and the last time of a file to frames. A time less than one frame from the start or the end of the run becomes
+/// infinite.
 fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
     let frame = (1.0 - 1e-6) / simulation.frame_rate;
     let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };
@@ -89,7 +90,7 @@ fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
     [begin, end]
 }
 
-/// Warns of a file whose rows begin later than the run or end earlier.
+/// Warns of a trajectory file that begins after the start of the run or ends before the end of the run.
 pub(super) fn short(
     file: &str,
     times: &[f64],

@@ -1,7 +1,7 @@
-//! Checks raw SDL: without `--trust`, it must not reach for files.
+//! Checks raw SDL: without `--trust`, SDL must not access files that the scene does not list.
 //!
-//! POV-Ray obeys a script: it opens, overwrites and includes any file that its user can. So raw SDL in a scene is
-//! code, and a downloaded scene must not run code that reaches for files.
+//! POV-Ray obeys a script: it opens, overwrites and includes any file that its user can access. Raw SDL in a scene is therefore code, and
+//! a downloaded scene must not run code that accesses files.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -14,23 +14,23 @@ use crate::scene::grammar::Kind;
 use crate::scene::sdl::{FileKind, Refusal, Where, Why, files, refusals};
 use crate::scene::source::{Node, Table, Value, file};
 
-/// The maximum size of an asset that is read as SDL, bytes.
+/// The maximum size of an asset that is read as SDL, in bytes.
 const MAX_BYTES: u64 = 64 << 20;
 
-/// The endings of assets that are SDL, wherever they are included from.
+/// The file extensions of assets that are checked as SDL.
 const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 
-/// The files that the SDL of an untrusted scene may name.
+/// The files that the raw SDL of an untrusted scene may name.
 #[derive(Default)]
 pub(super) struct Assets {
-    /// The path of each file, by its name in SDL.
+    /// The path of each file, by the file's name in SDL.
     files: HashMap<String, PathBuf>,
-    /// The names of the files that have been read as SDL.
+    /// The names of the files that have been checked as SDL.
     read: HashSet<String>,
 }
 
 impl Assets {
-    /// Lists the scene's assets. Mistakes in the list are reported elsewhere.
+    /// Reads the scene's list of assets. Skips wrong entries, which are reported elsewhere.
     pub(super) fn of(root: &Table, folder: Option<&Path>, trust: bool) -> Assets {
         let povray = root.get("povray").and_then(|entry| entry.node.as_table());
         let list = povray.and_then(|povray| povray.get("assets")).map(|entry| &entry.node.value);
@@ -47,7 +47,7 @@ impl Assets {
     }
 }
 
-/// Reports mistakes in the SDL of a value.
+/// Reports mistakes in the raw SDL of a value, such as file access without `--trust` and unmatched braces.
 pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     let Some(text) = node.as_str() else {
         return context.diagnostics.push(super::read::wrong_type(node, &Kind::Sdl(place)));
@@ -71,7 +71,7 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     }
 }
 
-/// Reports mistakes in the text of an include file. `span` is the place in the scene that names the file.
+/// Reports mistakes in the SDL of an include file. `span` is the source span that names the file in the scene.
 pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     if context.trust {
         trusted(text, span, context);
@@ -91,7 +91,7 @@ pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Co
     }
 }
 
-/// Reports mistakes in an asset of the scene if its ending is an ending of SDL.
+/// Reports mistakes in an asset if its file extension shows that it contains SDL.
 pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
     if ending.is_some_and(|ending| ENDINGS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
@@ -99,14 +99,14 @@ pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// Reads an asset as SDL, once, and reports mistakes.
+/// Reads an asset as SDL and reports mistakes. Does nothing if the asset has been checked before.
 fn included(name: &str, span: Span, context: &mut Context<'_>) {
     let Some(path) = context.assets.path(name).map(Path::to_owned) else { return };
     if context.trust || !context.assets.read.insert(asset::below(name).unwrap_or_default()) {
         return;
     }
     match file::read(&path, MAX_BYTES) {
-        // Old include files have other encodings. Only letters in comments and strings differ.
+        // Replace invalid UTF-8: old include files have other encodings, which differ only in comments and strings.
         Ok(bytes) => check_include(name, &String::from_utf8_lossy(&bytes), span, context),
         Err(error) => {
             let code = match error.kind() {

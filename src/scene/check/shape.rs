@@ -1,4 +1,4 @@
-//! Reads `shape`.
+//! Reads the key `shape` of bodies.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::{Context, body, mesh};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Compound, Part, Shape};
 
-/// Reads the physical shape of a body. A missing or wrong shape has been reported; a placeholder takes its place.
+/// Reads the physical shape of a body. Returns a placeholder for a missing or wrong shape, whose error has already been reported.
 pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Shape {
     if let Some(plane) = view.variant("plane") {
         let normal = plane.direction::<3>("normal").unwrap_or_default();
@@ -32,7 +32,7 @@ pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Sh
     mesh_or_solid(view, context).unwrap_or(Shape::Sphere { radius: 1.0 })
 }
 
-/// Reads a mesh or a solid. The mesh may be open. `None` if a value is missing or wrong.
+/// Reads a mesh or a solid. Does not check whether the mesh is closed. `None` if a value is missing or wrong.
 fn mesh_or_solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     match view.variant("mesh") {
         Some(mesh) => mesh::read(&mesh, context),
@@ -40,7 +40,7 @@ fn mesh_or_solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     }
 }
 
-/// Reads a compound. `None` if all of its parts are missing or wrong.
+/// Reads the parts of a compound shape. `None` if all of its parts are missing or wrong.
 fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let mut parts = Vec::new();
     for part in view.tables("parts") {
@@ -57,7 +57,7 @@ fn compound(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<Sh
     (!parts.is_empty()).then(|| Shape::Compound(Compound::new(parts)))
 }
 
-/// Reads a solid of finite size. `None` if a number is missing or wrong.
+/// Reads a solid of finite size, such as a sphere or a box. `None` if a number is missing or wrong.
 fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     if let Some(sphere) = view.variant("sphere") {
         return Some(Shape::Sphere { radius: sphere.number("radius")? });
@@ -100,7 +100,7 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     Some(Shape::Torus { radius, tube_radius })
 }
 
-/// Reports a shape that cannot exist.
+/// Reports a shape that is geometrically impossible.
 fn impossible(view: &View<'_>, key: &str, what: &str, why: &str, context: &mut Context<'_>) {
     let error = Diagnostic::error(Code::ImpossibleShape, what);
     context.diagnostics.extend(view.span(key).map(|span| error.at(span, why)));

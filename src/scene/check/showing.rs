@@ -1,4 +1,4 @@
-//! Reads the physics shown beside a body or a spring.
+//! Reads the physical quantities that are drawn beside a body or a spring, such as arrows and trails.
 
 use super::Context;
 use super::view::View;
@@ -6,10 +6,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::Shape;
 use crate::scene::{Arrow, BodyAxes, Ghosts, Quantity, Showing, Simulation, SpringLine, SpringLook, Trail};
 
-/// The maximum number of ghosts of a body.
+/// The maximum number of ghosts of a body, which are its drawn past positions.
 const MAX_GHOSTS: f64 = 10_000.0;
 
-/// Reads the physics shown beside a body. `fixed` says whether the body is fixed.
+/// Reads the arrows, axes, ghosts and trail of a body. Warns of keys that have no effect for a plane or a fixed body.
 pub(super) fn of_body(
     name: &str,
     view: &View<'_>,
@@ -49,7 +49,8 @@ pub(super) fn of_body(
     showing
 }
 
-/// Reports arrows for loads that do not exist: a weight without gravity, or contact forces without contacts.
+/// Reports arrows for loads that cannot exist: warns of a weight without gravity, and reports an error for contact forces without
+/// contacts.
 fn loads_without_cause(
     name: &str,
     arrows: &View<'_>,
@@ -76,7 +77,7 @@ fn loads_without_cause(
     }
 }
 
-/// Reads the ghosts of a body. Reports an error and returns `None` if there are too many.
+/// Reads the ghosts of a body. Reports an error and returns `None` if there are too many ghosts.
 fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
     if simulation.duration / every <= MAX_GHOSTS {
@@ -89,7 +90,7 @@ fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>
     None
 }
 
-/// Reads an arrow. `None` if the scene asks for no arrow.
+/// Reads an arrow's scale and color. `None` if the scene does not switch the arrow on.
 pub(super) fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
     let arrow = wanted(arrows, key)?;
     Some(Arrow { scale: arrow.number("scale"), color: arrow.color("color") })
@@ -128,7 +129,8 @@ pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<Spr
     })
 }
 
-/// The table under a key that takes `true` or a table; an empty table for `true`. `None` if the scene gives neither.
+/// Returns the table under a key that takes `true` or a table. The table is empty for `true`. `None` if the value is `false` or the key is
+/// missing.
 pub(super) fn wanted<'a>(view: &View<'a>, key: &str) -> Option<View<'a>> {
     (view.boolean(key) == Some(true) || view.variant(key).is_some()).then(|| view.table(key))
 }

@@ -1,4 +1,4 @@
-//! Reads `[simulation]`.
+//! Reads the table `[simulation]`.
 
 use super::Context;
 use super::contact;
@@ -9,7 +9,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::Simulation;
 
-/// Reads the simulation, with its numbers of frames and timesteps. If no body `needs_steps`, there are no timesteps.
+/// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
+/// freely.
 pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
     let mut simulation = Simulation {
@@ -24,14 +25,14 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
     let Simulation { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };
     if counts.are_too_many() {
-        // A duration of 0 keeps later code from counting so many frames.
+        // Set the duration to 0, so that later code does not count an excessive number of frames.
         simulation.duration = 0.0;
     }
     (simulation, counts)
 }
 
-/// Reports a key that the integrator does not use: `step` of an adaptive integrator, or `tolerance` of any other. An
-/// integrator from `--set` may leave such a key in the scene unused.
+/// Reports a key that the integrator does not use: `step` for an adaptive integrator, `tolerance` for other integrators. Reports nothing
+/// if the integrator comes from `--set`, because the scene was written for another integrator.
 pub(super) fn check(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) {
     let method = simulation.method;
     let (wrong, right, value) =

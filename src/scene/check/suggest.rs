@@ -1,13 +1,13 @@
-//! "Did you mean …?"
+//! Finds the known word that is most similar to an unknown word, for messages such as "did you mean …?".
 
 pub(super) use crate::diagnostic::nearest;
 use crate::scene::grammar::{TableSpec, quoted};
 
-/// The maximum number of comparisons of unknown names with known names in one scene. They take a tenth of a second. A
-/// scene with more unknown names has other problems than spelling.
+/// The maximum number of comparisons between unknown and known names in one scene. This many comparisons take a tenth of a second. A scene
+/// with more unknown names has other problems than spelling.
 pub(super) const MAX_COMPARISONS: usize = 200_000;
 
-/// The key of a table that an unknown key was meant to be. `None` if no key is similar.
+/// Returns the key of a table that an unknown key was probably meant to be. `None` if no key is similar.
 pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     let folded = word.to_lowercase().replace('-', "_");
     let names = || table.keys.iter().map(|key| key.name);
@@ -15,7 +15,7 @@ pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     same.map(|key| key.name).or_else(|| nearest(&folded, names()))
 }
 
-/// The path to a key of an inner table: `shape.sphere.radius` for `radius` in a body.
+/// Returns the path to a key of an inner table, such as `shape.sphere.radius` for `radius` in a body.
 pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
     table.keys.iter().find_map(|key| {
         let inner = key.kind.table()?;
@@ -28,7 +28,7 @@ pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'stat
     })
 }
 
-/// The path to a key of an inner table for a name from another program: `material.color` for `colour` in a body.
+/// Returns the path to a key of an inner table for a name from another program, such as `material.color` for `colour` in a body.
 pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
     let folded = word.to_lowercase();
     table.keys.iter().find_map(|key| {
@@ -39,8 +39,8 @@ pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&
     })
 }
 
-/// The label for an unknown word. `known` are the words that the scene declares, `everywhere` those that every scene
-/// has. `plural` is the noun for them.
+/// Returns the label for an unknown name. `known` are the names that the scene declares, and `everywhere` those that exist in every scene.
+/// `noun` and `plural` say what the names stand for.
 pub(super) fn label(word: &str, known: &[&str], everywhere: &[&str], noun: &str, plural: &str) -> String {
     match (nearest(word, known.iter().chain(everywhere).copied()), known) {
         (Some(near), _) => format!("did you mean `{near}`?"),

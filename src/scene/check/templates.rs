@@ -1,4 +1,4 @@
-//! Reads the user's own templates.
+//! Reads the user's own script templates.
 
 use std::fs;
 use std::path::Path;
@@ -9,10 +9,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::OwnTemplate;
 use crate::scene::source::file;
 
-/// The maximum size of a template, bytes.
+/// The maximum size of a template, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Reads the templates in the folder from the command line or, without one, from the scene.
+/// Reads the templates in the folder `given` on the command line, or else in the folder that the scene names.
 pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Context<'_>) -> Vec<OwnTemplate> {
     if let Some(folder) = given {
         return load(folder, None, context);
@@ -21,7 +21,7 @@ pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Contex
         return Vec::new();
     };
     if !context.trust {
-        // A template is code, just like raw SDL.
+        // Templates need trust because a template is code, like raw SDL.
         let error = Diagnostic::error(Code::UntrustedTemplates, "templates can make scripts do anything");
         let help =
             "if you know this scene and trust it, say `--trust`; or name the folder with `--templates`";
@@ -51,12 +51,15 @@ fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<Own
     }
 }
 
-/// Reads the templates in a folder and its subfolders: files with the name of a built-in template, and include files
-/// for them.
+/// Reads the templates in a folder and its direct subfolders: files with the name of a built-in template, and include files for them.
+///
+/// # Errors
+///
+/// Returns a message if a file cannot be read, or if the folder has no templates.
 fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
     let mut templates = Vec::new();
     collect(folder, "", &mut templates)?;
-    // The file system returns files in any order. Sort them so that the order is always the same.
+    // Sort the templates: the file system lists files in no fixed order.
     templates.sort_by(|a, b| a.name.cmp(&b.name));
     if templates.is_empty() {
         return Err(format!("there are no templates in `{}`", folder.display()));
@@ -64,7 +67,8 @@ fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
     Ok(templates)
 }
 
-/// Adds the templates of a folder. `prefix` is the path of a subfolder and begins each name: `library/metals.inc`.
+/// Adds the templates in a folder to `templates`. `prefix` is the path of a subfolder, with which each name begins, as in
+/// `library/metals.inc`.
 fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Result<(), String> {
     let cannot_read = |error| format!("cannot read the templates in `{}`: {error}", folder.display());
     for entry in fs::read_dir(folder).map_err(cannot_read)? {
@@ -85,5 +89,5 @@ fn collect(folder: &Path, prefix: &str, templates: &mut Vec<OwnTemplate>) -> Res
     Ok(())
 }
 
-/// The endings of templates.
+/// The file extensions of templates.
 const TEMPLATE_ENDINGS: [&str; 3] = [".pov", ".inc", ".ini"];

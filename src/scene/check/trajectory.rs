@@ -1,4 +1,4 @@
-//! Reads trajectories from CSV files: one row for each time and body.
+//! Reads the trajectories of bodies from CSV files, which have one row for each time and body.
 
 mod columns;
 mod fields;
@@ -17,23 +17,23 @@ use crate::dynamics::Key;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
 
-/// The maximum size of a file, bytes: some millions of rows.
+/// The maximum size of a trajectory file, in bytes: enough for some millions of rows.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// The rows of a file, by the name of the body. The name is `None` if the file has no column of bodies.
+/// The rows of a trajectory file, grouped by the name of the body. The name is `None` if the file has no column for the body.
 #[derive(Default)]
 pub(super) struct Recording {
     pub(super) rows: HashMap<Option<String>, Vec<Key>>,
-    /// The times of all rows, in rising order, s.
+    /// The distinct times of all rows, in ascending order, s.
     pub(super) times: Vec<f64>,
-    /// Whether the file gives orientations.
+    /// Whether the file has columns for the orientation.
     pub(super) is_turned: bool,
 }
 
-/// The files read so far. `None` for a file whose errors have been reported.
+/// The trajectory files read so far, by path and names of columns. `None` for a file with errors, which have been reported.
 pub(super) type Recordings = HashMap<(PathBuf, Columns), Option<Arc<Recording>>>;
 
-/// Reads a file, once for all bodies that move by it.
+/// Returns the recording in a trajectory file. Reads each file only once. Returns `None` and reports errors if the file is wrong.
 pub(super) fn read(
     path: &Path,
     name: &str,
@@ -77,7 +77,7 @@ pub(super) fn read(
     recording
 }
 
-/// The error for a recording without rows of the body.
+/// Returns the error for a recording that has no rows of the given body.
 pub(super) fn no_rows(recording: &Recording, body: &str, at: Span) -> Diagnostic {
     let mut names: Vec<&str> = recording.rows.keys().flatten().map(String::as_str).collect();
     names.sort_unstable();

@@ -1,5 +1,4 @@
-//! Compares a tree with the grammar of the language. Reports all errors that can be found without the meaning of the
-//! scene.
+//! Compares the tree of a scene with the grammar. Reports all errors that can be found without interpreting the scene.
 
 use super::habits::Owner;
 use super::{Context, habits, read, sdl, suggest};
@@ -8,14 +7,15 @@ use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
 
-/// Reports every unknown key and every wrong value in a scene.
+/// Reports every unknown key, missing key and wrong value in a scene.
 pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
     table(root, &SCENE, None, "the scene", context);
 }
 
-/// Validates a table. `at` is the place that names the table, and `path` is the table's name in messages.
+/// Validates a table against its grammar `spec`. `at` is the source span that names the table, and `path` is the table's name in
+/// diagnostics.
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
-    // The keys that unknown keys were meant to be. They are not reported as missing.
+    // The known keys that the unknown keys were meant to be. Do not report these known keys as missing.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
     let kind = habits::meant_kind(table, spec, path);
@@ -60,7 +60,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
             context.diagnostics.push(error);
         }
     }
-    // An unknown kind has been reported already.
+    // If an unknown key may be a misspelled kind, do not also report that the kind is missing.
     if !is_something_else || !matches!(spec.rule, Rule::ExactlyOne(_)) {
         rule(table, spec, &meant, at, path, context);
     }
@@ -97,7 +97,7 @@ fn rule(
         Rule::AtMostOne(groups) => {
             let mut said: Vec<Span> = Vec::new();
             for entries in groups.iter().map(|names| present(names)).filter(|entries| entries.len() > 1) {
-                // Groups overlap: each key is reported once.
+                // Report each key only once, although the groups overlap.
                 if !entries.iter().any(|entry| said.contains(&entry.name.span)) {
                     said.extend(entries.iter().map(|entry| entry.name.span));
                     context.diagnostics.push(exclusive(&entries, path));
@@ -125,7 +125,7 @@ fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
     let message = format!("{} exclude each other in {path}", habits::quoted_and(&names));
     let error = Diagnostic::error(Code::ExclusiveKeys, message);
-    // The first key counts as right, and the later keys as superfluous.
+    // Treat the first key as right, and label the later keys as superfluous.
     let (first, rest) = (entries[0], &entries[1..]);
     let error =
         rest.iter().fold(error, |error, entry| error.at(entry.name.span, "only one of them can hold"));
@@ -190,7 +190,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Reference(collection) => reference(node, kind, *collection, entry, context),
         Kind::List { of, .. } => match read::list(node, kind) {
             Ok(items) => {
-                // Copies of a body share the text at one place.
+                // Validate each source span once: copies of a body share one item of the source text.
                 let groups = items.chunk_by(|one, next| one.span == next.span);
                 groups.for_each(|group| value(&group[0], of, None, path, context));
             }
@@ -227,23 +227,24 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
     }
 }
 
-/// Whether the table of another copy of the same body has been validated. Marks the table as validated.
+/// Returns whether this table has already been validated for another copy of the same body. Marks the table as validated.
 fn is_known(table: &Table, context: &mut Context<'_>) -> bool {
     table.entries.address().is_some_and(|address| !context.validated.insert((address, context.is_partial)))
 }
 
-/// The place that names a table: its key, or the table itself if it has no key.
+/// Returns the source span that names a table: the span of its key, or of the table itself if it has no key.
 fn at(node: &Node, entry: Option<&Entry>) -> Option<Span> {
     Some(entry.map_or(node.span, |entry| entry.name.span))
 }
 
-/// The name of an inner table in messages: `[body.ball]` → `shape` of [body.ball] → `sphere` of [body.ball].
+/// Returns the name of an inner table in diagnostics. For example, `shape` in `[body.ball]` is called `shape` of [body.ball], and a
+/// `sphere` in this shape is called `sphere` of [body.ball].
 fn inner_path(entry: Option<&Entry>, path: &str) -> String {
     let Some(entry) = entry else { return path.to_owned() };
     if path == "the scene" {
         return format!("[{}]", entry.name.text);
     }
-    // Only keys of the language stand before « of ». The name after it may be anything.
+    // Split at the first « of »: only keys of the grammar precede it, while the name after it is arbitrary.
     let table = match path.split_once("` of ") {
         Some((_, table)) if path.starts_with('`') => table,
         _ => path,
@@ -296,7 +297,8 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
     }
 }
 
-/// Whether a table lacks the name of its thing and holds its values directly: `[body] shape.sphere…`.
+/// Returns whether a table of a collection lacks its name and holds the values directly, such as `[body] shape.sphere…` instead of
+/// `[body.ball]`.
 fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
     let Some(key) = spec.key(&entry.name.text) else { return false };
     let tables = match &key.kind {
@@ -308,7 +310,7 @@ fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
     !inner.entries.is_empty() && tables.iter().any(fits) && !holds(spec)
 }
 
-/// A name in the notation of a TOML header.
+/// Formats a name as a key in a TOML header, with quotes if necessary.
 pub(super) fn as_key(name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     if !name.is_empty() && name.chars().all(is_bare) { name.to_owned() } else { format!("\"{name}\"") }
@@ -389,7 +391,7 @@ fn reference(
     };
     let error = Diagnostic::error(Code::UnknownName, format!("there is no {noun} `{word}`"));
     let near = label.strip_prefix("did you mean `").and_then(|rest| rest.strip_suffix("`?"));
-    // A single letter is similar to every other letter.
+    // Do not suggest a fix for a single letter, which is similar to every other letter.
     let is_word = word.chars().nth(1).is_some() && !label.contains(['"', '\\']);
     let near = near.map(|near| format!("\"{near}\"")).filter(|_| is_word);
     let is_near = label.starts_with("did you mean");

@@ -10,15 +10,15 @@ use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
 use crate::scene::joint::Course;
 
-/// The words that differ between an angle and a distance.
+/// The unit, symbol and keys for the coordinate of a joint: an angle for a hinge, a distance for a slider.
 struct Words {
-    /// The unit of the scene, in units of the dynamics.
+    /// The factor that converts the coordinate from the scene's unit (degrees or meters) to SI units.
     unit: f64,
-    /// The symbol of the unit.
+    /// The symbol of the scene's unit in diagnostics.
     symbol: &'static str,
-    /// The key of the motor's maximum force or torque.
+    /// The key for the motor's maximum torque or force.
     strength: &'static str,
-    /// The key of the value that a motor keeps.
+    /// The key for the target angle or position of the motor.
     value: &'static str,
 }
 
@@ -26,11 +26,11 @@ const TURNING: Words =
     Words { unit: std::f64::consts::PI / 180.0, symbol: "°", strength: "torque", value: "angle" };
 const MOVING: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
 
-/// A full turn, degrees.
+/// A full turn, in degrees.
 const TURN: f64 = 360.0;
 
 impl Reader<'_, '_> {
-    /// Reads the keys for the coordinate that a joint leaves free.
+    /// Reads the limits and the motor of a joint with one free coordinate. A motor with a stiffness is returned separately, as a servo.
     pub(super) fn freedom(&mut self, view: &View<'_>, coordinate: Coordinate) -> (Freedom, Option<Servo>) {
         let words = if coordinate.is_angle() { &TURNING } else { &MOVING };
         let limits = self.limits(view, words);
@@ -117,7 +117,8 @@ impl Reader<'_, '_> {
         Some([low * unit, high * unit])
     }
 
-    /// Reports a motor that would have to jump at the start because it keeps a value exactly.
+    /// Reports a motor without a stiffness whose target is not 0 at time 0. The joint would have to jump, because its coordinate starts at
+    /// 0.
     fn begins_at_zero(&mut self, motor: &View<'_>, target: &Course, words: &Words) {
         let value = target.value.at(0.0);
         if value.abs() * words.unit > 1e-9 {
@@ -133,7 +134,7 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Warns of a key that has no effect.
+    /// Warns that a key has no effect, if the scene gives this key.
     fn unused(&mut self, view: &View<'_>, key: &'static str, why: &str) {
         let span: Option<Span> = view.key_span(key);
         if let Some(span) = span {

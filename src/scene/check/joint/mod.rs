@@ -1,4 +1,4 @@
-//! Reads `[joint.NAME]`.
+//! Reads the joints of a scene from `[joint.NAME]`.
 
 mod freedom;
 mod rope;
@@ -18,11 +18,12 @@ use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, Simulation};
 
-/// The largest distance between the ends that gives no warning, relative to the size of the joint. Coordinates with
-/// few digits give a larger distance.
+/// The largest initial error of a joint's constraint that gives no warning, relative to the size of the joint. Rounding of coordinates
+/// with few digits causes larger errors.
 const NEARLY: f64 = 1e-9;
 
-/// The distance between the ends, relative to the size of the joint, above which the joint is an error.
+/// The initial error of a joint's constraint above which the scene is rejected, relative to the size of the joint. Smaller errors give a
+/// warning.
 const TOO_FAR: f64 = 1e-3;
 
 pub(super) fn read(
@@ -33,7 +34,7 @@ pub(super) fn read(
 ) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let named = root.named("joint");
-    // Gears couple other joints, so read them last.
+    // Read gears last, because they couple other joints.
     let (gears, others): (Vec<_>, Vec<_>) =
         named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
     let gear_names: Vec<&str> = gears.iter().map(|(name, ..)| *name).collect();
@@ -66,20 +67,20 @@ pub(super) fn read(
     joints
 }
 
-/// A length, rounded to four digits.
+/// Formats a length with four significant digits.
 fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
 
-/// The kinds of joints.
+/// The keys for the kinds of joints.
 const KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
 
-/// The table of a joint's kind.
+/// Returns the inner table for the kind of a joint, such as `hinge`. `None` if the joint has no kind.
 pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
     KINDS.into_iter().find_map(|kind| joint.variant(kind))
 }
 
-/// Reads the arrows for the force and the torque of a joint.
+/// Reads the arrows that show the reaction force and the reaction torque of a joint.
 fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
     let kind = kind(view);
     let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table("arrows"), quantity.name());
@@ -97,13 +98,13 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
         .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })
 }
 
-/// The inputs for reading a joint.
+/// Reads one joint.
 struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
     simulation: &'a Simulation,
-    /// The names of all gears.
+    /// The names of all gears in the scene.
     gears: &'a [&'a str],
     context: &'a mut Context<'c>,
 }
@@ -166,8 +167,9 @@ impl Reader<'_, '_> {
         Some(Rod { between, length })
     }
 
-    /// The ends of a joint that connects two bodies at one point, and the point. If neither end gives the point, `at`
-    /// does. Without `at`, a joint that does not need a point takes the centre of the second end.
+    /// Reads the ends of a joint that connects two bodies at a common point, and returns them with this point in world coordinates. The
+    /// point comes from the key `at`, or else from the first end that gives a point. If neither exists and `needs_place` is false, the
+    /// point is the center of the second end.
     fn joined(&mut self, view: &View<'_>, needs_place: bool) -> Option<([Anchor; 2], DVec3)> {
         let (mut between, nodes) = self.ends(view)?;
         let bodies = self.bodies;
@@ -179,7 +181,7 @@ impl Reader<'_, '_> {
             (Some(at), _) => at,
             (None, [true, _]) => places[0],
             (None, [false, true]) => places[1],
-            // The unknown key may be a misspelled `at`, and has been reported.
+            // The unknown key may be a misspelled `at`. It has already been reported.
             (None, [false, false]) if needs_place && view.has_unknown() => return None,
             (None, [false, false]) if needs_place => {
                 let [a, b] = places;
@@ -209,7 +211,8 @@ impl Reader<'_, '_> {
         Some((between, point))
     }
 
-    /// Reports a joint whose ends are not where they must be at the start.
+    /// Reports a joint whose constraint is violated at the start: an error if the distance `missing` is large relative to `size`, a
+    /// warning if it is small.
     fn fits(&mut self, missing: f64, size: f64, span: Span, what: &str) {
         let name = self.name;
         if missing > TOO_FAR * size {
@@ -250,13 +253,14 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Reports why a joint is impossible.
+    /// Adds an error about an impossible joint.
     fn refuse(&mut self, message: String, span: Span, why: &str, help: &str) {
         let error = Diagnostic::error(Code::BadJoint, message).at(span, why).help(help);
         self.context.diagnostics.push(error);
     }
 
-    /// The point of a body that coincides with a point of the world at the start.
+    /// Returns the point of a body that coincides with the given world point at the start. If the end is a point of the world, returns the
+    /// given point.
     fn on(&self, end: Anchor, point: DVec3) -> Anchor {
         match end {
             Anchor::Body { id, .. } => {
@@ -267,12 +271,12 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Converts an initial direction in the world to the axes of an end.
+    /// Converts a direction from world axes to the initial body axes of an end.
     fn in_axes_of(&self, end: Anchor, direction: DVec3) -> DVec3 {
         end.body().map_or(direction, |id| end::pose(id, self.bodies).1.conjugate() * direction)
     }
 
-    /// The initial rotation from the axes of the first end to those of the second.
+    /// Returns the initial rotation from the body axes of the first end to those of the second end.
     fn turned(&self, between: [Anchor; 2]) -> glam::DQuat {
         let turn = |end: Anchor| end.body().map_or(glam::DQuat::IDENTITY, |id| end::pose(id, self.bodies).1);
         turn(between[1]).conjugate() * turn(between[0])

@@ -9,7 +9,7 @@ use crate::scene::check::view::View;
 use crate::scene::source::Value;
 use crate::scene::{Joint, JointKind};
 
-/// The relative length by which a rope may be too short and still count as taut: its length may have few digits.
+/// The relative tolerance for a `length` that is shorter than the rope's initial length, such as a rounded number.
 const NEARLY: f64 = 1e-9;
 
 impl Reader<'_, '_> {
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
         Some(Pulley { between, over, ratio, length })
     }
 
-    /// Reports a rope that is too short.
+    /// Reports a rope whose `length` is less than the initial length `needed`, m.
     fn reaches(&mut self, view: &View<'_>, needed: f64, what: &str, whose: &str) {
         let length = view.number("length").unwrap_or(needed);
         if needed <= length * (1.0 + NEARLY) {
@@ -69,7 +69,7 @@ impl Reader<'_, '_> {
             .push(error.help(format!("`length = {needed}` or more; without the key, it is taut")));
     }
 
-    /// Reads a gear between two joints that have been read before.
+    /// Reads a gear. `joints` holds the joints that the gear may couple.
     pub(super) fn gear(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<Gear> {
         let nodes = view.list("joints")?;
         let ratio = view.number("ratio");
@@ -81,7 +81,7 @@ impl Reader<'_, '_> {
             let coordinate = match joint {
                 Some(JointKind::Hinge(hinge)) => Some(hinge.coordinate()),
                 Some(JointKind::Slider(slider)) => Some(slider.coordinate()),
-                // An error in the joint has been reported.
+                // An error in the coupled joint has already been reported.
                 None if !self.gears.contains(&&**name) => return None,
                 _ => None,
             };

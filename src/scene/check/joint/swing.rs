@@ -1,4 +1,4 @@
-//! Sets the initial velocity of bodies that turn about a fixed point.
+//! Sets the initial velocity of bodies that rotate about a fixed joint.
 
 use glam::DVec3;
 
@@ -6,8 +6,8 @@ use crate::dynamics::Anchor;
 use crate::scene::check::end;
 use crate::scene::{Body, Joint, JointKind};
 
-/// Gives a body with an angular velocity and no velocity the velocity ω × r about its joint, if a hinge or a ball
-/// joint fastens it to something fixed.
+/// Sets the initial velocity of each body with zero velocity that a hinge or a ball joint fastens to a fixed body or point. The velocity
+/// is ω × r, where r points from the joint to the body's location.
 pub(in crate::scene::check) fn swing(joints: &[Joint], bodies: &mut [Body]) {
     for joint in joints {
         let between = match &joint.kind {

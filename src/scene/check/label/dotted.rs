@@ -1,4 +1,4 @@
-//! Resolves names with dots in the formulas of labels, and reports unknown names.
+//! Resolves names with dots, such as `ball.speed`, in the formulas of labels, and reports unknown names.
 
 use std::ops::Range;
 
@@ -8,8 +8,9 @@ use crate::scene::grammar::Collection;
 use crate::scene::{BodyMeasure, ContactLaw, JointMeasure, Measure};
 
 impl Reader<'_, '_, '_> {
-    /// Replaces the dots in names such as `ball.speed`, because formulas have no names with dots. One letter replaces
-    /// each dot, so that all other letters keep their places. Returns the formula and the measure behind each name.
+    /// Replaces each dot in names such as `ball.speed` by a letter or an underscore, because names in formulas have no dots. The
+    /// replacement has the same length, so error positions in the formula stay valid. Returns the formula, and the measure for each
+    /// replaced name.
     pub(super) fn without_dots(
         &mut self,
         formula: &str,
@@ -43,7 +44,7 @@ impl Reader<'_, '_, '_> {
                 self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
                 continue;
             }
-            // The name of a copy ends with its indices: `ball[0]`, `brick[3,1]`.
+            // The name of a copy ends with its indices, such as `ball[0]` or `brick[3,1]`.
             let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
             let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
             let rest = &formula[at + 1..];
@@ -106,8 +107,7 @@ impl Reader<'_, '_, '_> {
         Some((plain, dotted))
     }
 
-    /// Adds the measure behind a name whose dots have been replaced. Reports a different name that has become equal
-    /// by the replacement.
+    /// Adds a replaced name with its measure. Reports an error if the replacement makes two different names equal.
     fn note(
         &mut self,
         dotted: &mut Vec<(String, Measure)>,
@@ -126,7 +126,7 @@ impl Reader<'_, '_, '_> {
         Some(())
     }
 
-    /// Reports `impacts` in a scene without contacts, which finds no impacts.
+    /// Reports the use of `impacts` in a scene without contacts, in which no impacts are detected.
     pub(super) fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
         if self.root.table("simulation").has("contacts") {
             return Some(());
@@ -137,8 +137,8 @@ impl Reader<'_, '_, '_> {
         None
     }
 
-    /// The impacts of a body with another body, whose name begins at the byte `begin`. `ground` means the ground,
-    /// unless a body has this name.
+    /// Returns the measure that counts the impacts of two bodies. The name `other` begins at the byte `begin` of the label. The name
+    /// `ground` means the ground, unless a body has this name.
     fn of_pair(&mut self, body: usize, other: &str, begin: usize) -> Option<Measure> {
         let named = self.context.names.bodies.get(other).copied();
         let Some(other) = named.or_else(|| (other == "ground").then_some(self.bodies.len())) else {
@@ -158,7 +158,8 @@ impl Reader<'_, '_, '_> {
         })))
     }
 
-    /// A measure of a joint, whose name begins at the byte `begin`.
+    /// Returns a measure of the joint `name`, which begins at the byte `begin` of the label. `None` if the joint or the measure is
+    /// unknown; then an error is reported.
     fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
         let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
         let Some((number, joint)) = found else {
@@ -202,13 +203,14 @@ impl Reader<'_, '_, '_> {
         None
     }
 
-    /// Adds a fix that replaces a word. Omits it in an escaped string, where the place is the whole string.
+    /// Adds a fix that replaces a word of `length` bytes. In an escaped string, the span is the whole string, and no fix is added.
     pub(super) fn mended(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
         if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
     }
 }
 
-/// The name of the joint in `knee.force` or `string[3].force`: the text before the dot.
+/// Returns the name of a joint at the beginning of a text such as `knee.force` or `string[3].force`. `None` if no measure follows the
+/// name.
 fn joint_name(text: &str) -> Option<&str> {
     let letters = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?;
     let indices = match text[letters..].strip_prefix('[') {
@@ -221,7 +223,7 @@ fn joint_name(text: &str) -> Option<&str> {
     is_name.then_some(name)
 }
 
-/// The name of a body at the beginning of a text, with the indices of a copy.
+/// Returns the name of a body at the beginning of a text, with the indices of a copy.
 fn body_name(text: &str) -> Option<&str> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let end = text.find(|c| !is_part(c)).unwrap_or(text.len());

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use crate::Scene;
 use crate::diagnostic::Report;
 
-/// The diagnostics of a scene whose only label has this text.
+/// Returns the diagnostics of a scene with a single label that has this text.
 fn said_of(label: &str) -> Report {
     let scene = format!(
         "[variables]\n'K' = 1\n[body.b]\nshape.sphere.radius = 1\n[label.note]\ntext = {}\n",
@@ -30,7 +30,7 @@ fn a_letter_of_several_bytes_before_a_measure_is_an_error_at_its_place() {
     }
 }
 
-/// A piece of a label. Most pieces have a meaning.
+/// Generates a piece of a label's text. Most pieces are valid syntax.
 fn piece() -> impl Strategy<Value = String> {
     const KNOWN: [&str; 29] = [
         "${", "}", "{", "$", "b", "b.", ".", "b.speed", "b.é", "t", ":.2", ":", ":.2e", "K.x", "2", "·", "−",
@@ -44,7 +44,7 @@ proptest! {
 
     #[test]
     fn no_label_panics(before in piece(), inner in prop::collection::vec(piece(), 0..6), after in piece()) {
-        // Rendering the report cuts the text at the places of the errors, which must not panic, either.
+        // Render the report as well: it slices the text at the spans of the errors and must not panic.
         for text in [format!("{before}${{{}}}{after}", inner.concat()), inner.concat()] {
             said_of(&text).to_text(true);
         }

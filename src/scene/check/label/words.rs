@@ -1,7 +1,7 @@
-//! Names of a label's measures in other programs.
+//! Translates names of measures from other programs into the measures of labels.
 
-/// The measure of a body that a word means, with the coordinate after it, if there is one: `velocity` and `x` mean
-/// `vx`.
+/// Returns the measure of a body that corresponds to a word from another program. `axis` is the coordinate that follows the word:
+/// `velocity` with `x` gives `vx`.
 pub(super) fn of_body(word: &str, axis: Option<&str>) -> Option<String> {
     let folded = word.to_lowercase();
     let letter = match folded.as_str() {
@@ -31,7 +31,7 @@ pub(super) fn of_body(word: &str, axis: Option<&str>) -> Option<String> {
     )
 }
 
-/// The measure of the run that a word means.
+/// Returns the measure of the run that corresponds to a word from another program.
 pub(super) fn of_run(word: &str) -> Option<&'static str> {
     Some(match word.to_lowercase().as_str() {
         "time" | "clock" => "t",
@@ -43,7 +43,7 @@ pub(super) fn of_run(word: &str) -> Option<&'static str> {
     })
 }
 
-/// The measure of a joint that a word means.
+/// Returns the measure of a joint that corresponds to a word from another program.
 pub(super) fn of_joint(word: &str) -> Option<&'static str> {
     Some(match word.to_lowercase().as_str() {
         "f" | "tension" | "reaction" | "load" | "pull" => "force",

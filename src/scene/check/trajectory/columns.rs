@@ -1,4 +1,4 @@
-//! Finds the columns of a CSV file: their names, indices and units.
+//! Finds the columns of a trajectory file by the names and units in its header.
 
 use csv::StringRecord;
 
@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, nearest};
 use crate::scene::grammar::quoted;
 use crate::scene::units;
 
-/// The names of the columns.
+/// The names of the columns in a trajectory file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(in super::super) struct Columns {
     pub(super) time: String,
@@ -17,7 +17,8 @@ pub(in super::super) struct Columns {
     pub(super) orientation: Vec<String>,
     pub(super) velocity: Vec<String>,
     pub(super) angular_velocity: Vec<String>,
-    /// Whether the scene names each optional column. If so, the file must have the column.
+    /// Whether the scene gives names for the columns `body`, `orientation`, `velocity` and `angular_velocity`, in this order. The file
+    /// must have the columns that the scene names.
     pub(super) given: [bool; 4],
 }
 
@@ -41,10 +42,10 @@ impl Columns {
     }
 }
 
-/// A column of numbers: its index, and its unit in SI units.
+/// A column of numbers: its index, and the factor that converts its unit to SI units.
 pub(super) type Column = (usize, f64);
 
-/// The quantity in a column, given by its SI unit. Empty for a quantity without a unit.
+/// The SI units of the quantities in columns. Empty for a quantity without a unit.
 pub(super) const TIME: &str = "s";
 pub(super) const LENGTH: &str = "m";
 pub(super) const VELOCITY: &str = "m/s";
@@ -52,7 +53,7 @@ pub(super) const TURNING: &str = "rad/s";
 pub(super) const RATIO: &str = "";
 
 impl Reader<'_> {
-    /// The index and the unit of a column, from the header of the file.
+    /// Returns the index and the unit of the column `name` in the file's header. The unit is empty if the header gives none.
     pub(super) fn find(&self, header: &StringRecord, name: &str) -> Option<(usize, String)> {
         let called = |name: &str| {
             header.iter().enumerate().find_map(|(i, field)| {
@@ -61,7 +62,7 @@ impl Reader<'_> {
                 is_it.then(|| (i, unit.to_owned()))
             })
         };
-        // The time may be called `t` or `time`.
+        // The column for the time may be called `t` or `time`.
         called(name).or_else(|| if name == "t" { called("time") } else { None })
     }
 
@@ -92,7 +93,8 @@ impl Reader<'_> {
         Some((i, factor?))
     }
 
-    /// Finds columns of which the file must have all or none.
+    /// Finds a group of columns, such as the coordinates of a vector. Returns `None` without an error if the file has none of them and
+    /// `needed` is false.
     pub(super) fn columns(
         &mut self,
         header: &StringRecord,
@@ -111,7 +113,7 @@ impl Reader<'_> {
     pub(super) fn missing(&mut self, header: &StringRecord, start: usize, name: &str) {
         let line = self.fields.line(start);
         if let Some((message, help)) = without_names(header) {
-            // This error covers all columns, so report it once.
+            // Report this error only once, because it concerns all columns.
             if self.wrong.is_empty() {
                 self.error(Code::CsvColumn, message.to_owned(), line);
                 self.wrong.iter_mut().for_each(|wrong| wrong.help = Some(help.to_owned()));
@@ -120,7 +122,7 @@ impl Reader<'_> {
         }
         let names: Vec<&str> = header.iter().map(|field| unit_of(field).0).collect();
         self.error(Code::CsvColumn, format!("there is no column `{name}`"), line);
-        // A single letter is similar to every other letter.
+        // Do not suggest a similar name for a single letter, which is similar to every other letter.
         let near = nearest(name, names.iter().copied()).filter(|_| name.len() > 1);
         if let Some(wrong) = self.wrong.last_mut() {
             wrong.label = match near {
@@ -132,7 +134,7 @@ impl Reader<'_> {
     }
 }
 
-/// The error for a first line without names of columns, and its help.
+/// Returns the error message and the help for a file whose first line does not name columns. `None` if the line names columns.
 fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> {
     let words: Vec<&str> = header.iter().flat_map(str::split_whitespace).collect();
     let are_numbers = !words.is_empty() && words.iter().all(|word| word.parse::<f64>().is_ok());
@@ -151,7 +153,7 @@ fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> 
     }
 }
 
-/// Splits `x [m]` or `x (m)` into the name and the unit.
+/// Splits a header field such as `x [m]` or `x (m)` into the name and the unit. The unit is empty if the field has none.
 fn unit_of(field: &str) -> (&str, &str) {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((stem, unit)) = field.strip_suffix(close).and_then(|field| field.rsplit_once(open)) {

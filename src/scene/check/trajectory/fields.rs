@@ -1,11 +1,11 @@
-//! Finds the places of lines and fields in the text of a CSV file, for error messages.
+//! Finds the byte ranges of lines and fields in the text of a CSV file, for error messages.
 
 use std::ops::Range;
 
-/// The text of a CSV file.
+/// The text of a CSV file, in which byte ranges of fields can be found.
 pub(super) struct Fields<'a> {
     pub(super) text: &'a str,
-    /// The character between the fields.
+    /// The separator between two fields: a comma, a semicolon or a tab.
     pub(super) delimiter: u8,
 }
 
@@ -14,7 +14,7 @@ impl<'a> Fields<'a> {
         Fields { text, delimiter: delimiter(text) }
     }
 
-    /// The range of the first line at or after a byte that is neither empty nor a comment.
+    /// Returns the byte range of the first line at or after the byte `start` that is neither empty nor a comment.
     pub(super) fn line(&self, start: usize) -> Range<usize> {
         let rest = self.text.get(start..).unwrap_or_default();
         let skipped: usize = rest
@@ -27,7 +27,7 @@ impl<'a> Fields<'a> {
         start..start + line.trim_end().len()
     }
 
-    /// The range of a field in the record that begins at a byte.
+    /// Returns the byte range of a field in the record that begins at the byte `start`.
     pub(super) fn field(&self, start: usize, column: usize) -> Range<usize> {
         let line = self.line(start);
         let (mut from, mut field, mut quoted) = (line.start, 0, false);
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Guesses the character between the fields from the first line.
+/// Guesses the separator between fields from the first line.
 fn delimiter(text: &str) -> u8 {
     let header =
         text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();

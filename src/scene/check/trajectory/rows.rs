@@ -11,7 +11,7 @@ use super::fields::Fields;
 use crate::diagnostic::Code;
 use crate::dynamics::Key;
 
-/// A mistake in the file.
+/// A mistake in a trajectory file, before its position is turned into a source span.
 pub(super) struct Wrong {
     pub(super) code: Code,
     pub(super) message: String,
@@ -20,13 +20,13 @@ pub(super) struct Wrong {
     pub(super) help: Option<String>,
 }
 
-/// Reads a file and collects its errors.
+/// Reads a trajectory file and collects its errors.
 pub(super) struct Reader<'a> {
     pub(super) fields: Fields<'a>,
     pub(super) wrong: Vec<Wrong>,
 }
 
-/// The maximum number of mistakes shown for one file.
+/// The maximum number of mistakes that are reported for one file.
 const SHOWN: usize = 20;
 
 impl<'a> Reader<'a> {
@@ -34,7 +34,7 @@ impl<'a> Reader<'a> {
         Reader { fields: Fields::new(text), wrong: Vec::new() }
     }
 
-    /// Reads the rows of the file. `None` if the file has errors.
+    /// Reads the rows of the file. Returns `None` and collects errors if the file has mistakes.
     pub(super) fn read(&mut self, columns: &Columns) -> Option<Recording> {
         let text = self.fields.text;
         let mut csv = ReaderBuilder::new()
