@@ -1,4 +1,4 @@
-//! The keys of cameras.
+//! The grammar of `[camera]`: the keys that describe a camera.
 
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
 use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};

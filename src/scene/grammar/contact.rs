@@ -1,4 +1,4 @@
-//! The keys of collisions. All of them need `simulation.contacts`.
+//! The grammar of the keys for collisions. They take effect only if `simulation.contacts` is set.
 
 use super::Kind::{Boolean, Number, Text};
 use super::keys::NON_NEGATIVE;

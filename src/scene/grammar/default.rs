@@ -1,23 +1,23 @@
-//! Defaults of missing keys.
+//! The default values of keys that a scene leaves out.
 
 use serde_json::{Value, json};
 
-/// The default of a missing key: a value, or a description.
+/// The default for a missing key: a value, or a description in words.
 #[derive(Clone, Copy, Debug)]
 pub enum DefaultValue {
-    /// No default: the key is required, or a table that may be empty.
+    /// The key has no default: it is required, or its value is a table that may be empty.
     Nothing,
-    /// A number.
+    /// The default is a number.
     Number(f64),
-    /// A number, shown as a fraction.
+    /// The default is a number that the documentation shows as a fraction: dividend and divisor.
     Fraction(f64, f64),
-    /// A list of numbers.
+    /// The default is a list of numbers.
     Numbers(&'static [f64]),
-    /// `true` or `false`.
+    /// The default is `true` or `false`.
     Flag(bool),
-    /// One of the words that the key takes.
+    /// The default is one of the words that the key accepts.
     Word(&'static str),
-    /// A description of how it is determined.
+    /// A description of how the default is determined, such as "among all of `on`".
     Words(&'static str),
 }
 
@@ -34,12 +34,12 @@ impl DefaultValue {
         self.number().and_then(whole)
     }
 
-    /// The default as N numbers.
+    /// Returns the default as N numbers. `None` if the default is no list of this length.
     pub(in crate::scene) fn numbers<const N: usize>(self) -> Option<[f64; N]> {
         self.list()?.try_into().ok()
     }
 
-    /// A list of whole numbers of any length.
+    /// Returns the default as a list of whole numbers, of any length. `None` if the default is no list of whole numbers.
     pub(in crate::scene) fn integers(self) -> Option<Vec<i64>> {
         self.list()?.iter().map(|number| whole(*number)).collect()
     }
@@ -65,7 +65,7 @@ impl DefaultValue {
         }
     }
 
-    /// As shown in the reference; empty if there is no default.
+    /// Returns the default as the documentation shows it. Empty if the key has no default.
     pub fn in_words(self) -> String {
         match self {
             DefaultValue::Nothing => String::new(),
@@ -79,19 +79,19 @@ impl DefaultValue {
         }
     }
 
-    /// As a JSON value, if it is a value.
+    /// Returns the default as a JSON value. `None` if the key has no default, or only a description in words.
     pub fn to_json(self) -> Option<Value> {
         match self {
             DefaultValue::Nothing | DefaultValue::Words(_) => None,
             DefaultValue::Word(word) => Some(word.into()),
             DefaultValue::Fraction(dividend, divisor) => Some(json!(dividend / divisor)),
-            // Written this way, a whole number has no decimal point.
+            // Parsing the text, in place of converting the `f64`, turns a whole number into JSON without a decimal point.
             written => serde_json::from_str(&written.in_words()).ok(),
         }
     }
 }
 
-/// The shortest decimal that reads back as the same number.
+/// Formats a number as the shortest decimal that parses back to the same number. Very large and very small numbers get an exponent.
 fn written(number: f64) -> String {
     match number.abs() {
         size if size == 0.0 || (1e-4..1e9).contains(&size) => number.to_string(),

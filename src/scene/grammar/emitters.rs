@@ -1,4 +1,4 @@
-//! The keys of `[emitter.NAME]`.
+//! The grammar of `[emitter.NAME]`, which describes a source of particles.
 
 use super::Kind::{Boolean, Colors, Drawn, Integer, List, Number, Reference, Table};
 use super::contact::{FRICTION, RESTITUTION};

@@ -1,4 +1,4 @@
-//! The keys of `[force.NAME]`.
+//! The grammar of `[force.NAME]`.
 
 use crate::dynamics::{Coulomb, Dipoles, Gravitation};
 use crate::scene::law::{OF_PLACE, QUANTITIES};
@@ -8,27 +8,27 @@ use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
 
-/// The key that names the bodies under a force.
+/// Describes the key `on`, a list of the bodies that a force acts on.
 const fn on(meaning: &'static str, default: &'static str) -> Key {
     Key::new("on", List { of: &Reference(Collection::Target), min: 1, max: usize::MAX }, meaning)
         .default(default)
         .also(&["bodies", "body"])
 }
 
-/// The key that names two groups of bodies. Each group acts on the other.
+/// Describes the key `between`, which names groups of bodies. Forces act between bodies of different groups.
 const fn between(meaning: &'static str) -> Key {
     Key::new("between", List { of: &GROUP, min: 2, max: usize::MAX }, meaning)
         .default("among all of `on`")
         .also(&["groups", "pairs"])
 }
 
-/// A body, all copies of a body, or a list of these.
+/// A group for `between`: a body, all copies of a body, or a list of these.
 static GROUP: Kind = Either(&[
     Reference(Collection::Body),
     List { of: &Reference(Collection::Body), min: 1, max: usize::MAX },
 ]);
 
-/// The key that keeps forces between pairs finite.
+/// Describes the key `softening`, a length that keeps the force between two bodies finite at small distances.
 const fn softening() -> Key {
     Key::new("softening", NON_NEGATIVE, "Softens close encounters: √(r² + softening²) replaces r (Plummer)")
         .unit("m")
@@ -175,7 +175,7 @@ static SPRING: TableSpec = TableSpec {
     ],
 };
 
-/// An end of a spring or a joint at a point of a body.
+/// The grammar of an end of a spring or joint that is attached to a body at a given point.
 pub(in crate::scene) static END: TableSpec = TableSpec {
     noun: "a point of a body",
     rule: Rule::Any,

@@ -1,4 +1,4 @@
-//! The keys of `[joint.NAME]`.
+//! The grammar of `[joint.NAME]`.
 
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::contact::JOINT_COLLIDES;

@@ -1,6 +1,6 @@
-//! Every key of the scene language.
+//! The grammar of the whole scene and of its main tables.
 //!
-//! To add one: describe it here, read it in `scene/check`, and add a scene that uses it.
+//! To add a key, describe it here, read it in `scene/check`, and add a scene that uses it.
 
 use super::Kind::{
     Asset, Boolean, Choice, Color, Direction, Either, Identifier, Include, Integer, List, Named, Number,
@@ -48,7 +48,7 @@ fn library() -> Vec<&'static str> {
     MATERIALS.iter().map(|material| material.name).collect()
 }
 
-/// A whole scene.
+/// The grammar of a whole scene. All other tables are reached from it.
 pub static SCENE: TableSpec = TableSpec {
     noun: "a scene",
     rule: Rule::Any,
@@ -299,7 +299,7 @@ static BODY_LOOK: TableSpec = TableSpec {
     noun: "a body's look",
     rule: Rule::Any,
     keys: &[
-        // Wide enough for any use. The square of every drawn length is finite.
+        // These bounds are wide enough for any use, and keep the square of every drawn length finite.
         Key::new(
             "scale",
             Number(Bound::From(1e-9, 1e9)),

@@ -1,103 +1,103 @@
-//! Types of values.
+//! The types of values that the keys of a scene can have.
 
 use super::TableSpec;
 use crate::scene::sdl::Where;
 use crate::scene::source::Value;
 
-/// The type of a value.
+/// The type of a key's value.
 #[derive(Debug)]
 pub enum Kind {
-    /// A string for people to read.
+    /// A string without a meaning to the program, such as a title.
     Text,
     /// `true` or `false`.
     Boolean,
     /// A number within a bound.
     Number(Bound),
-    /// A whole number in a range, both ends included.
+    /// A whole number within a range that includes both bounds.
     Integer(i64, i64),
-    /// A number within a bound, or a formula of the time.
+    /// A number within a bound, or a formula of the time `t`.
     Timed(Bound),
-    /// A number within a bound, or a formula with random numbers, drawn anew for each particle.
+    /// A number within a bound, or a formula with random numbers. Each particle evaluates the formula with its own random numbers.
     Drawn(Bound),
-    /// A list of a fixed number of numbers within a bound, or formulas of the time.
+    /// A list of a fixed length. Each item is a number within a bound, or a formula of the time `t`.
     TimedNumbers(usize, Bound),
-    /// A number, or a formula of these quantities of a body.
+    /// A number, or a formula of the listed quantities of a body, such as its velocity.
     OfBody(&'static [&'static str]),
-    /// A list of a fixed number of numbers, or formulas of these quantities of a body.
+    /// A list of a fixed length. Each item is a number, or a formula of the listed quantities of a body.
     ListOfBody(usize, &'static [&'static str]),
-    /// A list of a fixed number of numbers, each within a bound.
+    /// A list of a fixed length whose items are numbers within a bound.
     Numbers(usize, Bound),
-    /// A list of a fixed number of formulas of a parameter, each a string or a number.
+    /// A list of a fixed length. Each item is a number, or a formula of a parameter `u`.
     Formulas(usize),
-    /// Three or four numbers, not all zero. Only their direction counts.
+    /// A direction: three or four numbers, not all zero. Their common length is ignored.
     Direction(usize),
-    /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a name of CSS.
+    /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a CSS name of a color.
     Color,
     /// A color, or a list of colors.
     Colors,
-    /// SDL, POV-Ray's own language, and its position in the script.
+    /// A string of SDL, POV-Ray's scene description language, for a given position in the script.
     Sdl(Where),
-    /// A name that POV-Ray knows: letters, digits and underscores.
+    /// A POV-Ray identifier, made of letters, digits and underscores.
     Identifier,
-    /// The name of an include file.
+    /// The name of a POV-Ray include file.
     Include,
-    /// The path of a file beside the scene that its SDL reads.
+    /// The path, relative to the scene's folder, of a file that POV-Ray reads.
     Asset,
-    /// The path of a file beside the scene that jabuka reads.
+    /// The path, relative to the scene's folder, of a file that jabuka reads.
     File,
     /// One of a list of words.
     Choice(fn() -> Vec<&'static str>),
-    /// The name of something in the scene.
+    /// The name of a body, material or joint of the scene.
     Reference(Collection),
-    /// A list of values of one kind, with a smallest and a largest length.
+    /// A list of values of the same type.
     List {
-        /// The type of each value.
+        /// The type of each item.
         of: &'static Kind,
-        /// The smallest number of values.
+        /// The minimum length of the list.
         min: usize,
-        /// The largest number of values.
+        /// The maximum length of the list.
         max: usize,
     },
     /// A table with the given keys.
     Table(&'static TableSpec),
-    /// Tables of a given kind, each with a name: `[body.ball]`.
+    /// A table of named tables, all with the same keys, such as `[body.ball]`.
     Named(&'static TableSpec),
-    /// A table with any of the given keys. None is required.
+    /// A table with some of the given keys, none of which is required.
     Partial(&'static TableSpec),
-    /// A table of named numbers.
+    /// The table `[variables]`: named numbers.
     Variables,
-    /// One of several kinds, distinguished by the value's TOML type.
+    /// A value of one of several types, which differ in their TOML types.
     Either(&'static [Kind]),
 }
 
-/// Which numbers are allowed. All numbers are finite.
+/// The range of numbers that a key accepts. All numbers must be finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// Every finite number.
+    /// All finite numbers.
     Any,
-    /// Greater than zero.
+    /// Numbers greater than zero.
     Positive,
-    /// Zero or greater.
+    /// Zero and greater numbers.
     NonNegative,
-    /// From the first to the second, both included.
+    /// Numbers from the first bound to the second, including both.
     From(f64, f64),
 }
 
-/// The named things that keys can refer to.
+/// What the value of a key can refer to by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collection {
-    /// `[body.NAME]`
+    /// A body, defined by `[body.NAME]`.
     Body,
-    /// `[material.NAME]`
+    /// A material, defined by `[material.NAME]`.
     Material,
-    /// `[joint.NAME]`
+    /// A joint, defined by `[joint.NAME]`.
     Joint,
-    /// `[body.NAME]`, or `[emitter.NAME]` for its particles
+    /// A body (`[body.NAME]`), or the particles of an emitter (`[emitter.NAME]`).
     Target,
 }
 
 impl Bound {
-    /// Whether the bound admits a finite number.
+    /// Returns true if a finite number is within the bound.
     pub fn admits(self, number: f64) -> bool {
         match self {
             Bound::Any => true,
@@ -107,7 +107,7 @@ impl Bound {
         }
     }
 
-    /// The bound as words to follow “a number”: ` greater than 0`.
+    /// Describes the bound in words that follow "a number", such as " greater than 0".
     pub fn in_words(self) -> String {
         match self {
             Bound::Any => String::new(),
@@ -119,7 +119,7 @@ impl Bound {
 }
 
 impl Collection {
-    /// The key of the things in a scene. It is also the noun for one of them.
+    /// Returns the key of these tables in a scene, such as `body`. It is also the singular noun in messages.
     pub fn key(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "body",
@@ -128,7 +128,7 @@ impl Collection {
         }
     }
 
-    /// The plural noun.
+    /// Returns the plural noun for messages, such as "bodies".
     pub fn plural(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "bodies",
@@ -139,7 +139,7 @@ impl Collection {
 }
 
 impl Kind {
-    /// The table that a value of this kind is or may be, except named tables.
+    /// Returns the grammar of the table that a value of this type is or may be. `None` for other types, and for tables of named tables.
     pub fn table(&self) -> Option<&'static TableSpec> {
         match self {
             Kind::Table(table) => Some(table),
@@ -148,7 +148,7 @@ impl Kind {
         }
     }
 
-    /// Whether a value of this kind can name one of these things.
+    /// Returns true if a value of this type can be the name of a member of `collection`.
     pub fn names(&self, collection: Collection) -> bool {
         match self {
             Kind::Reference(Collection::Target) => collection == Collection::Body,
@@ -158,7 +158,7 @@ impl Kind {
         }
     }
 
-    /// Whether a value has the TOML type of the kind, or is a formula for a number.
+    /// Returns true if a value has the TOML type of this kind. A string is accepted as a number, because it may be a formula.
     pub fn takes(&self, value: &Value) -> bool {
         match self {
             Kind::Text
@@ -197,7 +197,7 @@ impl Kind {
         }
     }
 
-    /// The expected value in words: `a number greater than 0`.
+    /// Describes the expected value in words, such as "a number greater than 0".
     pub fn in_words(&self) -> String {
         match self {
             Kind::Text => "a string".to_owned(),
@@ -246,7 +246,7 @@ impl Kind {
     }
 }
 
-/// Words in backquotes, with commas between them.
+/// Joins words with commas, each in backquotes.
 pub(crate) fn quoted(words: &[&str]) -> String {
     words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }

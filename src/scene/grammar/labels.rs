@@ -1,4 +1,4 @@
-//! The keys of measurements in the picture: labels, the scale bar, the grid.
+//! The grammar of the keys that draw measurements into the image: labels, the scale bar and the grid.
 
 use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
 use super::keys::POSITIVE;

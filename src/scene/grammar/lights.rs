@@ -1,4 +1,4 @@
-//! The keys of lights.
+//! The grammar of `[light.NAME]`.
 
 use super::Kind::{Boolean, Color, Table};
 use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};

@@ -1,7 +1,7 @@
-//! The grammar of scenes: the description of every key.
+//! The grammar of scenes: describes every key.
 //!
-//! One description of each key serves validation, reading, and suggestions for unknown keys. The description is data:
-//! [`SCENE`] is the root that leads to everything in a scene.
+//! The one description of each key serves for validation, for reading, for documentation, and for suggestions for unknown keys. The
+//! description is data: all tables of the language are reached from [`SCENE`].
 
 mod camera;
 mod contact;
@@ -29,56 +29,56 @@ pub use reference::reference;
 pub use repeat::MAX_COPIES;
 pub use schema::schema;
 
-/// One key of a table.
+/// The description of one key of a table.
 #[derive(Debug)]
 pub struct Key {
-    /// The key's name.
+    /// The name of the key.
     pub name: &'static str,
-    /// The type of its value.
+    /// The type of the key's value.
     pub kind: Kind,
-    /// The unit of its value; empty without one.
+    /// The unit of the key's value. Empty for a value without a unit.
     pub unit: &'static str,
-    /// The default for a missing key.
+    /// The default that applies if a scene leaves the key out.
     pub default: DefaultValue,
-    /// Its meaning, in one sentence without a full stop.
+    /// The meaning of the key for the documentation, in one sentence without a full stop.
     pub meaning: &'static str,
-    /// Whether the table requires it.
+    /// True if every table of this type must have the key.
     pub required: bool,
-    /// Its names in other programs.
+    /// Names of the same setting in other programs. A scene that uses one of them gets a suggestion.
     pub also: &'static [&'static str],
 }
 
-/// A table and its keys.
+/// The description of a table and of its keys.
 #[derive(Debug)]
 pub struct TableSpec {
-    /// The noun for such a table in messages: `a body`.
+    /// The noun for the table in messages, such as "a body".
     pub noun: &'static str,
-    /// Its keys, in the order of the reference.
+    /// The keys of the table, in the order of the documentation.
     pub keys: &'static [Key],
-    /// The combinations of keys that it allows.
+    /// The rule for keys that exclude each other.
     pub rule: Rule,
 }
 
-/// The combinations of keys that a table allows.
+/// The rule for keys of a table that exclude each other.
 #[derive(Debug)]
 pub enum Rule {
-    /// Any of them, in any combination.
+    /// All combinations of keys are allowed.
     Any,
-    /// Within each group, at most one.
+    /// A table may have at most one key of each listed group.
     AtMostOne(&'static [&'static [&'static str]]),
-    /// Exactly one of the named keys, which tells the kind of thing.
+    /// A table must have exactly one of the listed keys, such as one shape.
     ExactlyOne(&'static [&'static str]),
 }
 
 impl TableSpec {
-    /// The description of a key, if the table has it.
+    /// Returns the description of a key. `None` if the table has no key with this name.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
 }
 
 impl Key {
-    /// A key that may be absent.
+    /// Describes an optional key without unit or default.
     const fn new(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
         Key { name, kind, unit: "", default: DefaultValue::Nothing, meaning, required: false, also: &[] }
     }
@@ -88,7 +88,7 @@ impl Key {
         self
     }
 
-    /// Describes the default in words.
+    /// Sets a description of the default in words.
     const fn default(self, words: &'static str) -> Key {
         self.or(DefaultValue::Words(words))
     }
@@ -129,7 +129,7 @@ impl Key {
     }
 }
 
-/// The unit of the first key with this name and a unit, in any table.
+/// Returns the unit of the first key, in any table, that has this name and a unit.
 pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
     fn within(table: &'static TableSpec, name: &str) -> Option<&'static str> {
         let inside = |kind: &'static Kind| match kind {
@@ -148,7 +148,7 @@ pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
 mod tests {
     use super::*;
 
-    /// Visits every table of the scene language.
+    /// Calls `see` for every table of the scene language that is reached from `table`.
     fn visit(table: &'static TableSpec, see: &mut impl FnMut(&'static TableSpec)) {
         fn inside(kind: &'static Kind, see: &mut impl FnMut(&'static TableSpec)) {
             match kind {
@@ -179,7 +179,7 @@ mod tests {
         });
     }
 
-    /// The reader of a missing key gets its default, so the default must be of the key's type.
+    /// A missing key is replaced by its default, so the default must be a valid value of the key's type.
     #[test]
     fn defaults_are_values_that_could_be_written() {
         fn fits(default: DefaultValue, kind: &Kind) -> bool {

@@ -1,10 +1,10 @@
-//! The keys of prescribed motion.
+//! The grammar of prescribed motion: a motion that the scene gives as a function of time.
 
 use super::Kind::{Choice, Either, File, List, Number, Table, Text, Timed, TimedNumbers};
 use super::keys::{AXIS, ORIENTATION, VECTOR};
 use super::{Bound, Key, Kind, Rule, TableSpec};
 
-/// A vector that may change with time.
+/// A vector of three components, each a number or a formula of the time.
 pub(super) const TIMED_VECTOR: Kind = TimedNumbers(3, Bound::Any);
 
 pub(super) static MOTION: TableSpec = TableSpec {
@@ -60,7 +60,7 @@ fn smoothness() -> Vec<&'static str> {
     vec!["smooth", "linear"]
 }
 
-/// The interpolation of keyframes of bodies and cameras.
+/// The key that selects the interpolation between keyframes, for bodies and cameras.
 pub(super) const BETWEEN_KEYFRAMES: Key = Key::new(
     "interpolation",
     Choice(smoothness),

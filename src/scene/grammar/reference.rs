@@ -1,4 +1,4 @@
-//! The description of the language as a page of the documentation.
+//! Generates the documentation page of the scene language from the grammar.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use super::{Key, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::{BodyMeasure, JointMeasure, RunMeasure};
 
-/// All keys of the scene language, as Markdown.
+/// Returns the documentation of all keys of the scene language, as Markdown.
 pub fn reference() -> String {
     let text = String::from(
         "# The scene language, key by key\n\n\
@@ -25,7 +25,7 @@ pub fn reference() -> String {
     page.text
 }
 
-/// The section on contacts.
+/// The documentation section on contacts.
 const CONTACTS: &str = "
 ## Contacts
 
@@ -116,7 +116,7 @@ contacts, so thousands of bodies are possible: piles, towers and machines. All k
 - **Forces** of all kinds act as in Euler–Cromer: they are evaluated at the beginning of each step.
 ";
 
-/// The section on particles.
+/// The documentation section on particles.
 const PARTICLES: &str = "
 ## Particles
 
@@ -181,7 +181,7 @@ tables ignore them.
   SCENE -o FILE.csv --particles` writes a table of them. Exported models leave them out.
 ";
 
-/// The section on formulas, before the list of functions.
+/// The documentation section on formulas, up to the generated list of functions.
 const FORMULAS: &str = "
 ## Formulas
 
@@ -219,7 +219,7 @@ Random numbers depend only on the `seed` of the scene and the path of their key,
 same on every run and machine, and do not change when you add another body.
 ";
 
-/// The section on scenes of many bodies and several files.
+/// The documentation section on repeated bodies, defaults and included files.
 const MANY: &str = "
 ## Many from few
 
@@ -311,7 +311,7 @@ that includes them, and stay inside the scene's folder without `--trust`. Other 
 folder of the scene in every file.
 ";
 
-/// The section on prescribed motion.
+/// The documentation section on prescribed motion.
 const MOTION: &str = "
 ## Prescribed motion
 
@@ -343,7 +343,7 @@ A `motion.trajectory` is a CSV file with a row for each time and body. Its colum
 writes the same table. So you can draw a run with other bodies, or draw the run of another program with jabuka.
 ";
 
-/// The section on labels, before the list of names.
+/// The documentation section on labels, up to the generated list of quantities.
 const LABELS: &str = "
 ## Labels
 
@@ -376,10 +376,10 @@ label, it moves to another side, or farther away. It hides the grid numbers that
 | --- | --- |
 ";
 
-/// The page written so far.
+/// The documentation page under construction.
 struct Page {
     text: String,
-    /// The tables that have a section, each with its title.
+    /// The tables that have a section on the page, with the titles of the sections.
     sections: Vec<(&'static TableSpec, String)>,
 }
 
@@ -439,7 +439,7 @@ impl Page {
         let _ = writeln!(self.text, "| `{name}` | {value} | {unit} | {default} | {meaning} |");
     }
 
-    /// The title of the section of a table, if it has been written.
+    /// Returns the title of a table's section. `None` if the page has no section for the table yet.
     fn title(&self, table: &TableSpec) -> Option<&str> {
         let written = self.sections.iter().find(|(spec, _)| std::ptr::eq(*spec, table));
         written.map(|(_, title)| title.as_str())

@@ -1,16 +1,16 @@
-//! The keys of `repeat`.
+//! The grammar of `repeat`, which makes copies of bodies, forces and joints.
 
 use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, Key, Kind, Rule, TableSpec};
 
-/// The largest number of copies of all bodies together. More would exceed the memory of a usual machine.
+/// The maximum number of copies in a scene. More copies would exceed the memory of a typical computer.
 pub const MAX_COPIES: i64 = 500_000;
 
-/// A number of copies.
+/// The type of a number of copies.
 pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);
 
-/// The key that repeats a force or a joint.
+/// The key that makes copies of a force or a joint.
 pub(super) const LINKS: Key = Key::new(
     "repeat",
     COUNT,
@@ -20,7 +20,7 @@ pub(super) const LINKS: Key = Key::new(
 .default("one; if names of bodies contain `i`, as many as there are such bodies")
 .also(&["copies", "times"]);
 
-/// The key for the number of copies.
+/// Describes the required key `count`, the number of copies in a pattern.
 const fn count() -> Key {
     Key::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
 }

@@ -1,6 +1,7 @@
-//! The scene language as a JSON Schema. Editors use it to check and complete scenes.
+//! Converts the grammar of scenes into a JSON Schema, with which editors check and complete scenes.
 //!
-//! Editors' TOML plugins know draft 7, which ignores everything beside a `$ref`. So every table is written out.
+//! TOML plugins of editors support draft 7, which ignores all keywords beside a `$ref`. The schema therefore contains every table in full
+//! at each use.
 
 use serde_json::{Map, Value, json};
 
@@ -8,13 +9,13 @@ use super::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::MATERIALS;
 use crate::scene::color::NAMES;
 
-/// A JSON Schema (draft 7) of scenes.
+/// Returns a JSON Schema (draft 7) of scenes.
 ///
-/// It covers each key and its value alone. Only the check of a scene knows which keys go together and which names
-/// exist.
+/// The schema checks each key and value alone. Whether keys fit together and names exist is known only to the check of a scene.
 pub fn schema() -> Value {
     let mut schema = table(&SCENE, Whole::No);
-    // Keys missing in a table may come from the defaults, or from an included file.
+    // A table may lack a required key if `[defaults]` or an included file provides it. Required keys are checked only in a scene without
+    // these.
     let by_itself =
         json!({ "not": { "anyOf": [{ "required": ["defaults"] }, { "required": ["include"] }] } });
     schema.insert("if".to_owned(), by_itself);
@@ -24,14 +25,14 @@ pub fn schema() -> Value {
     schema.into()
 }
 
-/// Whether a table must contain its required keys.
+/// Determines if the schema of a table demands the table's required keys.
 #[derive(Clone, Copy, PartialEq)]
 enum Whole {
     Yes,
     No,
 }
 
-/// A schema that checks only for the required keys of a table and of the tables in it.
+/// Returns a schema that only demands the required keys, of a table and of all tables within it.
 fn requirements(spec: &TableSpec) -> Map<String, Value> {
     let inner = |key: &Key| {
         let required = match &key.kind {
@@ -79,7 +80,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
         }
         Rule::ExactlyOne(names) if whole == Whole::No => {
             let pairs: Vec<_> = pairs(names).collect();
-            // With a single kind, nothing excludes anything.
+            // A group with a single key yields no pairs, so nothing is excluded.
             if !pairs.is_empty() {
                 schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
             }
@@ -92,7 +93,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
     schema
 }
 
-/// For each pair of keys, a schema that requires both.
+/// Returns, for each pair of keys, a schema that matches a table with both keys.
 fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     let with = |(i, name): (usize, &'static &str)| {
         names[i + 1..].iter().map(move |other| json!({ "required": [name, other] }))
@@ -116,7 +117,7 @@ fn property(key: &Key, whole: Whole) -> Value {
 
 fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     match kind {
-        // Editors offer the names of the `enum`; other names are valid, too.
+        // The list of materials serves for completion in editors. Every other name is valid, too, because scenes define materials.
         Kind::Reference(Collection::Material) => {
             let library: Vec<_> = MATERIALS.iter().map(|material| material.name).collect();
             object(json!({ "anyOf": [{ "type": "string", "enum": library }, { "type": "string" }] }))
@@ -142,7 +143,8 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             let names: Vec<_> = NAMES.iter().map(|(name, _)| name).collect();
             object(json!({ "anyOf": [
                 { "type": "string", "enum": names },
-                // A schema cannot compare names case-insensitively, so it admits all with capitals.
+                // A JSON Schema cannot ignore case, so it accepts every word with a capital letter. The check of the scene knows the
+                // names.
                 { "type": "string", "pattern": "^[a-zA-Z]*[A-Z][a-zA-Z]*$" },
                 { "type": "string", "pattern": "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$" },
                 list(number(Bound::From(0.0, 1.0)), 3, 3),
@@ -159,7 +161,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
             object(json!({ "type": "string", "pattern": r#"^[^"\\\u0000-\u001f\u007f-\u009f]+$"# }))
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),
-        // A list has no formula form.
+        // A list cannot be replaced by a formula, only its items can.
         Kind::List { of, min, max } => list(self::kind(of, Whole::Yes), *min, *max),
         Kind::Table(spec) => table(spec, whole),
         Kind::Partial(spec) => table(spec, Whole::No),
@@ -176,7 +178,7 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
     }
 }
 
-/// A number within a bound, or a formula. Limits apply to numbers only.
+/// Returns the schema of a number within a bound, or of a formula (a string). The bound applies to numbers only.
 fn number(bound: Bound) -> Map<String, Value> {
     let mut number = object(match bound {
         Bound::Any => json!({}),
@@ -197,7 +199,7 @@ fn list(of: Map<String, Value>, min: usize, max: usize) -> Map<String, Value> {
     list
 }
 
-/// The members of a JSON object.
+/// Returns the members of a JSON object. Empty for all other values.
 fn object(value: Value) -> Map<String, Value> {
     match value {
         Value::Object(members) => members,

@@ -1,4 +1,4 @@
-//! The keys of shapes.
+//! The grammar of the shapes of bodies.
 
 use super::Kind::{Asset, Boolean, Either, List, Number, Numbers, Sdl, Table};
 use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};

@@ -1,4 +1,4 @@
-//! The keys that make physics visible: arrows, axes, ghosts, trails and springs.
+//! The grammar of the keys that visualize physics: arrows, axes, ghosts, trails and the look of springs.
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
 use super::keys::{POSITIVE, VECTOR};
@@ -9,7 +9,7 @@ static TRAIL_KINDS: [Kind; 2] = [Boolean, Table(&TRAIL_TABLE)];
 static COIL_KINDS: [Kind; 2] = [Boolean, Table(&COIL_TABLE)];
 static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 
-// The keys for what is drawn beside a body.
+// The keys for additional objects that are drawn with a body.
 
 pub(super) const ARROWS: Key = Key::new(
     "arrows",
@@ -37,7 +37,7 @@ pub(super) const GHOSTS: Key = Key::new(
 pub(super) const TRAIL: Key = Key::new("trail", Either(&TRAIL_KINDS), "A line along its past path")
     .default_flag(false)
     .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
-// The look of a spring.
+// The keys for the look of a spring.
 pub(super) const LINE: Key = Key::new(
     "line",
     Choice(|| vec!["coil", "straight", "none"]),
