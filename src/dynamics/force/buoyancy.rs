@@ -1,4 +1,4 @@
-//! Buoyancy in a liquid.
+//! Buoyancy of bodies in a liquid.
 
 use glam::DVec3;
 
@@ -7,24 +7,24 @@ use super::{Force, Loads, Moment};
 
 /// Buoyancy of some bodies in a liquid at rest: F = −ρ V g acts at the centre of the submerged part of a body, whose volume is V.
 ///
-/// The potential is ρ |g| ∫ (level − h) dV over that part: the energy that lifted the displaced liquid to its surface. The force and its
-/// torque about the centre of mass are minus the gradient of this potential. The surface stays flat, and its level stays the same.
+/// The potential is ρ |g| ∫ (level − h) dV over the submerged part: the energy that lifted the displaced liquid to its surface. The force
+/// and its torque about the centre of mass are minus the gradient of this potential. The surface stays flat, and its level stays the same.
 /// Source: Archimedes, *On Floating Bodies* I, prop. 5 and 6; L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Buoyancy {
-    /// The bodies it acts on, each with its shape. Shapes that cannot be cut feel nothing.
+    /// The bodies that feel the buoyancy, each with its shape. Shapes whose submerged volume cannot be computed feel no force.
     pub bodies: Vec<(BodyId, Shape)>,
     /// The density ρ of the liquid, kg/m³.
     pub density: f64,
-    /// The height of the liquid's surface above the origin, measured against gravity, m.
+    /// The height of the liquid's surface above the origin, in the direction opposite to gravity, m.
     pub level: f64,
-    /// The acceleration g of gravity, m/s²; not zero.
+    /// The acceleration g of gravity, world axes, m/s²; not zero.
     pub gravity: DVec3,
 }
 
 impl Buoyancy {
-    /// Calls `see` for each present body with the volume below the surface, and the moment of this volume about the centre of mass in
-    /// world axes.
+    /// Calls `see` for each present body with its index, its submerged volume (m³), and the first moment of that volume about the centre
+    /// of mass (world axes, m⁴).
     fn each(&self, moment: &Moment, mut see: impl FnMut(usize, f64, DVec3)) {
         let up = -self.gravity.normalize();
         for (body, shape) in &self.bodies {
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(loads(&force, &model, &state).force[0].length(), 0.0);
     }
 
-    /// The torque is minus the derivative of the potential by a small rotation about each world axis.
+    /// The torque must equal minus the derivative of the potential with respect to small rotations about each world axis.
     #[test]
     fn force_and_torque_are_minus_the_gradient_of_the_potential() {
         const H: f64 = 1e-5;

@@ -1,32 +1,34 @@
-//! Sorts points into cells to find those that are near each other.
+//! A grid of cells that finds all points near each other in linear time.
 
 use glam::DVec3;
 
-/// The largest number of cells along an axis: three such numbers fit into a key.
+/// The largest number of cells along an axis. One key holds a cell number for each of the three axes.
 const MOST: f64 = 1_048_576.0;
-/// The bits of a key for each axis. One bit more than needed leaves room for a border of cells on all sides.
+/// The bits of a key for each axis. [`MOST`] cells need one bit less; the extra bit leaves room for a border of cells on all sides.
 const BITS: u32 = 21;
 
-/// Points in the order of their cells. A cell is a cube whose edge is at least the reach. All points within reach of a point are in its
-/// own cell or in one of the 26 cells around it. Cells in a row along x follow each other, so three of them are one range.
+/// Points sorted by cells. A cell is a box whose edges are at least as long as the reach, so all points within reach of a point are in its
+/// own cell or in one of the 26 cells around it. The keys of neighbouring cells along x are consecutive, so the points of three such cells
+/// form one range.
 ///
-/// Only cells with points take memory, so one point far away costs nothing. Time is linear in the number of points, because the keys are
-/// sorted digit by digit.
+/// Only cells with points take memory, so a single distant point costs nothing. The time is linear in the number of points, because a
+/// radix sort orders the keys.
 #[derive(Debug, Default)]
 pub(super) struct Cells {
-    /// The sorted points, coordinate by coordinate.
+    /// The coordinates of the sorted points, m: one list for each axis.
     pub(super) at: [Vec<f64>; 3],
-    /// The number of each sorted point in the input.
+    /// The index that each sorted point has in the input.
     pub(super) number: Vec<u32>,
     keys: Vec<u64>,
     spare: (Vec<u64>, Vec<u32>),
 }
 
-/// The rows of cells ahead of a cell's own row, by (y, z). Together with its own row, they show each pair of cells once.
+/// The offsets (y, z) of the four neighbouring rows of cells that are searched from each row. Together with the row itself, they cover
+/// each pair of neighbouring cells once.
 const AHEAD: [(i64, i64); 4] = [(1, 0), (-1, 1), (0, 1), (1, 1)];
 
 impl Cells {
-    /// Sorts points into cells; `reach` is the least edge of a cell.
+    /// Sorts points into cells whose edges are at least `reach`, m.
     #[allow(clippy::cast_possible_truncation, reason = "there are far fewer than 2^32 bodies")]
     pub(super) fn sort(&mut self, points: &[DVec3], reach: f64) {
         let finite = || points.iter().filter(|point| point.is_finite());
@@ -44,7 +46,8 @@ impl Cells {
         }
     }
 
-    /// Sorts the keys with their numbers, eleven bits at a time, from the lowest to the highest. Points of one cell keep their order.
+    /// Sorts the keys and the point indices by a radix sort, eleven bits at a time, lowest bits first. Points in the same cell keep their
+    /// order.
     #[allow(clippy::cast_possible_truncation, reason = "a digit is small, and so is the number of points")]
     fn sort_keys(&mut self) {
         const DIGIT: u32 = 11;
@@ -72,11 +75,12 @@ impl Cells {
         }
     }
 
-    /// Calls `see` for each point with ranges of later points: those in its own row of cells and in the four rows ahead. The ranges
-    /// contain all later points within reach, so each pair of near points is shown once.
+    /// Calls `see` for each sorted point, several times, with ranges of later sorted points: in the point's own row of cells and in the
+    /// four rows ahead. The ranges contain all later points within reach, so each pair of near points occurs exactly once.
     pub(super) fn each(&self, mut see: impl FnMut(usize, std::ops::Range<usize>)) {
         let count = self.keys.len();
-        // The progress in each row. Cells come in rising order, and so do the cells ahead of them.
+        // For each of the four rows, the search continues at the position that the previous cell has reached, because cells and their
+        // neighbours come in rising order.
         let mut from = [0; AHEAD.len()];
         let mut first = 0;
         while first < count {
@@ -102,7 +106,8 @@ impl Cells {
     }
 }
 
-/// The key of a cell: x is the lowest part. Each coordinate begins at 1, so that the neighbours of a cell have valid keys of their own.
+/// Returns the key of the cell at `place`, in units of cell edges. The lowest bits hold x. Cell numbers start at 1, so that all neighbours
+/// of a cell have valid keys.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -119,7 +124,7 @@ mod tests {
 
     use super::*;
 
-    /// All pairs within reach, by cells.
+    /// Returns all pairs of points within `reach` that the cells find.
     fn near(points: &[DVec3], reach: f64) -> Vec<[u32; 2]> {
         let mut cells = Cells::default();
         cells.sort(points, reach);
@@ -136,7 +141,8 @@ mod tests {
         pairs
     }
 
-    /// A dense lump, one point far away, several points at one position, and one that is not finite.
+    /// The points form a dense cluster, with one point far away, several points at one position, and one point with non-finite
+    /// coordinates.
     #[test]
     fn each_pair_within_reach_is_seen_once_and_no_other() {
         let part = |i: usize, k: f64| (i as f64 * k).fract();

@@ -1,4 +1,4 @@
-//! A force that is always the same.
+//! A force and a torque that are constant in time.
 
 use glam::DVec3;
 
@@ -7,15 +7,15 @@ use super::{Force, Loads, Moment};
 
 /// A constant force at the centre of mass, and a constant torque, on each of some bodies.
 ///
-/// The force has the potential −F·x. The torque has none, since it does work in a full rotation back to the same orientation. So its
-/// power τ·ω is counted.
+/// The force has the potential −F·x. The torque has no potential, because it does work in a full rotation back to the same orientation. So
+/// the work of the torque, with the power τ·ω, is added to the accounts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstantForce {
-    /// The bodies it acts on.
+    /// The bodies that the force and the torque act on.
     pub bodies: Vec<BodyId>,
-    /// Force on each of them, world axes, N.
+    /// The force on each body, world axes, N.
     pub force: DVec3,
-    /// Torque on each of them, world axes, N m.
+    /// The torque on each body about its centre of mass, world axes, N m.
     pub torque: DVec3,
 }
 
@@ -30,7 +30,7 @@ impl Force for ConstantForce {
     }
 
     fn is_local(&self) -> bool {
-        // The work of a torque is counted as it is done.
+        // The work of a torque is integrated along with the motion, which needs all bodies at the same time.
         self.torque == DVec3::ZERO
     }
 
@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn it_acts_on_the_named_bodies_and_its_torque_does_work() {
         let (model, mut state) = bodies(&[(DVec3::X, DVec3::Y), (DVec3::splat(2.0), DVec3::X)]);
-        // ω = L / I with I = ⅖ · 2 kg · (0.1 m)².
+        // The angular velocity is ω = L / I with I = ⅖ · 2 kg · (0.1 m)².
         state.angular_momentum[1] = DVec3::new(0.0, 0.008, 0.0);
         let force = ConstantForce {
             bodies: vec![BodyId::new(1)],

@@ -1,28 +1,28 @@
-//! Coulomb's force between charges.
+//! Coulomb's force between electric charges.
 
 use super::super::BodyId;
 use super::pairs::{self, Pairs};
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if their charges have different
-/// signs. The potential is k q₁ q₂ / √(r² + ε²).
+/// Coulomb's force between each two of some bodies: they repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if their
+/// charges have different signs. The potential is k q₁ q₂ / √(r² + ε²).
 ///
-/// A fixed body acts on the others as well. Moving charges exert no magnetic forces: this law holds for velocities far below that of
+/// Fixed bodies act on other bodies as well. Moving charges exert no magnetic forces: this law holds for velocities far below that of
 /// light. Source: J. D. Jackson, *Classical Electrodynamics*, 1.1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coulomb {
-    /// The bodies that act on each other.
+    /// The charged bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
+    /// A second group of bodies, disjoint from the first. If present, each body acts only on the bodies of the other group.
     pub against: Option<Vec<BodyId>>,
-    /// The constant k = 1/4πε₀, N m²/C².
+    /// The Coulomb constant k = 1/4πε₀, N m²/C².
     pub constant: f64,
     /// The softening length ε, m.
     pub softening: f64,
 }
 
 impl Coulomb {
-    /// 1/4πε₀, N m²/C². Source: with ε₀ of CODATA 2022.
+    /// The Coulomb constant 1/4πε₀ in vacuum, N m²/C². Source: ε₀ of CODATA 2022.
     pub const CONSTANT: f64 = 8.987_551_786_2e9;
 
     fn of<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
@@ -72,7 +72,7 @@ mod tests {
             let (model, state) = charged(&[(2.0, DVec3::ZERO), (charge, 2.0 * DVec3::X)]);
             let bodies = [0, 1].map(BodyId::new).to_vec();
             let coulomb = Coulomb { bodies, against: None, constant: 1.0, softening: 0.0 };
-            // k q₁ q₂ / r² = 6 / 4
+            // The force is k q₁ q₂ / r² = 6 / 4.
             assert_eq!(loads(&coulomb, &model, &state).force, [x * DVec3::X, -x * DVec3::X]);
             assert_minus_gradient(&coulomb, &model, &state);
         }

@@ -1,4 +1,4 @@
-//! Magnets that are small compared to their distances.
+//! Forces between magnets that are small compared to the distances between them.
 
 use glam::DVec3;
 
@@ -8,41 +8,41 @@ use super::{Force, Loads, Moment};
 
 /// Magnetic dipoles that rotate with their bodies, in the fields of each other and in a uniform field.
 ///
-/// At a distance d = r n, the field of a dipole m is B = k (3 (m·n) n − m)/r³ with k = μ₀/4π; another dipole has the energy −m·B in it.
-/// With d from the second dipole to the first, the first feels
+/// At a distance d = r n, the field of a dipole m is B = k (3 (m·n) n − m)/r³ with k = μ₀/4π. In this field, another dipole m has the
+/// energy −m·B. With d from the second dipole to the first, the force and the torque on the first dipole are
 ///
 /// F = 3k/r⁴ ((m₁·n) m₂ + (m₂·n) m₁ + (m₁·m₂) n − 5 (m₁·n)(m₂·n) n), τ = m₁ × B.
 ///
-/// The torques on both and the couple d × F add up to zero. In the uniform field B₀, each dipole has the energy −m·B₀. Source: J. D.
-/// Jackson, *Classical Electrodynamics*, 5.6 and 5.7.
+/// The torques on both dipoles and the couple d × F add up to zero. In the uniform field B₀, each dipole has the energy −m·B₀. Source: J.
+/// D. Jackson, *Classical Electrodynamics*, 5.6 and 5.7.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dipoles {
-    /// The bodies that act on each other.
+    /// The magnetic bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
+    /// A second group of bodies, disjoint from the first. If present, each body acts only on the bodies of the other group.
     pub against: Option<Vec<BodyId>>,
-    /// The magnetic moment of each body in its own axes, first group first, A m².
+    /// The magnetic moment of each body, body axes, A m²: first the bodies of the first group, then those of the second.
     pub moments: Vec<DVec3>,
     /// The constant k = μ₀/4π, N/A².
     pub constant: f64,
-    /// The uniform field B₀, T.
+    /// The uniform magnetic field B₀, world axes, T.
     pub field: DVec3,
 }
 
-/// A dipole at one moment.
+/// A magnetic dipole with its present position.
 struct Dipole {
     body: usize,
     at: DVec3,
-    /// In world axes.
+    /// The magnetic moment, world axes, A m².
     moment: DVec3,
     movable: bool,
 }
 
 impl Dipoles {
-    /// μ₀/4π, N/A². Source: CODATA 2022.
+    /// The magnetic constant μ₀/4π, N/A². Source: CODATA 2022.
     pub const CONSTANT: f64 = 9.999_999_998_7e-8;
 
-    /// The present dipoles, and how many of them belong to the first group.
+    /// Returns the dipoles of all present bodies, and the number of these that belong to the first group.
     fn present(&self, moment: &Moment) -> (Vec<Dipole>, usize) {
         let model = moment.model;
         let all = self.bodies.iter().chain(self.against.iter().flatten()).zip(&self.moments);
@@ -64,7 +64,7 @@ impl Dipoles {
         (dipoles, first)
     }
 
-    /// Calls `see` for each pair in which at least one body can move.
+    /// Calls `see` for each pair of dipoles in which at least one body can move. `first` is the number of dipoles in the first group.
     fn each_pair(&self, dipoles: &[Dipole], first: usize, mut see: impl FnMut(&Dipole, &Dipole)) {
         for (number, one) in dipoles[..first].iter().enumerate() {
             let others = if self.against.is_some() { &dipoles[first..] } else { &dipoles[number + 1..] };
@@ -75,7 +75,7 @@ impl Dipoles {
     }
 }
 
-/// The field of a dipole at d = r n from it, for k = 1.
+/// Returns the field of a magnetic dipole at the position d = r n relative to the dipole, divided by k.
 fn field(moment: DVec3, n: DVec3, r: f64) -> DVec3 {
     (3.0 * moment.dot(n) * n - moment) / (r * r * r)
 }
@@ -137,7 +137,8 @@ mod tests {
         Dipoles { bodies, against: None, moments: moments.to_vec(), constant: 2.0, field: DVec3::ZERO }
     }
 
-    /// In line, two magnets attract each other with 6 k m₁ m₂/r⁴; side by side, they repel each other with half of that.
+    /// Two magnets in line attract each other with 6 k m₁ m₂/r⁴. Side by side, with parallel moments, they repel each other with half of
+    /// that force.
     #[test]
     fn two_magnets_by_hand() {
         let (model, state) = bodies(&[(DVec3::ZERO, DVec3::ZERO), (2.0 * DVec3::X, DVec3::ZERO)]);
@@ -149,7 +150,7 @@ mod tests {
             assert_eq!(loads.force[0], -loads.force[1]);
             assert!(loads.torque.iter().all(|torque| *torque == DVec3::ZERO));
         }
-        // At right angles, the torque on one is k m₁ m₂/r³, and twice that on the other.
+        // If the moments are at right angles, the torque on one magnet is k m₁ m₂/r³, and the torque on the other is twice as large.
         let given = loads(&dipoles(&[DVec3::X, DVec3::Y]), &model, &state);
         assert!(
             given.torque[0].abs_diff_eq(-0.25 * DVec3::Z, 1e-15)

@@ -1,4 +1,4 @@
-//! The resistance of a fluid.
+//! Drag: the resistance of a fluid.
 
 use glam::DVec3;
 
@@ -7,20 +7,21 @@ use super::{Force, Loads, Moment};
 
 /// Drag on each of some bodies, F = −(c₁ + c₂ |u|) u, where u = v − w is the velocity relative to the fluid.
 ///
-/// The linear part is for slow and small bodies (Stokes: c₁ = 6π η r for a sphere). The quadratic part is for fast and large ones
+/// The linear part is for slow and small bodies (Stokes: c₁ = 6π η r for a sphere). The quadratic part is for fast and large bodies
 /// (Newton: c₂ = ½ ρ C A, with the density ρ of the fluid, the drag coefficient C and the cross-section A). Source: L. D. Landau & E. M.
 /// Lifshitz, *Fluid Mechanics*, § 20 and § 45.
 ///
-/// Drag has no potential; its power F·v is counted. In a wind it may be positive: the fluid does work on the body.
+/// Drag has no potential, so its work, with the power F·v, is added to the accounts. In a wind, the power may be positive: the fluid does
+/// work on the body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drag {
-    /// The bodies it acts on.
+    /// The bodies that feel the drag.
     pub bodies: Vec<BodyId>,
-    /// The linear coefficient c₁, N s/m.
+    /// The coefficient c₁ of linear drag, N s/m.
     pub linear: f64,
-    /// The quadratic coefficient c₂, N s²/m².
+    /// The coefficient c₂ of quadratic drag, N s²/m².
     pub quadratic: f64,
-    /// The velocity w of the fluid, m/s.
+    /// The velocity w of the fluid, world axes, m/s.
     pub wind: DVec3,
 }
 
@@ -60,7 +61,7 @@ mod tests {
         let wind = DVec3::new(1.0, 0.0, 0.0);
         let drag = Drag { bodies: vec![BodyId::new(1)], linear: 2.0, quadratic: 0.5, wind };
         let loads = loads(&drag, &model, &state);
-        // u = (3, 0, 4), |u| = 5, c₁ + c₂ |u| = 4.5
+        // The velocity relative to the fluid is u = (3, 0, 4), so |u| = 5 and c₁ + c₂ |u| = 4.5.
         assert_eq!(loads.force, [DVec3::ZERO, DVec3::new(-13.5, 0.0, -18.0)]);
         assert_eq!(loads.power.work, -13.5 * 4.0 - 18.0 * 4.0);
     }

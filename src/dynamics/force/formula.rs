@@ -1,4 +1,4 @@
-//! A force given by formulas.
+//! Forces that are given by formulas.
 
 use std::fmt::Debug;
 use std::ops::Range;
@@ -10,15 +10,15 @@ use glam::DVec3;
 use super::super::{BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
-/// The largest number of bodies that a [`ForceLaw`] is asked about at once.
+/// The largest number of bodies for which a [`ForceLaw`] computes forces in one call.
 pub const FORCE_BLOCK: usize = 64;
 
 /// The law of a force that depends only on a body's position, velocity, mass and charge, and on the time.
 pub trait ForceLaw: Debug + Send + Sync {
-    /// Writes the force on each of at most [`FORCE_BLOCK`] bodies, N. With `at_rest`, their velocities count as zero.
+    /// Writes the force on each of at most [`FORCE_BLOCK`] bodies to `out`, N. With `at_rest`, all velocities are taken as zero.
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]);
 
-    /// Writes the potential energy of each of at most [`FORCE_BLOCK`] bodies, J; 0 without a potential.
+    /// Writes the potential energy of each of at most [`FORCE_BLOCK`] bodies to `out`, J; 0 for a law without a potential.
     fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]);
 
     /// Whether the force on a body at rest is −∂U/∂x for a potential U.
@@ -30,8 +30,8 @@ pub trait ForceLaw: Debug + Send + Sync {
 
 /// A force F(x, v, t) on each of some bodies, given by a [`ForceLaw`].
 ///
-/// A law with a potential U has F(x, 0, t) = −∂U/∂x. The velocity adds F(x, v, t) − F(x, 0, t), and the work of this part is counted.
-/// Without a potential, the work of the whole force is counted.
+/// A law with a potential U satisfies F(x, 0, t) = −∂U/∂x. The part F(x, v, t) − F(x, 0, t) that depends on the velocity has no potential,
+/// so its work is added to the accounts. For a law without a potential, the work of the whole force is added.
 #[derive(Debug)]
 pub struct FormulaForce {
     bodies: Vec<BodyId>,
@@ -39,20 +39,21 @@ pub struct FormulaForce {
     failure: Failure,
 }
 
-/// The position at which a law has no finite value.
+/// A body and its state at which the value of a force law is not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Undefined {
-    /// The body for which the force is undefined.
+    /// The body for which the force is not finite.
     pub body: BodyId,
-    /// The time, s.
+    /// The time at which the force is not finite, s.
     pub time: f64,
     /// The position of the body, m.
     pub location: DVec3,
-    /// Its velocity, m/s.
+    /// The velocity of the body, m/s.
     pub velocity: DVec3,
 }
 
-/// The last failure. A run continues if a shorter step gives a finite value.
+/// Remembers the body whose force is not finite. The memory is cleared when a later evaluation, such as that of a shorter step, gives a
+/// finite force on this body.
 #[derive(Debug, Default)]
 struct Failure {
     is_there: AtomicBool,
@@ -60,13 +61,14 @@ struct Failure {
 }
 
 impl FormulaForce {
-    /// The force of a law on some bodies.
+    /// Makes a force that acts on `bodies` by `law`.
     #[must_use]
     pub fn new(bodies: Vec<BodyId>, law: Arc<dyn ForceLaw>) -> FormulaForce {
         FormulaForce { bodies, law, failure: Failure::default() }
     }
 
-    /// Calls `see` with the forces on all present bodies, block by block. The second list is the forces at rest, if they are needed.
+    /// Calls `see` with the forces (N) on all present bodies, in blocks. The second list holds the forces on the same bodies at rest, if
+    /// the law has a potential and depends on velocities.
     fn each_block(&self, moment: &Moment, mut see: impl FnMut(&[BodyId], &[DVec3], Option<&[DVec3]>)) {
         let (mut force, mut rest) = ([DVec3::ZERO; FORCE_BLOCK], [DVec3::ZERO; FORCE_BLOCK]);
         let has_rest = self.law.has_potential() && self.law.depends_on_velocity();
@@ -88,7 +90,7 @@ impl Force for FormulaForce {
         let mut power = 0.0;
         self.each_block(moment, |bodies, force, rest| {
             match (in_a_row(bodies), rest) {
-                // The most common case: no body has to be looked up.
+                // In the most common case, the bodies have consecutive indices, so slices replace the look-up of each body.
                 (Some(row), None) => {
                     let all = loads.force[row.clone()].iter_mut().zip(force);
                     all.for_each(|(sum, force)| *sum += *force);
@@ -143,19 +145,21 @@ impl Force for FormulaForce {
     }
 }
 
-/// The range of bodies whose numbers are consecutive; otherwise `None`.
+/// Returns the range of the indices of `bodies` if these are consecutive, and `None` if not.
 #[inline]
 pub fn in_a_row(bodies: &[BodyId]) -> Option<Range<usize>> {
     let first = bodies.first()?.index();
-    // A loop without an early exit is faster.
+    // This loop has no early exit, because the compiler can vectorise it then.
     let off = bodies.iter().zip(first..).fold(0, |off, (body, i)| off | body.index() ^ i);
     (off == 0).then(|| first..first + bodies.len())
 }
 
 impl Failure {
-    /// Notes the first body that has no finite force although its position and velocity are finite.
+    /// Remembers the first body whose force is not finite although its position and velocity are finite. Forgets a remembered body whose
+    /// force is finite again.
     fn look(&self, bodies: &[BodyId], force: &[DVec3], moment: &Moment) {
-        // 0 · ∞ is NaN, and so is any sum with NaN. Four independent sums run in parallel.
+        // 0 · ∞ is NaN, and any sum with NaN is NaN, so the sums are zero exactly if all forces are finite. Four independent sums run in
+        // parallel.
         let mut sums = [DVec3::ZERO; 4];
         let (fours, others) = force.as_chunks::<4>();
         for four in fours {
@@ -192,7 +196,7 @@ mod tests {
     use super::super::testing::{assert_minus_gradient, bodies, loads};
     use super::*;
 
-    /// F = (−4 x³ − c v_y, c v_x − d v_z, 0) with U = x⁴, or without a potential.
+    /// The force F = (−4 x³ − c v_y, c v_x, −d v_z), with the potential U = x⁴ if `has_potential` is true.
     #[derive(Clone, Copy, Debug)]
     struct Quartic {
         turning: f64,
@@ -242,7 +246,7 @@ mod tests {
         }
     }
 
-    /// More bodies than fit into one block. A fixed body has no share of the potential.
+    /// The 150 bodies do not fit into one block.
     #[test]
     fn many_bodies_and_a_potential() {
         let located: Vec<_> = (0..150).map(|i| (DVec3::X * (f64::from(i) * 0.01 - 0.7), DVec3::Y)).collect();
@@ -265,7 +269,7 @@ mod tests {
         loads(&force, &model, &state);
         let found = force.undefined().unwrap();
         assert_eq!((found.body, found.location), (BodyId::new(1), 1e200 * DVec3::X));
-        // A non-finite position is not the cause: it is a result of the undefined force.
+        // A non-finite position must not replace the recorded cause, because the position is a result of the non-finite force.
         state.location[1].x = f64::NAN;
         loads(&force, &model, &state);
         assert_eq!(force.undefined(), Some(found));

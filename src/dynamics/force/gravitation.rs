@@ -1,26 +1,27 @@
-//! Newton's gravitation.
+//! Newton's gravitation between bodies.
 
 use super::super::BodyId;
 use super::pairs::{self, Pairs};
 use super::tree::ByTree;
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ / √(r² + ε²).
+/// Newton's gravitation: each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ / √(r² +
+/// ε²).
 ///
-/// A fixed body attracts the others as well. Source: I. Newton, *Principia* III, prop. 7; for the softening ε, H. C. Plummer, Mon. Not.
+/// Fixed bodies attract other bodies as well. Source: I. Newton, *Principia* III, prop. 7; for the softening ε, H. C. Plummer, Mon. Not.
 /// R. Astron. Soc. 71 (1911) 460.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gravitation {
     /// The bodies that attract each other.
     pub bodies: Vec<BodyId>,
-    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
+    /// A second group of bodies, disjoint from the first. If present, each body attracts only the bodies of the other group.
     pub against: Option<Vec<BodyId>>,
-    /// The constant G, m³/(kg s²).
+    /// The gravitational constant G, m³/(kg s²).
     pub constant: f64,
     /// The softening length ε, m.
     pub softening: f64,
-    /// The opening angle of the tree, above 0 and up to 1: the largest ratio of size to distance at which a group of bodies acts as a
-    /// whole. `None` sums over all pairs.
+    /// The opening angle of the Barnes–Hut tree, above 0 and up to 1: the largest ratio of size to distance at which a group of bodies
+    /// acts as a whole. With `None`, the forces are summed over all pairs of bodies.
     ///
     /// The forces of the tree are not exactly opposite, and not exactly the gradient of its potential. So momentum and energy drift by
     /// about the error of the forces, 4e-4 at an angle of 0.5.
@@ -28,7 +29,7 @@ pub struct Gravitation {
 }
 
 impl Gravitation {
-    /// Newton's constant, m³/(kg s²). Source: CODATA 2018, Rev. Mod. Phys. 93 (2021) 025010.
+    /// Newton's gravitational constant, m³/(kg s²). Source: CODATA 2018, Rev. Mod. Phys. 93 (2021) 025010.
     pub const CONSTANT: f64 = 6.674_30e-11;
 
     fn of<'a>(&'a self, moment: &Moment<'a>) -> Pairs<'a> {
@@ -42,15 +43,15 @@ impl Gravitation {
         }
     }
 
-    /// The same sums, by trees.
+    /// Returns the sums over all pairs of bodies, computed by trees with the opening angle `angle`.
     fn by_tree<'a>(&'a self, angle: f64, moment: &Moment<'a>) -> ByTree<'a> {
         ByTree { pairs: self.of(moment), angle, each: self.interactions(angle) }
     }
 
-    /// The approximate number of interactions for each body with a tree.
+    /// Estimates the number of interactions of each body when a tree computes the forces.
     fn interactions(&self, angle: f64) -> u64 {
         let most = self.bodies.len().max(self.against.as_ref().map_or(0, Vec::len)) as u64;
-        // Measured: 1,500 for 100,000 bodies at 0.5.
+        // Measurement: 1,500 interactions for each of 100,000 bodies at an opening angle of 0.5.
         most.min((400.0 / (angle * angle)) as u64)
     }
 }
@@ -111,7 +112,7 @@ mod tests {
     #[test]
     fn two_bodies_by_hand() {
         let (model, state) = bodies(&[(DVec3::ZERO, DVec3::X), (DVec3::new(0.0, 3.0, 4.0), DVec3::ZERO)]);
-        // G m₁ m₂ / r² = 2 · 1 · 2 / 25, and r̂ = (0, 0.6, 0.8)
+        // The force is G m₁ m₂ / r² = 2 · 1 · 2 / 25, in the direction r̂ = (0, 0.6, 0.8).
         let force = DVec3::new(0.0, 0.096, 0.128);
         let loads = loads(&all(2, 0.0), &model, &state);
         assert!(loads.force[0].abs_diff_eq(force, 1e-16) && loads.force[1] == -loads.force[0]);
@@ -132,8 +133,8 @@ mod tests {
         }
     }
 
-    /// Tiles hold 128 bodies. The counts give a part of a tile, two full tiles, and one body more. The rounding error of a sum of n terms
-    /// is n · 1e-16 of the sum of their magnitudes.
+    /// The forces are computed in tiles of 128 bodies. The counts give part of a tile, exactly one tile, one body more, and several tiles.
+    /// The tolerance covers the rounding error of a sum of n terms, which grows with n and with the sum of their magnitudes.
     #[test]
     fn any_number_of_bodies_is_the_plain_double_sum() {
         for count in [1, 5, 128, 129, 300] {
@@ -166,7 +167,7 @@ mod tests {
         }
     }
 
-    /// Two groups of 150 and 140 bodies take two tiles each.
+    /// Two groups of 150 and 140 bodies, so that each group needs two tiles of 128 bodies.
     #[test]
     fn two_groups_attract_each_other_and_not_themselves() {
         let at = |i: usize, k: f64| (i as f64 * k).fract() * 10.0;

@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::{Force, Loads, Moment};
 
-/// A uniform field of gravity: F = m g on every body, with the potential −m g·x.
+/// Uniform gravity: a force F = m g on every body, with the potential −m g·x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniformGravity {
-    /// The acceleration g, m/s².
+    /// The acceleration g, world axes, m/s².
     pub acceleration: DVec3,
 }
 

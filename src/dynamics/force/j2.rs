@@ -1,36 +1,36 @@
-//! The gravity of a planet's bulge.
+//! The gravity of the equatorial bulge of an oblate planet.
 
 use glam::DVec3;
 
 use super::super::BodyId;
 use super::{Force, Loads, Moment};
 
-/// The gravity of an oblate planet's bulge on some bodies. Its potential is
+/// The gravity of the equatorial bulge of an oblate planet, acting on some bodies. Its potential is
 ///
 /// U = G M m J₂ R² (3 (d·a)²/r² − 1) / (2 r³), with d from the planet to the body, r its length, and a the planet's axis.
 ///
-/// This excludes the attraction −G M m/r of a round planet, which is [`Gravitation`](super::Gravitation). The planet gets the opposite
-/// force, and a torque that conserves the angular momentum of both. Source: D. Brouwer & G. M. Clemence, *Methods of Celestial
-/// Mechanics*, ch. III.
+/// This potential excludes the attraction −G M m/r of a round planet, which is [`Gravitation`](super::Gravitation). The planet feels the
+/// opposite force, and a torque that conserves the total angular momentum of planet and body. Source: D. Brouwer & G. M. Clemence,
+/// *Methods of Celestial Mechanics*, ch. III.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
-    /// The planet.
+    /// The oblate planet.
     pub planet: BodyId,
-    /// The bodies it acts on, and which act on the planet. The planet is not one of them.
+    /// The bodies that feel the bulge's gravity and act back on the planet. The planet itself is not in the list.
     pub bodies: Vec<BodyId>,
     /// The dimensionless coefficient J₂; positive for an oblate planet.
     pub j2: f64,
-    /// The equatorial radius R that belongs to J₂, m.
+    /// The equatorial radius R of the planet that the coefficient J₂ refers to, m.
     pub radius: f64,
-    /// The axis of the planet in its own axes, a unit vector.
+    /// The rotation axis of the planet, body axes, a unit vector.
     pub axis: DVec3,
-    /// The constant G, m³/(kg s²).
+    /// The gravitational constant G, m³/(kg s²).
     pub constant: f64,
 }
 
 impl J2 {
-    /// If the planet is present, calls `see` for each present body with the vector from the planet to it, the planet's axis, and 3/2 G M
-    /// m J₂ R².
+    /// If the planet is present, calls `see` for each present body with its index, the vector from the planet to the body (m), the
+    /// planet's axis (world axes), and the factor 3/2 G M m J₂ R².
     fn each(&self, moment: &Moment, mut see: impl FnMut(usize, DVec3, DVec3, f64)) {
         let (model, state, planet) = (moment.model, moment.state, self.planet.index());
         if !model.is_present(planet) {
@@ -86,7 +86,8 @@ mod tests {
         J2 { planet: BodyId::new(0), bodies, j2: 0.3, radius: 0.8, axis: DVec3::Y, constant: 2.0 }
     }
 
-    /// Above the equator, the attraction is larger by 3/2 J₂ (R/r)² of G M m/r²; above a pole, it is smaller by twice that.
+    /// Above the equator, the bulge increases the attraction G M m/r² by the fraction 3/2 J₂ (R/r)². Above a pole, it decreases the
+    /// attraction by twice that fraction.
     #[test]
     fn at_the_equator_and_at_a_pole() {
         let (model, state) = bodies(&[
@@ -96,7 +97,7 @@ mod tests {
         ]);
         let force = loads(&planet(), &model, &state).force;
         let part = 1.5 * 0.3 * 0.16;
-        // G M m/r² is 2 · 1 · 2/4 and 2 · 1 · 3/4.
+        // The attraction G M m/r² of a round planet is 2 · 1 · 2/4 on the first body and 2 · 1 · 3/4 on the second.
         assert!(force[1].abs_diff_eq(-part * DVec3::X, 1e-15), "{force:?}");
         assert!(force[2].abs_diff_eq(-2.0 * part * 1.5 * DVec3::Y, 1e-15), "{force:?}");
     }

@@ -1,4 +1,4 @@
-//! The force between neutral atoms.
+//! The Lennard-Jones force between neutral atoms.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -9,40 +9,41 @@ use super::super::BodyId;
 use super::cells::Cells;
 use super::{Force, Loads, Moment};
 
-/// Each two of some bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with u = 4ε ((σ/r)¹² − (σ/r)⁶).
-/// They repel each other below 2^(1/6) σ, and attract each other beyond.
+/// The Lennard-Jones force between bodies. Each two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c)
+/// with u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
 ///
-/// The cutoff makes the time linear in the number of bodies. The shift −u(r_c) makes the potential continuous there, so that the energy
-/// balances. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. `smooth` shifts the force as well, U(r) = u(r) − u(r_c) −
-/// (r − r_c) u′(r_c), so that methods keep their order across the cutoff. Source: M. P. Allen & D. J. Tildesley, *Computer Simulation of
-/// Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
+/// The cutoff makes the time linear in the number of bodies. The shift −u(r_c) makes the potential continuous at the cutoff, so that the
+/// energy balances. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. With `smooth`, the force is shifted as well, U(r) =
+/// u(r) − u(r_c) − (r − r_c) u′(r_c), so that integration methods keep their order across the cutoff. Source: M. P. Allen & D. J.
+/// Tildesley, *Computer Simulation of Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
 ///
-/// The order of the sums depends on the positions alone.
+/// The order in which the forces are summed depends only on the positions of the bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LennardJones {
     /// The bodies that act on each other.
     pub bodies: Vec<BodyId>,
-    /// A second group of bodies, disjoint from the first. With it, each body acts only on those of the other group.
+    /// A second group of bodies, disjoint from the first. If present, each body acts only on the bodies of the other group.
     pub against: Option<Vec<BodyId>>,
-    /// The depth ε of the potential, J.
+    /// The depth ε of the potential well, J.
     pub epsilon: f64,
-    /// The distance σ at which the potential is 0, m.
+    /// The distance σ at which the unshifted potential is 0, m.
     pub sigma: f64,
-    /// The distance beyond which there is no force, m.
+    /// The cutoff r_c: the distance beyond which two bodies exert no force on each other, m.
     pub cutoff: f64,
-    /// Whether the force also falls to 0 at the cutoff.
+    /// Whether the force is continuous at the cutoff. If not, only the potential is.
     pub smooth: bool,
 }
 
-/// Working memory of an evaluation. It is reused, so that a run allocates nothing.
+/// Working memory for one evaluation of the force. It is reused, so that a run allocates no memory.
 #[derive(Debug, Default)]
 struct Room {
     sorted: Sorted,
-    /// The forces on the sorted bodies, coordinate by coordinate.
+    /// The forces on the sorted bodies, N: one list for each axis.
     force: [Vec<f64>; 3],
 }
 
-/// The present bodies with their properties, in the order of cells. Before sorting, the second group follows the first.
+/// The present bodies with their properties. `bodies` and `places` hold the first group, then the second; `is_second` and `movable` follow
+/// the order of the cells.
 #[derive(Debug, Default)]
 struct Sorted {
     bodies: Vec<BodyId>,
@@ -50,20 +51,21 @@ struct Sorted {
     cells: Cells,
     is_second: Vec<bool>,
     movable: Vec<bool>,
-    /// Whether there are two groups.
+    /// Whether there are two groups of bodies, which act only on each other.
     has_groups: bool,
-    /// Whether some pairs do not count: there are two groups, or some bodies cannot move.
+    /// Whether some pairs exert no force: true if there are two groups, or if some bodies cannot move.
     is_mixed: bool,
 }
 
-/// Rooms that are not in use. Evaluations never wait for each other: if none is free, a new one is made.
+/// A pool of working memory. An evaluation takes an entry, or makes a new one if the pool is empty, so concurrent evaluations never wait
+/// for each other.
 static ROOMS: Mutex<Vec<Room>> = Mutex::new(Vec::new());
 
 impl LennardJones {
-    /// The usual cutoff in units of σ.
+    /// The usual cutoff distance, in units of σ.
     pub const CUTOFF: f64 = 2.5;
 
-    /// u = 4ε ((σ/r)¹² − (σ/r)⁶) and −u′/r, where `square` is r².
+    /// Returns the unshifted potential u = 4ε ((σ/r)¹² − (σ/r)⁶) and −u′/r, where `square` is r².
     #[inline(always)]
     fn pure(&self, square: f64) -> (f64, f64) {
         let inverse = 1.0 / square;
@@ -73,13 +75,14 @@ impl LennardJones {
         (potential, 24.0 * self.epsilon * inverse * six * (2.0 * six - 1.0))
     }
 
-    /// The constant that is subtracted from the potential, and the force −u′(r_c) that is subtracted if it is smooth.
+    /// Returns the constant u(r_c) that is subtracted from the potential, and the force −u′(r_c) that is subtracted from the force. The
+    /// latter is 0 unless `smooth` is set.
     fn shifts(&self) -> (f64, f64) {
         let (potential, push) = self.pure(self.cutoff * self.cutoff);
         (potential, if self.smooth { push * self.cutoff } else { 0.0 })
     }
 
-    /// Sorts the present bodies, and passes them to `work`.
+    /// Takes working memory from the pool, sorts the present bodies in it, and calls `work` with it. Returns the result of `work`.
     fn with_room<T>(&self, moment: &Moment, work: impl FnOnce(&mut Room) -> T) -> T {
         let taken = ROOMS.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut room = taken.unwrap_or_default();
@@ -89,8 +92,8 @@ impl LennardJones {
         done
     }
 
-    /// Calls `see` for each two interacting bodies with their numbers in the order of cells, the vector from the second to the first, and
-    /// its square. `begin` and `end` enclose the pairs of one body.
+    /// Calls `see` for each two interacting bodies with their indices in the order of cells, the vector from the second to the first (m),
+    /// and its square. `see` returns the force on the first body. Calls `end` with each first body and the sum of these forces.
     #[inline]
     fn each_pair<S>(
         &self,
@@ -137,7 +140,7 @@ impl Sorted {
         self.has_groups = force.against.is_some();
     }
 
-    /// Whether two bodies do not interact: they belong to the same one of two groups, or neither can move.
+    /// Returns true if two bodies do not interact: both belong to the same one of two groups, or neither can move.
     fn is_no_pair(&self, one: usize, other: usize) -> bool {
         self.has_groups && self.is_second[one] == self.is_second[other]
             || !self.movable[one] && !self.movable[other]
@@ -204,7 +207,7 @@ mod tests {
         LennardJones { bodies, against: None, epsilon: 1.5, sigma: 0.8, cutoff: 2.0, smooth }
     }
 
-    /// At r = σ, u = 0 and −u′ = 24 ε/σ; at 2^(1/6) σ, u = −ε and −u′ = 0.
+    /// Known values: at r = σ, u = 0 and −u′ = 24 ε/σ. At r = 2^(1/6) σ, u = −ε and −u′ = 0.
     #[test]
     fn two_atoms_by_hand() {
         let force = gas(2, false);
@@ -225,7 +228,7 @@ mod tests {
         }
     }
 
-    /// A lump of 27 atoms, some of them beyond the cutoff of others.
+    /// A lattice of 27 slightly displaced atoms. Some pairs of atoms are farther apart than the cutoff.
     #[test]
     fn the_force_is_minus_the_gradient_and_falls_to_zero_if_it_is_smooth() {
         let place = |i: usize| DVec3::new((i % 3) as f64, (i / 3 % 3) as f64, (i / 9) as f64);
@@ -241,7 +244,8 @@ mod tests {
         assert!(step > 1e-3 && none < 1e-8, "{step} {none}");
     }
 
-    /// Compares with the sum over all pairs, in the order of bodies. With two groups, only pairs across them count.
+    /// The forces found by cells must equal the sum over all pairs of bodies. With two groups, only pairs of one body from each group
+    /// count.
     #[test]
     fn cells_give_the_plain_double_sum() {
         let at = |i: usize, k: f64| (i as f64 * k).fract() * 9.0;

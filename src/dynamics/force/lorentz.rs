@@ -1,21 +1,21 @@
-//! Uniform electric and magnetic fields.
+//! The Lorentz force in uniform electric and magnetic fields.
 
 use glam::DVec3;
 
 use super::super::BodyId;
 use super::{Force, Loads, Moment};
 
-/// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are the same everywhere.
+/// The Lorentz force F = q (E + v × B) on each of some charged bodies, in fields that are uniform and constant.
 ///
 /// The electric field has the potential −q E·x. The magnetic force is perpendicular to the velocity, and does no work. Source: J. D.
 /// Jackson, *Classical Electrodynamics*, 6.7 and 12.2 (for velocities far below that of light).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lorentz {
-    /// The bodies it acts on.
+    /// The charged bodies that feel the fields.
     pub bodies: Vec<BodyId>,
-    /// The electric field E, V/m.
+    /// The electric field E, world axes, V/m.
     pub electric: DVec3,
-    /// The magnetic field B, T.
+    /// The magnetic field B, world axes, T.
     pub magnetic: DVec3,
 }
 
@@ -51,7 +51,7 @@ mod tests {
         let lorentz = Lorentz { bodies, electric: DVec3::new(3.0, 0.0, 1.0), magnetic: 4.0 * DVec3::Z };
         assert_minus_gradient(&lorentz, &model, &state);
         state.velocity[0] = DVec3::X;
-        // q (E + v × B) with x × z = −y
+        // The expected force is q (E + v × B), where x × z = −y.
         let loads = loads(&lorentz, &model, &state);
         assert_eq!(loads.force, [DVec3::new(6.0, -8.0, 2.0), DVec3::new(-3.0, 0.0, -1.0)]);
         assert_eq!(loads.power.work, 0.0);

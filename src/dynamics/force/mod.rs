@@ -1,4 +1,4 @@
-//! Forces: their interface, and one file for each kind. `dynamics` re-exports all public items.
+//! Forces: their interface, and one file for each kind of force. `dynamics` re-exports all public items.
 
 mod buoyancy;
 mod cells;
@@ -33,10 +33,10 @@ use std::ops::Range;
 
 use super::{Loads, Model, State, WorkAccount};
 
-/// All data that a force may use.
+/// The moment at which forces are evaluated, with all data that a force may use.
 #[derive(Clone, Copy)]
 pub struct Moment<'a> {
-    /// Time, s.
+    /// The time, s.
     pub time: f64,
     /// The positions and velocities of the bodies.
     pub state: &'a State,
@@ -46,37 +46,39 @@ pub struct Moment<'a> {
 
 /// A force, or anything else that pushes or rotates bodies.
 ///
-/// A new kind of force is one type with this trait. It can be defined anywhere, since the world does not know the kinds.
+/// A new kind of force is a type that implements this trait. Such a type can be defined anywhere, because a world works with every
+/// implementation.
 pub trait Force: Send + Sync {
     /// Adds the forces and torques at this moment to `loads`.
     ///
-    /// A force that has no potential, or only for a part, adds the power of the rest, F·v + τ·ω, to `loads.power.work`. Loads on fixed
-    /// bodies are dropped afterwards.
+    /// If the force, or a part of the force, has no potential, the power of this part, F·v + τ·ω, is added to `loads.power.work`. Loads on
+    /// fixed bodies are dropped afterwards.
     fn apply(&self, moment: &Moment, loads: &mut Loads);
 
-    /// The potential energy, J; 0 for a force that has none.
+    /// Returns the potential energy at this moment, J; 0 for a force without a potential.
     ///
-    /// The share of a fixed body is left out if it is constant.
+    /// Constant contributions of fixed bodies are left out.
     fn potential(&self, moment: &Moment) -> f64;
 
-    /// The account for the work of the part without a potential. `None` if there is no such part.
+    /// Returns the account for the work of the part without a potential; `None` if there is no such part.
     fn work_account(&self) -> Option<WorkAccount> {
         None
     }
 
-    /// Adds the part of the forces and torques without a potential, and its power. It is called only if there is a
+    /// Adds only the forces and torques of the part without a potential, and their power. This function is called only if there is a
     /// [`work_account`](Self::work_account). The default calls [`apply`](Self::apply).
     fn apply_without_potential(&self, moment: &Moment, loads: &mut Loads) {
         self.apply(moment, loads);
     }
 
-    /// Adds the forces on a range of bodies only. Only a [local](Self::is_local) force can do this. The default does nothing and returns
-    /// false; such a force is always evaluated as a whole.
+    /// Adds the forces on a range of bodies only, and returns true. Only a [local](Self::is_local) force can do this. The default adds
+    /// nothing and returns false; all bodies must then be evaluated together.
     fn apply_to(&self, _bodies: Range<usize>, _moment: &Moment, _loads: &mut Loads) -> bool {
         false
     }
 
-    /// Whether the force has a potential and depends on no other body. Bodies that do not meet can then be advanced one after another.
+    /// Whether the force has a potential, and the force on a body depends on that body alone. Bodies that do not touch can then be
+    /// advanced one after another.
     fn is_local(&self) -> bool {
         false
     }
@@ -91,17 +93,17 @@ pub trait Force: Send + Sync {
         true
     }
 
-    /// This force as Newton's gravitation, if it is that. Methods that move bodies along orbits need it.
+    /// Returns this force if it is Newton's gravitation. Methods that move bodies along Kepler orbits need it.
     fn gravitation(&self) -> Option<&Gravitation> {
         None
     }
 
-    /// The number of pairs of bodies in an evaluation, if it determines the time.
+    /// Returns the number of pairs of bodies in one evaluation; 0 if the time of an evaluation does not depend on pairs.
     fn pairs(&self) -> u64 {
         0
     }
 
-    /// The position at which the last evaluation had no finite value. `None` for a force that is finite everywhere.
+    /// Returns the state in which the last evaluation was not finite; `None` if the force was finite, or cannot be undefined.
     fn undefined(&self) -> Option<Undefined> {
         None
     }
@@ -114,7 +116,7 @@ mod testing {
     use super::super::{Accounts, RigidBody, Shape};
     use super::*;
 
-    /// Free bodies at the given locations with the given velocities; mass 1, 2, 3, …
+    /// Returns a model and a state with free bodies at the given locations, with the given velocities. Their masses are 1, 2, 3, … kg.
     pub(super) fn bodies(located: &[(DVec3, DVec3)]) -> (Model, State) {
         let (mut model, mut state) = (Model::default(), State::default());
         let sphere = Shape::Sphere { radius: 0.1 };
@@ -129,7 +131,7 @@ mod testing {
         (model, state)
     }
 
-    /// Free bodies of 1 kg at rest, with the given charges at the given locations.
+    /// Returns a model and a state with free bodies of 1 kg at rest, with the given charges at the given locations.
     pub(super) fn charged(located: &[(f64, DVec3)]) -> (Model, State) {
         let (mut model, mut state) = (Model::default(), State::default());
         for &(charge, location) in located {
@@ -139,7 +141,7 @@ mod testing {
         (model, state)
     }
 
-    /// The loads of one force alone.
+    /// Returns the loads that a single force exerts at time 0.
     pub(super) fn loads(force: &dyn Force, model: &Model, state: &State) -> Loads {
         let mut loads = Loads {
             force: vec![DVec3::ZERO; state.len()],
@@ -150,8 +152,8 @@ mod testing {
         loads
     }
 
-    /// Checks F = −∂U/∂x on every body, by central differences. With h = 1e-5 these are off by h² U‴/6, about 1e-10
-    /// here, and by the rounding of U over h, about 1e-16 · 100 / 1e-5 = 1e-9.
+    /// Checks F = −∂U/∂x on every body, by central differences. With h = 1e-5, the differences are wrong by h² U‴/6, about 1e-10 for these
+    /// forces, and by the rounding error of U over h, about 1e-16 · 100 / 1e-5 = 1e-9.
     pub(super) fn assert_minus_gradient(force: &dyn Force, model: &Model, state: &State) {
         const H: f64 = 1e-5;
         let given = loads(force, model, state).force;

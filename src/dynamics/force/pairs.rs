@@ -1,42 +1,43 @@
-//! Inverse-square forces between all pairs of bodies.
+//! Inverse-square forces between all pairs of bodies, such as gravitation and Coulomb's force.
 
 use glam::DVec3;
 
 use super::super::BodyId;
 use super::{Loads, Moment};
 
-/// The bodies in one tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
+/// The number of bodies in a tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
 const TILE: usize = 128;
-/// Up to this many bodies, tiles do not pay off: copying one takes as long as visiting all pairs.
+/// The largest number of bodies for which tiles are not used: to copy one tile takes as long as to visit all pairs.
 const FEW: usize = 16;
-/// The number of interactions side by side, for the compiler to vectorise.
+/// The number of interactions that are computed side by side, so that the compiler can vectorise the loop.
 const LANES: usize = 4;
 
 /// The force and the potential of all pairs of some bodies:
 ///
 /// Fᵢⱼ = c sᵢ sⱼ d / (d² + ε²)^(3/2) on i, with d = xᵢ − xⱼ; Uᵢⱼ = c sᵢ sⱼ / √(d² + ε²).
 ///
-/// c > 0 repels equal signs, c < 0 attracts them. The softening ε (Plummer's) replaces a point by a small cloud, so that close encounters
-/// stay harmless. Source: S. J. Aarseth, *Gravitational N-Body Simulations* (2003), 1.2.
+/// With c > 0, strengths s of equal sign repel each other; with c < 0, they attract each other. The softening ε (Plummer's) replaces a
+/// point by a small cloud, so that forces stay finite in close encounters. Source: S. J. Aarseth, *Gravitational N-Body Simulations*
+/// (2003), 1.2.
 ///
-/// Every pair is visited once, and adds opposite forces to its two bodies. Absent bodies are left out, since two of them may be at the
-/// same position. The sums run over tiles, which hold copies of bodies, coordinate by coordinate. Their order depends on the number of
-/// bodies alone.
+/// Every pair is visited once, and adds opposite forces to its two bodies. Absent bodies are left out, because two absent bodies may be at
+/// the same position. The sums run over tiles, which hold copies of bodies, one list for each coordinate. The order of the sums depends
+/// only on the number of bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Pairs<'a> {
     /// The bodies that act on each other.
     pub(super) bodies: &'a [BodyId],
-    /// A second group of bodies. With it, bodies act only on those of the other group.
+    /// A second group of bodies. If present, each body acts only on the bodies of the other group.
     pub(super) against: Option<&'a [BodyId]>,
-    /// s of every body of the world.
+    /// The strength s of every body in the world, such as its mass or its charge.
     pub(super) strength: &'a [f64],
-    /// The constant c.
+    /// The constant c of the force law; positive if equal signs repel each other.
     pub(super) constant: f64,
     /// The softening length ε, m.
     pub(super) softening: f64,
 }
 
-/// The number of pairs within some bodies, or between two groups.
+/// Returns the number of pairs within one group of bodies, or between two groups.
 pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
     let count = bodies.len() as u64;
     match against {
@@ -46,7 +47,7 @@ pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
 }
 
 impl Pairs<'_> {
-    /// Adds the forces on all bodies.
+    /// Adds the forces of all pairs to the loads of their bodies.
     pub(super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
         if self.against.is_none() && self.bodies.len() <= FEW {
             return self.apply_to_few(moment, loads);
@@ -66,7 +67,7 @@ impl Pairs<'_> {
         });
     }
 
-    /// Like [`apply`](Self::apply) for few bodies: the same sums in the same order.
+    /// Does the same as [`apply`](Self::apply) for few bodies, without tiles: the same sums in the same order.
     fn apply_to_few(&self, moment: &Moment, loads: &mut Loads) {
         let (bodies, places) = (moment.model.present(self.bodies), moment.state.location.as_slice());
         let softening = self.softening * self.softening;
@@ -89,7 +90,7 @@ impl Pairs<'_> {
         }
     }
 
-    /// The potential of all pairs in which at least one body can move.
+    /// Returns the potential energy of all pairs in which at least one body can move, J.
     pub(super) fn potential(&self, moment: &Moment) -> f64 {
         let softening = self.softening * self.softening;
         let mut sum = 0.0;
@@ -102,8 +103,8 @@ impl Pairs<'_> {
         self.constant * sum
     }
 
-    /// Calls `see` for every tile alone, then with each later tile; with two groups, for every tile with each tile of the other group.
-    /// The flag marks the last call with the first tile.
+    /// With one group, calls `see` for every tile alone, and then for that tile with each later tile. With two groups, calls `see` for
+    /// every tile with each tile of the other group. The flag is true at the last call with the same first tile.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
         let effort = moment.model.effort();
         let bodies = moment.model.present(self.bodies);
@@ -151,13 +152,13 @@ impl Pairs<'_> {
     }
 }
 
-/// Some bodies, coordinate by coordinate.
+/// Copies of up to [`TILE`] bodies, with one array for each coordinate.
 struct Tile<'a> {
     bodies: &'a [BodyId],
     at: [[f64; TILE]; 3],
     strength: [f64; TILE],
     movable: [bool; TILE],
-    /// Σ sⱼ d / (d² + ε²)^(3/2) over the bodies j met so far.
+    /// The sum Σ sⱼ d / (d² + ε²)^(3/2) for each body, over the bodies j visited so far: one array for each axis.
     pull: [[f64; TILE]; 3],
 }
 
@@ -166,7 +167,7 @@ impl Tile<'_> {
         self.bodies.len()
     }
 
-    /// All pairs within the tile.
+    /// Adds the interactions of all pairs within this tile.
     fn attract_itself(&mut self, softening: f64) {
         for j in 1..self.len() {
             let (at, strength) = (self.at.map(|at| at[j]), self.strength[j]);
@@ -178,9 +179,9 @@ impl Tile<'_> {
         }
     }
 
-    /// All pairs of one body here and one there.
+    /// Adds the interactions of all pairs of one body in this tile and one body in `other`.
     fn attract(&mut self, other: &mut Tile<'_>, softening: f64) {
-        // The compiler knows the number of lanes of full tiles. A tile here can be partly filled only if there are two groups.
+        // For full tiles, the compiler knows the number of lanes. The first tile can be partly filled only if there are two groups.
         let full = if self.len() == TILE { TILE } else { 0 };
         for j in 0..other.len() {
             let (at, strength) = (other.at.map(|at| at[j]), other.strength[j]);
@@ -199,7 +200,8 @@ impl Tile<'_> {
         }
     }
 
-    /// The pairs of bodies `i`, `i + 1`, … with a body of another tile. `back` receives the sum for that body.
+    /// Adds the interactions of `N` bodies of this tile, from index `i` on, with one body at the position `at`. `back` receives the sums
+    /// for that body, one for each lane.
     #[inline(always)]
     fn attract_lanes<const N: usize>(
         &mut self,
@@ -237,7 +239,7 @@ impl Tile<'_> {
         }
     }
 
-    /// Σ sᵢ sⱼ / √(d² + ε²) over all pairs within the tile.
+    /// Returns the sum Σ sᵢ sⱼ / √(d² + ε²) over all pairs within the tile.
     fn potential_of_itself(&self, softening: f64) -> f64 {
         let mut sum = 0.0;
         for j in 1..self.len() {
@@ -247,7 +249,7 @@ impl Tile<'_> {
         sum
     }
 
-    /// The same over all pairs of one body here and one there.
+    /// Returns the sum Σ sᵢ sⱼ / √(d² + ε²) over all pairs of one body in this tile and one body in `other`.
     fn potential(&self, other: &Tile<'_>, softening: f64) -> f64 {
         let mut sum = 0.0;
         for j in 0..other.len() {
@@ -258,14 +260,15 @@ impl Tile<'_> {
         sum
     }
 
-    /// Σ sᵢ / √(d² + ε²) over the first bodies of the tile, at the position `at`.
+    /// Returns the sum Σ sᵢ / √(d² + ε²) over the first `bodies` bodies of the tile, where d is the vector from `at` to the body. Pairs of
+    /// bodies that cannot move are left out.
     #[inline(always)]
     fn potential_of(&self, at: [f64; 3], movable: bool, bodies: usize, softening: f64) -> f64 {
         let mut lanes = [0.0; LANES];
         for i in 0..bodies {
             let d = [self.at[0][i] - at[0], self.at[1][i] - at[1], self.at[2][i] - at[2]];
             let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + softening;
-            // Two fixed bodies may be at the same position.
+            // Two fixed bodies may be at the same position, where the potential is infinite.
             lanes[i % LANES] +=
                 if movable || self.movable[i] { self.strength[i] / square.sqrt() } else { 0.0 };
         }

@@ -5,11 +5,11 @@ use glam::DVec3;
 use super::super::{Anchor, BodyId, WorkAccount};
 use super::{Force, Loads, Moment};
 
-/// An anchor at one moment, in world axes.
+/// One end of a spring at one moment, in world axes.
 struct End {
-    /// Where it is, m.
+    /// The position of the end, m.
     location: DVec3,
-    /// The vector from its body's centre of mass to it, m.
+    /// The vector from the body's centre of mass to the end, m; zero for an end at a fixed point.
     arm: DVec3,
 }
 
@@ -18,7 +18,7 @@ impl End {
         match anchor {
             Anchor::Body { id, at } => {
                 let (i, Moment { state, model, .. }) = (id.index(), moment);
-                // The state holds the orientation of the principal axes.
+                // The state holds the orientation of the principal axes of inertia, so `at` is converted from body axes to principal axes.
                 let from_body = || state.orientation[i] * (model.principal_axes(i).conjugate() * at);
                 let arm = if at == DVec3::ZERO { at } else { from_body() };
                 End { location: state.location[i] + arm, arm }
@@ -27,7 +27,7 @@ impl End {
         }
     }
 
-    /// Its velocity, m/s.
+    /// Returns the velocity of the end, world axes, m/s.
     fn velocity(&self, anchor: Anchor, moment: &Moment) -> DVec3 {
         let Some(i) = anchor.body().map(BodyId::index) else { return DVec3::ZERO };
         let velocity = moment.state.velocity[i];
@@ -40,27 +40,28 @@ impl End {
 
 /// A linear spring and a linear damper, in parallel between two anchors (a Kelvin–Voigt element).
 ///
-/// With d the vector from one end to the other, ℓ its length and u = d/ℓ, they pull the ends together with k (ℓ − ℓ₀) + c ℓ' along u. A
-/// force F at an anchor off the centre of mass rotates its body: with the arm r from the centre, the torque is r × F, and the anchor's
-/// velocity is v + ω × r. The spring has the potential ½ k (ℓ − ℓ₀)²; the damper has none, so its power −c ℓ'² is counted.
+/// With d the vector from one end to the other, ℓ its length and u = d/ℓ, spring and damper pull the ends together with k (ℓ − ℓ₀) + c ℓ'
+/// along u. A force F at an anchor off the centre of mass rotates its body: with the arm r from the centre, the torque is r × F, and the
+/// anchor's velocity is v + ω × r. The spring has the potential ½ k (ℓ − ℓ₀)². The damper has none, so its work, with the power −c ℓ'², is
+/// added to the accounts.
 ///
-/// At ℓ = 0, u is undefined. A spring of rest length 0 needs no u, since its force −k d is linear; any other spring exerts no force
-/// there. The damper acts along the relative velocity, which is the next direction of u. So an oscillation through the anchor is damped
+/// At ℓ = 0, u is undefined. A spring of rest length 0 needs no u, because its force −k d is linear; any other spring exerts no force at ℓ
+/// = 0. The damper then acts along the relative velocity, which is the next direction of u. So an oscillation through the anchor is damped
 /// as m x'' + c x' + k x = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
-    /// The two ends.
+    /// The two ends of the spring.
     pub between: [Anchor; 2],
-    /// Stiffness k, N/m.
+    /// The stiffness k of the spring, N/m.
     pub stiffness: f64,
-    /// Damping c, N s/m.
+    /// The damping constant c of the damper, N s/m.
     pub damping: f64,
-    /// The length ℓ₀ without tension, m.
+    /// The rest length ℓ₀ of the spring, m.
     pub rest_length: f64,
 }
 
 impl Spring {
-    /// Whether both ends are present. A spring with an absent end exerts no force and holds no energy.
+    /// Returns whether the bodies at both ends are present. A spring with an absent end exerts no force and holds no energy.
     fn is_whole(&self, moment: &Moment) -> bool {
         self.between.iter().filter_map(|end| end.body()).all(|id| moment.model.is_present(id.index()))
     }
@@ -69,15 +70,15 @@ impl Spring {
         self.between.map(|anchor| End::of(anchor, moment))
     }
 
-    /// Velocity of the second end relative to the first.
+    /// Returns the velocity of the second end relative to the first, m/s.
     fn relative_velocity(&self, [from, to]: &[End; 2], moment: &Moment) -> DVec3 {
         to.velocity(self.between[1], moment) - from.velocity(self.between[0], moment)
     }
 
-    /// The elastic force on the second end.
+    /// Returns the elastic force on the second end, N. `span` is the vector from the first end to the second, m.
     fn elastic(&self, span: DVec3) -> DVec3 {
         if self.rest_length == 0.0 {
-            // Linear, and so smooth through ℓ = 0, unlike −k ℓ u.
+            // This form is linear, and so smooth at ℓ = 0, where u in −k ℓ u is undefined.
             return -self.stiffness * span;
         }
         let length = span.length();
@@ -151,8 +152,8 @@ mod tests {
         bodies(&[(DVec3::new(0.5, 1.0, -1.0), velocities.0), (DVec3::new(2.0, -1.0, 0.25), velocities.1)])
     }
 
-    /// Two bodies that move and rotate, and a spring between points of both. The first is a compound whose principal axes differ from its
-    /// own axes.
+    /// Returns a world of two bodies that move and rotate, and a spring between points off their centres of mass. The first body is a
+    /// compound whose principal axes of inertia differ from its body axes.
     fn hinged(stiffness: f64, damping: f64) -> (Model, State, Spring) {
         let ball = |radius: f64, x: f64, y: f64| Part {
             shape: Shape::Sphere { radius },
@@ -193,8 +194,8 @@ mod tests {
         }
     }
 
-    /// τ = −∂U/∂φ for rotations φ about each world axis; tolerances as for the forces. The anchor's position is compared with the body's
-    /// frame, because an error there would change the force and the potential alike.
+    /// The torque must be τ = −∂U/∂φ for rotations φ about each world axis, with the same tolerance as the forces. The end's position is
+    /// compared with the body's frame as well, because an error in the position would change the force and the potential alike.
     #[test]
     fn the_torque_is_minus_the_gradient_of_the_potential_over_turns() {
         const H: f64 = 1e-5;
@@ -220,7 +221,7 @@ mod tests {
         assert!(placed.abs_diff_eq(from.location, 1e-15), "{placed}");
     }
 
-    /// About the origin, the momenta and angular momenta that the two bodies receive add up to zero.
+    /// The forces on the two bodies must be opposite, and their torques about the origin must add up to zero.
     #[test]
     fn off_the_centre_action_is_reaction_and_the_power_is_that_of_the_damper() {
         let (model, state, spring) = hinged(0.0, 0.7);

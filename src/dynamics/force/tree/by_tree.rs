@@ -1,22 +1,22 @@
-//! Forces and potential of pairs, by trees.
+//! Forces and potential of pairs of bodies, computed by Barnes–Hut trees.
 
 use super::super::super::BodyId;
 use super::super::pairs::Pairs;
 use super::super::{Loads, Moment};
 use super::{Potential, Pull, Tree};
 
-/// The sums of [`Pairs`] by trees. All strengths must have one sign, since nodes are expanded about their centres of mass.
+/// Computes the sums of [`Pairs`] by trees. All strengths must have the same sign, because nodes are expanded about their centres of mass.
 pub(in super::super) struct ByTree<'a> {
-    /// The bodies and their law.
+    /// The bodies and their force law.
     pub(in super::super) pairs: Pairs<'a>,
     /// The opening angle: the largest ratio of size to distance at which a node acts as a whole.
     pub(in super::super) angle: f64,
-    /// The number of interactions that are counted for each body.
+    /// The number of interactions that the progress counter counts for each body.
     pub(in super::super) each: u64,
 }
 
 impl ByTree<'_> {
-    /// Adds the forces on all bodies.
+    /// Adds the forces on all bodies to the loads.
     pub(in super::super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
         let effort = moment.model.effort();
         let done = |bodies: usize| effort.add(bodies * self.each as usize);
@@ -36,7 +36,7 @@ impl ByTree<'_> {
         pull(&against, &others, Some(&tree));
     }
 
-    /// The potential of all pairs in which at least one body can move.
+    /// Returns the potential energy of all pairs in which at least one body can move, J.
     pub(in super::super) fn potential(&self, moment: &Moment) -> f64 {
         let effort = moment.model.effort();
         let done = |bodies: usize| effort.add(bodies * self.each as usize);
@@ -44,7 +44,7 @@ impl ByTree<'_> {
             let present = moment.model.present(bodies);
             present.iter().partition(|body| moment.model.movable()[body.index()])
         };
-        // Σ sᵢ φᵢ over `bodies`, where φ is the potential of `others`, or of `bodies` themselves.
+        // The sum Σ sᵢ φᵢ over `bodies`, where φ is the potential of `others`, or that of `bodies` themselves if `others` is `None`.
         let sum = |bodies: &[BodyId], others: Option<&[BodyId]>, done: &(dyn Fn(usize) + Sync)| -> f64 {
             let others = others.map(|others| self.tree(others, moment));
             let sums =
@@ -57,7 +57,7 @@ impl ByTree<'_> {
             Some(against) => {
                 let (their_free, their_held) = movable(against);
                 let theirs = [their_free.as_slice(), their_held.as_slice()].concat();
-                // The bodies of the other group are counted here, since no sum runs over them.
+                // The progress counter must count the bodies of the other group as well, although no sum runs over them.
                 effort.add(theirs.len() * self.each as usize);
                 sum(&free, Some(&theirs), &done) + sum(&held, Some(&their_free), &done)
             }

@@ -1,23 +1,23 @@
-//! The formulas for the action of a body and of a node.
+//! The formulas for the force and the potential of a single body and of a tree node.
 
 use glam::DVec3;
 
 use super::Moments;
 
-/// The number of positions side by side, for the compiler to vectorise.
+/// The number of positions that are computed side by side, so that the compiler can vectorise the loop.
 pub(super) const LANES: usize = 4;
 
-/// A number for each of several positions.
+/// One number for each of several positions.
 pub(super) type Lanes = [f64; LANES];
 
-/// A node in the form that the formulas need.
+/// The centre of mass and the moments of a tree node, scaled for the formulas.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Source {
     pub(super) centre: [f64; 3],
     mass: f64,
-    /// 3 Q
+    /// 3 Q, where Q holds the second moments: xx, yy, zz, xy, xz, yz.
     second: [f64; 6],
-    /// 3/2 tr Q
+    /// 3/2 tr Q, where Q holds the second moments.
     trace: f64,
 }
 
@@ -30,7 +30,7 @@ impl From<&Moments> for Source {
 }
 
 impl Source {
-    /// 3 Q d
+    /// Returns 3 Q d.
     #[inline(always)]
     fn turn(&self, d: [f64; 3]) -> [f64; 3] {
         let [xx, yy, zz, xy, xz, yz] = self.second;
@@ -39,25 +39,26 @@ impl Source {
     }
 }
 
-/// A quantity that is summed at positions. `d` is the vector from the source to each position, and `square` is d² + ε².
+/// A quantity that bodies and tree nodes contribute to at given positions: the force or the potential. `d` is the vector from the source
+/// to each position, and `square` is d² + ε².
 ///
 /// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε². This is the Taylor expansion of Σ
 /// m / √(|d − s|² + ε²) up to second order in s. The first order vanishes about the centre of mass.
 pub(super) trait Kernel {
-    /// A sum at one position.
+    /// The type of the quantity at one position.
     type Sum: Copy + Default + Send;
 
-    /// Adds the action of a mass. It is zero if `square` is infinite.
+    /// Adds the contribution of a single mass to `sums`. The contribution is zero where `square` is infinite.
     fn near(mass: f64, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
 
-    /// Adds the action of a node.
+    /// Adds the contribution of a tree node that acts as a whole to `sums`.
     fn far(node: &Source, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
 
-    /// The sum in one lane.
+    /// Returns the quantity at the position of one lane.
     fn sum(sums: &[Lanes; 3], lane: usize) -> Self::Sum;
 }
 
-/// Σ m d / (d² + ε²)^(3/2), which is −∇ψ.
+/// The kernel of the force: Σ m d / (d² + ε²)^(3/2), which is −∇ψ.
 pub(super) struct Pull;
 
 impl Kernel for Pull {
@@ -94,7 +95,7 @@ impl Kernel for Pull {
     }
 }
 
-/// Σ m / √(d² + ε²), which is ψ.
+/// The kernel of the potential: ψ = Σ m / √(d² + ε²).
 pub(super) struct Potential;
 
 impl Kernel for Potential {

@@ -1,4 +1,4 @@
-//! Gravitation of many bodies by a tree, in which distant bodies act together.
+//! Gravitation of many bodies by a Barnes–Hut tree, in which groups of distant bodies act as a whole.
 
 mod by_tree;
 mod kernel;
@@ -12,59 +12,61 @@ use crate::threads;
 
 /// The largest number of bodies in a leaf.
 const LEAF: usize = 8;
-/// The largest number of bodies that walk through the tree together.
+/// The largest number of bodies in a group. The bodies of a group traverse the tree together.
 const GROUP: usize = 32;
-/// A node with fewer bodies is built on one thread.
+/// Nodes with at most this many bodies are built on a single thread.
 const ALONE: usize = 2048;
-/// 2/√3. With this factor, the size of a uniform cube is its edge.
+/// 2/√3: the factor from the largest distance of a node's bodies from their centre of mass to the size of the node. With this factor, the
+/// size of a uniform cube is its edge.
 const EDGE: f64 = 1.154_700_538_379_251_5;
 
 /// A tree of bodies, after J. Barnes and P. Hut, Nature 324 (1986) 446.
 ///
-/// Each node is split in two across the longest edge of its box, near the middle of that edge. A node acts as a whole, by its mass,
-/// centre of mass and second moments, if its size is less than `angle` times its distance. Its size is 2/√3 of the largest distance of a
-/// body from the centre of mass (J. Stadel, thesis, University of Washington 2001). So the expansion converges for angles up to 1.
+/// Each node is split in two across the longest edge of its box, near the middle of that edge. A node acts as a whole, by its mass, centre
+/// of mass and second moments, if its size is less than `angle` times its distance. Its size is 2/√3 of the largest distance of a body
+/// from the centre of mass (J. Stadel, thesis, University of Washington 2001). So the expansion converges for angles up to 1.
 ///
 /// The tree depends only on the positions, the masses and the order of the bodies.
 struct Tree {
     bodies: Vec<Body>,
-    /// All nodes, each before those of its first part, and these before those of its second part.
+    /// All nodes in depth-first order: each node comes before the nodes of its first part, and these come before the nodes of its second
+    /// part.
     nodes: Vec<Node>,
 }
 
-/// A body in the order of the tree.
+/// A body of the tree. The bodies are sorted so that each node holds a contiguous range.
 #[derive(Clone, Copy)]
 struct Body {
     at: DVec3,
     mass: f64,
-    /// Its number in the input.
+    /// The index of the body in the input.
     number: usize,
 }
 
-/// Bodies close to each other: `first..end`.
+/// A node of the tree: the bodies `first..end`, which are close to each other.
 #[derive(Clone, Copy, Default)]
 struct Node {
     first: usize,
     end: usize,
-    /// The number of the node that follows all parts of this one.
+    /// The index of the node after this node and all its parts.
     next: usize,
-    /// The square of the distance beyond which it acts as a whole.
+    /// The square of the distance beyond which the node acts as a whole, m².
     opening: f64,
     moments: Moments,
 }
 
-/// The mass distribution of a node, up to second order.
+/// The mass distribution of a node: the moments of order zero to two.
 #[derive(Clone, Copy, Default)]
 struct Moments {
     mass: f64,
-    /// Their centre of mass.
+    /// The centre of mass, m.
     centre: DVec3,
-    /// Q = Σ m s sᵀ, with s from the centre of mass: xx, yy, zz, xy, xz, yz.
+    /// The second moments Q = Σ m s sᵀ about the centre of mass, in the order xx, yy, zz, xy, xz, yz.
     second: [f64; 6],
 }
 
 impl Tree {
-    /// Builds the tree of bodies at these positions with these masses.
+    /// Builds the tree of bodies with these positions and masses, for the opening angle `angle`.
     fn new(bodies: impl Iterator<Item = (DVec3, f64)>, angle: f64) -> Tree {
         let mut bodies: Vec<Body> =
             bodies.enumerate().map(|(number, (at, mass))| Body { at, mass, number }).collect();
@@ -76,8 +78,8 @@ impl Tree {
     }
 }
 
-/// The number of bodies in the first part, close to `best`. Each part gets at least an eighth, so that the tree stays shallow. All groups
-/// and leaves are full, except the last.
+/// Returns the number of bodies in the first part of a node with `count` bodies, as close to `best` as possible. Each part gets at least
+/// about an eighth of the bodies, so that the tree stays shallow. All groups and leaves are full, except the last.
 fn split(count: usize, best: usize) -> usize {
     let unit = if count > GROUP { GROUP } else { LEAF };
     let units = count.div_ceil(unit);
@@ -85,7 +87,7 @@ fn split(count: usize, best: usize) -> usize {
     unit * ((best + unit / 2) / unit).clamp(least, units - least)
 }
 
-/// The number of nodes of a tree of `count` bodies.
+/// Returns the number of nodes of a tree of `count` bodies.
 fn nodes(count: usize) -> usize {
     let leaves = |count: usize| (2 * count.div_ceil(LEAF)).saturating_sub(1);
     let groups = count.div_ceil(GROUP).max(1);
@@ -93,7 +95,8 @@ fn nodes(count: usize) -> usize {
     (groups - 1) * (leaves(GROUP) + 1) + leaves(last)
 }
 
-/// Builds a node and all its parts. `number` and `first` are the indices of the first node and the first body in the tree.
+/// Builds a node and all its parts, recursively. `number` and `first` are the indices of this node and of its first body in the tree.
+/// `reach` is the opening distance of a node, divided by the distance of its farthest body from its centre of mass.
 fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), reach: f64) {
     let Some((node, parts)) = all.split_first_mut() else { return };
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -101,7 +104,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
         (low, high) = (low.min(body.at), high.max(body.at));
     }
     let moments = if bodies.len() <= LEAF {
-        // The splits leave the bodies in any order.
+        // The splits above leave the bodies of a leaf in arbitrary order, so they are sorted by their input index.
         bodies.sort_unstable_by_key(|body| body.number);
         Moments::of(bodies.iter().map(|body| Moments { mass: body.mass, centre: body.at, second: [0.0; 6] }))
     } else {
@@ -132,7 +135,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
 }
 
 impl Moments {
-    /// The combined moments of several parts. Without mass, the centre is the mean of their centres.
+    /// Combines the moments of several parts. If the total mass is zero, the centre is the mean of the parts' centres.
     fn of(parts: impl Iterator<Item = Moments> + Clone) -> Moments {
         let (mut mass, mut weighted, mut places, mut count) = (0.0, DVec3::ZERO, DVec3::ZERO, 0.0);
         for part in parts.clone() {

@@ -10,7 +10,7 @@ fn part(i: usize, k: f64) -> f64 {
     (i as f64 * k).fract()
 }
 
-/// A star of a cluster that is dense in the middle.
+/// Returns the `i`-th star of a cluster that is dense in the middle.
 fn star(i: usize) -> RigidBody {
     let ball = RigidBody::new(&Shape::Sphere { radius: 0.001 }, 1.0 + part(i, 0.236_067));
     let spread = DVec3::new(part(i, 0.618_033), part(i, 0.414_213), part(i, 0.732_050)) - 0.5;
@@ -39,15 +39,15 @@ fn potential(force: &Gravitation, model: &Model, state: &State) -> f64 {
     force.potential(&Moment { time: 0.0, state, model })
 }
 
-/// The root mean square of the errors of forces, relative to that of the forces.
+/// Returns the root mean square error of the forces, relative to the root mean square of the exact forces.
 fn off(loads: &Loads, exact: &Loads) -> f64 {
     let squares = |forces: &mut dyn Iterator<Item = DVec3>| forces.map(DVec3::length_squared).sum::<f64>();
     let off = squares(&mut loads.force.iter().zip(&exact.force).map(|(force, exact)| *force - *exact));
     (off / squares(&mut exact.force.iter().copied())).sqrt()
 }
 
-/// The first neglected term is of third order in size over distance. So half the angle leaves an eighth of the error, or less if the
-/// errors of many nodes cancel.
+/// The first neglected term of the expansion is of third order in size over distance. So half the opening angle must leave about an eighth
+/// of the error, or less if the errors of many nodes cancel.
 #[test]
 fn the_error_falls_with_the_third_power_of_the_angle() {
     let (model, state) = stars(1500);
@@ -116,8 +116,8 @@ fn every_node_has_the_moments_of_its_bodies() {
     }
 }
 
-/// The forces of a tree are not exactly opposite. Their errors point in all directions, so the sum of all forces is small compared to
-/// them.
+/// The two forces of a pair are not exactly opposite in a tree. Their errors point in all directions, so the sum of all forces must be
+/// small compared to the error of the forces.
 #[test]
 fn momentum_hardly_drifts() {
     let (model, state) = stars(1500);
@@ -128,7 +128,7 @@ fn momentum_hardly_drifts() {
     assert!(left > 1e-12 && left < 0.2 * off, "{left:e} {off:e}");
 }
 
-/// Masses from 0 to 1e12, many bodies at one position, many on a line, one far away.
+/// A cluster with extreme properties: masses from 0 to 1e12 kg, many bodies at one position, many bodies on a line, and one body far away.
 #[test]
 fn odd_clusters_are_summed_up_as_well() {
     let bodies = (0..800).map(|i| {
@@ -151,7 +151,7 @@ fn odd_clusters_are_summed_up_as_well() {
     let (model, state) = world(bodies);
     let [tree, exact] = [Some(0.3), None].map(|angle| loads(&among(0..800, angle), &model, &state));
     for (i, (force, exact)) in tree.force.iter().zip(&exact.force).enumerate() {
-        // Where forces cancel, their rounding errors remain.
+        // Where large forces cancel, their rounding errors remain, so the tolerance has a lower bound.
         let scale = exact.length().max(1e-9 * model.mass()[i] * 1e12);
         assert!((*force - *exact).length() <= 1e-3 * scale, "{i}: {force} {exact}");
         assert!(model.mass()[i] > 0.0 || *force == DVec3::ZERO, "{i}");
@@ -160,7 +160,8 @@ fn odd_clusters_are_summed_up_as_well() {
     assert!((tree / exact - 1.0).abs() < 1e-5, "{tree} {exact}");
 }
 
-/// Fixed bodies attract others. They have no potential among themselves, even at the same position. Absent bodies do not act.
+/// Trees must treat fixed and absent bodies as the sum over all pairs does. Fixed bodies attract other bodies. Two fixed bodies have no
+/// potential energy, even at the same position. Absent bodies neither exert nor feel forces.
 #[test]
 fn fixed_bodies_and_those_that_are_away_are_as_with_all_pairs() {
     let bodies = (0..600).map(|i| {

@@ -1,4 +1,4 @@
-//! The sums at the bodies of a tree. Groups of bodies walk together through the tree of the sources.
+//! Sums forces or potentials at the bodies of a tree. Groups of neighbouring bodies traverse the tree of the sources together.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use super::kernel::{Kernel, LANES, Lanes, Source};
 use super::{Body, GROUP, Tree};
 use crate::threads;
 
-/// The number of nodes, and of runs of bodies, that a group collects before it evaluates them.
+/// The number of tree nodes, and of ranges of bodies, that a group collects before it adds their contributions.
 const BATCH: usize = 64;
-/// The number of lanes that hold a group.
+/// The number of blocks of [`LANES`] positions that hold a full group.
 const BLOCKS: usize = GROUP / LANES;
 
 impl Tree {
-    /// The sum over all bodies of `sources` at each body of this tree, in input order. Without `sources`, the bodies of this tree act on
-    /// each other. `done` is called with each number of completed bodies.
+    /// Returns, for each body of this tree, the sum of the contributions of all bodies of `sources`, in input order. Without `sources`,
+    /// the bodies of this tree act on each other. `done` is called with the number of bodies of each completed group.
     ///
     /// The order of a sum depends on the two trees alone, so the bits do not depend on the number of threads.
     pub(super) fn sums<K: Kernel>(
@@ -42,7 +42,7 @@ impl Tree {
         as_given
     }
 
-    /// Calls `see` for each group within a node, with memory for its sums.
+    /// Calls `see` for each group within the node `number`, in parallel, with the range of its bodies and the memory for their sums.
     fn each_group<S: Send>(
         &self,
         number: usize,
@@ -60,7 +60,7 @@ impl Tree {
     }
 }
 
-/// Bodies close to each other, and the sums at their positions.
+/// A group of neighbouring bodies, and the sums at their positions.
 struct Group<'a, K: Kernel> {
     bodies: &'a [Body],
     low: DVec3,
@@ -79,7 +79,7 @@ impl<K: Kernel> Group<'_, K> {
         }
         let mut at = [[[0.0; LANES]; 3]; BLOCKS];
         for k in 0..bodies.len().next_multiple_of(LANES) {
-            // The lanes beyond the last body are not read.
+            // Lanes beyond the last body repeat that body's position. Their sums are never read.
             let place = bodies[k.min(bodies.len() - 1)].at.to_array();
             for (lanes, place) in at[k / LANES].iter_mut().zip(place) {
                 lanes[k % LANES] = place;
@@ -90,7 +90,8 @@ impl<K: Kernel> Group<'_, K> {
         Group { bodies, low, high, at, sums, softening, kernel: std::marker::PhantomData }
     }
 
-    /// Adds the action of a whole tree. If the group belongs to the same tree, `own` is the range of its bodies; otherwise it is empty.
+    /// Adds the contributions of a whole tree. If the group belongs to the same tree, `own` is the range of the group's bodies; otherwise
+    /// it is empty.
     fn walk(&mut self, tree: &Tree, own: &Range<usize>) {
         if !own.is_empty() {
             self.add_own();
@@ -129,7 +130,7 @@ impl<K: Kernel> Group<'_, K> {
         self.add_near(tree, &near[..runs]);
     }
 
-    /// Adds the action of nodes that act as wholes.
+    /// Adds the contributions of distant nodes, which act as wholes.
     fn add_far(&mut self, nodes: &[Source]) {
         let softening = self.softening;
         for (at, sums) in self.blocks() {
@@ -140,7 +141,7 @@ impl<K: Kernel> Group<'_, K> {
         }
     }
 
-    /// Adds the action of the bodies of some runs, one by one.
+    /// Adds the contributions of near bodies one by one. `runs` holds the first index and the end of ranges of bodies of `tree`.
     fn add_near(&mut self, tree: &Tree, runs: &[(usize, usize)]) {
         let softening = self.softening;
         for (at, sums) in self.blocks() {
@@ -153,14 +154,14 @@ impl<K: Kernel> Group<'_, K> {
         }
     }
 
-    /// Adds the action of the group's bodies on each other.
+    /// Adds the contributions of the group's bodies to each other's sums.
     fn add_own(&mut self) {
         let (bodies, softening) = (self.bodies, self.softening);
         for (block, (at, sums)) in self.blocks().enumerate() {
             for (number, body) in bodies.iter().enumerate() {
                 let (d, mut square) = way(at, body.at.into(), softening);
                 if number / LANES == block {
-                    // A body does not act on itself.
+                    // A body does not act on itself: at an infinite distance, its contribution is zero.
                     square[number % LANES] = f64::INFINITY;
                 }
                 K::near(body.mass, d, square, sums);
@@ -168,7 +169,7 @@ impl<K: Kernel> Group<'_, K> {
         }
     }
 
-    /// The lanes that hold bodies, with their sums.
+    /// Returns the blocks of positions that hold bodies, with their sums.
     fn blocks(&mut self) -> impl Iterator<Item = (&[Lanes; 3], &mut [Lanes; 3])> {
         self.at.iter().zip(&mut self.sums).take(self.bodies.len().div_ceil(LANES))
     }
@@ -180,7 +181,7 @@ impl<K: Kernel> Group<'_, K> {
     }
 }
 
-/// The vectors from a source to several positions, and their softened squares.
+/// Returns the vectors from a source to several positions, and their squared lengths plus the squared softening length.
 #[inline(always)]
 fn way(at: &[Lanes; 3], source: [f64; 3], softening: f64) -> ([Lanes; 3], Lanes) {
     let (mut d, mut square) = ([[0.0; LANES]; 3], [softening; LANES]);
