@@ -1,26 +1,26 @@
-//! The codes of diagnostics. A file of `explanations/` explains each; a missing file is a compile error.
+//! The codes of diagnostics. Each code is explained by a file in `explanations/`; a missing file is a compile error.
 
-/// Defines [`Code`] from variants and names, and connects each with its explanation.
+/// Defines the enum [`Code`] from pairs of a variant and a name, and embeds the explanation of each code.
 macro_rules! codes {
     ($($variant:ident = $name:literal,)*) => {
-        /// The kind of a mistake, for machines and for `jabuka explain`: `unknown-key`.
+        /// The code of a diagnostic, such as `unknown-key`. Programs recognize an error by its code, and `jabuka explain` explains it.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code {
             $(#[doc = concat!("`", $name, "`")] $variant,)*
         }
 
         impl Code {
-            /// All codes, in the order of their names.
+            /// All codes, sorted by name.
             pub const ALL: &[Code] = &[$(Code::$variant,)*];
 
-            /// The code as people read it: `unknown-key`.
+            /// Returns the name of the code, as shown to users: `unknown-key`.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Code::$variant => $name,)*
                 }
             }
 
-            /// The text of its file in `explanations/`.
+            /// Returns the explanation of the code: the text of its file in `explanations/`.
             pub(crate) fn explanation(self) -> &'static str {
                 match self {
                     $(Code::$variant => include_str!(concat!("../../explanations/", $name, ".md")),)*
@@ -174,7 +174,7 @@ codes! {
 }
 
 impl Code {
-    /// The code with this name, if there is one.
+    /// Returns the code with this name. `None` for an unknown name.
     pub fn named(name: &str) -> Option<Code> {
         Code::ALL.iter().copied().find(|code| code.name() == name)
     }

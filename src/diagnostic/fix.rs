@@ -1,27 +1,27 @@
-//! Fixes of mistakes that an editor or a script can apply.
+//! Corrections of errors that an editor or a script can apply.
 
 use super::{Report, SourceId, Span};
 
-/// The correction of a mistake.
+/// A suggested correction of an error, given as replacements of text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Fix {
-    /// The pieces of text to replace; they do not overlap.
+    /// The replacements, which do not overlap. All of them must be applied together.
     pub edits: Vec<Edit>,
-    /// Whether a label of the diagnostic shows the fix already, so that people need not see it twice.
+    /// True if a label of the diagnostic already shows the correction, so that it is not printed twice.
     pub is_said: bool,
 }
 
-/// A piece of text, and its replacement.
+/// The replacement of a range of text by new text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// The piece to replace; an empty one marks a place to insert at.
+    /// The range to replace. An empty range is a position where text is inserted.
     pub span: Span,
-    /// The new text.
+    /// The new text for the range.
     pub text: String,
 }
 
 impl Report {
-    /// The text of a source with the fixes of all diagnostics applied. If fixes overlap, the first one counts.
+    /// Returns the text of `source` after applying all fixes in the report. If two fixes overlap, only the first one is applied.
     pub fn fixed(&self, source: SourceId) -> String {
         let mut edits: Vec<&Edit> = Vec::new();
         for fix in self.diagnostics.iter().filter_map(|diagnostic| diagnostic.fix.as_ref()) {

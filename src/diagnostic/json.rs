@@ -1,13 +1,13 @@
-//! Diagnostics as data, for editors.
+//! Converts diagnostics to data that editors read, such as JSON.
 
 use serde::Serialize;
 
 use super::{Diagnostic, Edit, Label, Report, Severity, Sources, Span};
 
-/// One diagnostic in the form that editors use: the first place is its own, the others are related.
+/// A diagnostic in the format of editors. The first labeled range is that of the error; all further ranges are `related`.
 #[derive(Serialize)]
 pub struct Entry<'a> {
-    /// The path of the scene, if it was set.
+    /// The path of the scene, if [`Entry::set_scene`] has set it.
     #[serde(skip_serializing_if = "Option::is_none")]
     scene: Option<String>,
     severity: &'static str,
@@ -17,13 +17,13 @@ pub struct Entry<'a> {
     #[serde(flatten)]
     place: Option<Place<'a>>,
     related: Vec<Place<'a>>,
-    /// The replacements that fix the mistake, if they are known.
+    /// The replacements that correct the error. Empty if no correction is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fix: Vec<Replacement<'a>>,
 }
 
 impl Entry<'_> {
-    /// Sets the path of the scene: a diagnostic without a place names no file.
+    /// Sets the path of the scene. It identifies the file of a diagnostic that has no range in a text.
     pub fn set_scene(&mut self, scene: String) {
         self.scene = Some(scene);
     }
@@ -36,7 +36,7 @@ struct Place<'a> {
     label: &'a str,
 }
 
-/// A replacement for a range.
+/// A range of text and the new text that replaces it.
 #[derive(Serialize)]
 struct Replacement<'a> {
     #[serde(flatten)]
@@ -44,7 +44,7 @@ struct Replacement<'a> {
     text: &'a str,
 }
 
-/// A range of a text: lines and columns from 1, columns in characters, the end exclusive.
+/// A range of a text. Lines and columns count from 1, columns are in characters, and the end is exclusive.
 #[derive(Serialize)]
 struct Range<'a> {
     file: &'a str,

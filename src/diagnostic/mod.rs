@@ -1,4 +1,4 @@
-//! Errors and warnings about a scene or a run, each at its place.
+//! Errors and warnings about a scene or a run, with their positions in the scene's text.
 
 mod code;
 mod fix;
@@ -15,7 +15,7 @@ pub use nearest::nearest;
 pub use source::{Position, Source, SourceId, Sources, Span};
 pub use visible::{is_invisible, visible, visible_lines, visible_path};
 
-/// The severity of a [`Diagnostic`].
+/// The severity of a [`Diagnostic`]: error or warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// The scene cannot be compiled.
@@ -24,34 +24,34 @@ pub enum Severity {
     Warning,
 }
 
-/// A remark on one place of a text.
+/// A remark on a range of the source text.
 #[derive(Clone, Debug)]
 pub struct Label {
-    /// The place.
+    /// The range of the text that the remark is about.
     pub span: Span,
-    /// The remark; may be empty.
+    /// The text of the remark. May be empty.
     pub text: String,
 }
 
-/// One error or warning.
+/// An error or a warning, with its positions in the source text and advice.
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    /// Error or warning.
+    /// The severity: error or warning.
     pub severity: Severity,
-    /// The kind of mistake.
+    /// The code of the diagnostic, such as `unknown-key`.
     pub code: Code,
-    /// The mistake, in one line.
+    /// The description of the error, in one line.
     pub message: String,
-    /// The places: first the wrong one, then related ones.
+    /// The labeled ranges of text: first that of the error, then related ones.
     pub labels: Vec<Label>,
-    /// How to fix it, in words.
+    /// Advice on how to correct the error, in words.
     pub help: Option<String>,
-    /// How to fix it, as text to replace.
+    /// A correction that a program can apply, as replacements of text.
     pub fix: Option<Box<Fix>>,
 }
 
 impl Diagnostic {
-    /// An error of the given kind.
+    /// Creates an error with a code and a message, without labels or advice.
     pub fn error(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
             severity: Severity::Error,
@@ -63,81 +63,81 @@ impl Diagnostic {
         }
     }
 
-    /// A warning of the given kind.
+    /// Creates a warning with a code and a message, without labels or advice.
     pub fn warning(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
-    /// Adds a place: the first one added is the wrong one.
+    /// Adds a label: a range of text with a remark. The first label marks the error itself.
     #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: visible(&text.into()) });
         self
     }
 
-    /// Adds advice on how to fix it.
+    /// Sets the advice on how to correct the error.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(visible(&help.into()));
         self
     }
 
-    /// Adds a replacement at a place; several are applied together.
+    /// Adds a replacement of a range of text to the suggested correction. Several replacements are applied together.
     #[must_use]
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.fix.get_or_insert_default().edits.push(Edit { span, text: text.into() });
         self
     }
 
-    /// Marks the fix as shown by a label already, so that the printed diagnostic does not show the fix twice.
+    /// Marks the correction as already shown by a label, so that the printed diagnostic does not show it twice.
     #[must_use]
     pub fn fix_is_said(mut self) -> Diagnostic {
         self.fix.iter_mut().for_each(|fix| fix.is_said = true);
         self
     }
 
-    /// The place of the mistake, if it has one.
+    /// Returns the range of the error in the source text: that of the first label. `None` if the diagnostic has no label.
     pub fn span(&self) -> Option<Span> {
         self.labels.first().map(|label| label.span)
     }
 }
 
-/// The diagnostics of one scene, with the texts that they point into.
+/// The diagnostics of one scene, with the texts that they refer to.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// The texts.
+    /// The texts of the scene: its files and its `--set` arguments.
     pub sources: Sources,
-    /// The diagnostics, in the order of their places.
+    /// The errors and warnings. [`Report::sort`] orders them by position.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Report {
-    /// A report of one error without a place in a text.
+    /// Creates a report with one error that has no position in a text.
     pub fn of_error(code: Code, message: impl Into<String>) -> Report {
         Report { sources: Sources::default(), diagnostics: vec![Diagnostic::error(code, message)] }
     }
 
-    /// The number of errors.
+    /// Returns the number of errors in the report.
     pub fn errors(&self) -> usize {
         self.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
     }
 
-    /// The number of warnings.
+    /// Returns the number of warnings in the report.
     pub fn warnings(&self) -> usize {
         self.diagnostics.len() - self.errors()
     }
 
-    /// Sorts the diagnostics by their places; those without a place come first.
+    /// Sorts the diagnostics by their positions in the source text. Diagnostics without a position come first.
     pub fn sort(&mut self) {
         self.diagnostics.sort_by_key(Diagnostic::span);
     }
 
-    /// The diagnostics for a terminal, in the style of rustc; `color` adds ANSI colors.
+    /// Formats the diagnostics for a terminal, in the style of rustc. `color` adds ANSI colors.
     pub fn to_text(&self, color: bool) -> String {
         text::render(self, color)
     }
 
-    /// The diagnostics for editors; any format of serde can serialize them.
+    /// Returns the diagnostics as data for editors. Any format of serde can serialize them.
     pub fn to_json(&self) -> Vec<Entry<'_>> {
         json::entries(self)
     }

@@ -1,13 +1,13 @@
-//! Finds the word that was probably meant.
+//! Finds the known word that a user probably meant by an unknown word.
 
-/// The longest word that is compared: nobody types longer names.
+/// The maximum length, in characters, of an unknown word for which a similar word is searched. It limits the cost; real names are shorter.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate nearest to an unknown word, if one is near enough.
+/// Returns the candidate with the smallest edit distance from an unknown word. `None` if all candidates are too different.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&folded, &candidate.to_lowercase());
-    // A third of the letters may differ, as in rustc; of two letters, one.
+    // As in rustc, a third of the letters may differ, but at least one letter.
     let length = word.chars().count();
     let most = (length / 3).max(1);
     let comparable =

@@ -1,51 +1,51 @@
-//! The texts of a scene, and places in them.
+//! The texts of a scene, and positions in them.
 
 use std::path::PathBuf;
 
-/// One text of a scene: its file, or one `--set` argument.
+/// One text of a scene: the content of a file, or a `--set` argument.
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// The name shown in front of line and column: the file's path as it was given, or `--set`.
+    /// The name shown before line and column: the path of the file as the user gave it, or `--set`.
     pub name: String,
-    /// The whole text.
+    /// The whole content of the file or argument.
     pub text: String,
-    /// The first byte of each line.
+    /// The byte offset at which each line begins.
     lines: Vec<usize>,
 }
 
-/// The texts of one scene. The scene's own file is the first.
+/// All texts of one scene: its files and its `--set` arguments. The scene's own file is the first text.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     texts: Vec<Source>,
     files: Vec<PathBuf>,
 }
 
-/// The number of a text within its [`Sources`].
+/// The index of a text within its [`Sources`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(usize);
 
-/// A range of bytes in one of the [`Sources`].
+/// A byte range in one of the texts of a scene ([`Sources`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The text that the range lies in.
+    /// The text that contains the range.
     pub source: SourceId,
-    /// The first byte.
+    /// The offset of the first byte of the range.
     pub start: usize,
-    /// The byte after the last one.
+    /// The offset after the last byte of the range.
     pub end: usize,
 }
 
-/// A line and a column in the convention of people and editors: from 1, columns in characters.
+/// A line and a column as editors show them: both count from 1, and columns are in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
-    /// The line, from 1.
+    /// The number of the line, counted from 1.
     pub line: usize,
-    /// The column in characters, from 1.
+    /// The number of the character within its line, counted from 1.
     pub column: usize,
 }
 
 impl Sources {
-    /// Adds a text and returns its number.
+    /// Adds a text with its name, and returns its id.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
         let text = text.into();
         let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline + 1));
@@ -53,7 +53,7 @@ impl Sources {
         SourceId(self.texts.len() - 1)
     }
 
-    /// Records a file that was read, or that would have been read if it existed.
+    /// Records the path of a file that was read for the scene, or that would have been read if it existed.
     pub fn note_file(&mut self, path: impl Into<PathBuf>) {
         let path = path.into();
         if !self.files.contains(&path) {
@@ -61,28 +61,28 @@ impl Sources {
         }
     }
 
-    /// The files that determine the scene, including missing ones.
+    /// Returns the paths of all files that determine the scene, including files that do not exist.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 
-    /// The text with the given number.
+    /// Returns the text with the given id.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.texts[id.0]
     }
 
-    /// The line and column of a byte in a text.
+    /// Converts a byte offset in a text to a line and a column.
     pub fn position(&self, source: SourceId, byte: usize) -> Position {
         let Source { text, lines, .. } = self.get(source);
         let byte = byte.min(text.len());
         let line = lines.partition_point(|&start| start <= byte);
         let start = lines[line - 1];
-        // Every character has exactly one byte that is not a continuation byte.
+        // In UTF-8, each character has exactly one byte that is not a continuation byte.
         let column = text.as_bytes()[start..byte].iter().filter(|&&b| b & 0xC0 != 0x80).count();
         Position { line, column: 1 + column }
     }
 
-    /// The text of a line, counted from 1.
+    /// Returns the text of a line, with its line break. Lines count from 1.
     pub fn line(&self, source: SourceId, line: usize) -> &str {
         let Source { text, lines, .. } = self.get(source);
         let start = |line: usize| lines.get(line).copied().unwrap_or(text.len());
@@ -91,7 +91,7 @@ impl Sources {
 }
 
 impl Span {
-    /// The range `start..end` of a text.
+    /// Makes a span from a text and a byte range.
     pub fn new(source: SourceId, range: std::ops::Range<usize>) -> Span {
         Span { source, start: range.start, end: range.end }
     }

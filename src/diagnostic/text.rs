@@ -1,4 +1,4 @@
-//! Diagnostics as text, in the style of rustc.
+//! Formats diagnostics as text for a terminal, in the style of rustc.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,10 +7,10 @@ use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
 use super::{Diagnostic, Edit, Label, Report, Severity, SourceId, Sources, is_invisible, visible};
 
-/// The most diagnostics shown for one line. Each of them shows the line, which may be very long.
+/// The maximum number of diagnostics shown for one line of a scene. Each of them prints the line, which may be very long.
 const MOST_OF_A_LINE: usize = 50;
 
-/// Renders every diagnostic of a report, with an empty line after each.
+/// Formats all diagnostics of a report, each followed by an empty line. `color` adds ANSI colors.
 pub(super) fn render(report: &Report, color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut text = String::new();
@@ -32,8 +32,8 @@ pub(super) fn render(report: &Report, color: bool) -> String {
         let more = count - MOST_OF_A_LINE;
         text.push_str(&format!("… and {more} more in line {line} of {name}\n\n"));
     }
-    // Lines of the scene are shown as well. The renderer has replaced most invisible characters in them, including every
-    // escape, so the remaining escapes are its colors.
+    // The text contains lines of the scene, which may contain control characters. The renderer has replaced most of these, including every
+    // escape character. All escape characters that remain belong to its own colors.
     let shown = |c: char| if is_invisible(c) && !matches!(c, '\n' | '\u{1b}') { '\u{fffd}' } else { c };
     text.chars().map(shown).collect()
 }
@@ -46,7 +46,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     let mut group = Group::with_title(level.primary_title(&diagnostic.message).id(diagnostic.code.name()));
     let mut rest = diagnostic.labels.as_slice();
     while let Some(first) = rest.first() {
-        // Labels of one text share a snippet.
+        // Labels of the same text are shown together in one excerpt.
         let here = rest.iter().take_while(|label| label.span.source == first.span.source).count();
         group = group.element(snippet(&rest[..here], rest.len() == diagnostic.labels.len(), sources));
         rest = &rest[here..];
@@ -64,7 +64,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     groups
 }
 
-/// The lines of a fix, before and after. All edits of a fix are in one text.
+/// Makes an excerpt that shows the lines of a fix before and after the edits. All edits of a fix are in one text.
 fn patches<'a>(edits: &'a [Edit], sources: &'a Sources) -> Snippet<'a, Patch<'a>> {
     let source = sources.get(edits[0].span.source);
     let text = &source.text;
@@ -101,11 +101,11 @@ fn snippet<'a>(
         .annotations(annotations.collect::<Vec<_>>())
 }
 
-/// The lines that the labels touch, as a range of bytes. So a thousand errors in a long file need a thousand short texts, not a
-/// thousand copies of the file.
+/// Returns the byte range of the lines that contain the labels. Passing only this excerpt to the renderer avoids a copy of the whole file
+/// for each error.
 fn window(labels: &[Label], text: &str) -> Range<usize> {
     let start = labels.iter().map(|l| boundary(text, l.span.start)).min().unwrap_or(0);
-    // A label that spans many lines is cut to the first ones.
+    // Of a label that spans many lines, only the first lines are shown.
     let end = labels.iter().map(|l| first_lines_end(l, text)).max().unwrap_or(0).max(start);
     let start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
     let end = text[end..].find('\n').map_or(text.len(), |newline| end + newline);
@@ -119,7 +119,7 @@ fn first_lines_end(label: &Label, text: &str) -> usize {
     text[start..end].match_indices('\n').nth(LINES - 1).map_or(end, |(newline, _)| start + newline)
 }
 
-/// The first byte of the character that contains a byte, or the end of the text.
+/// Returns the offset of the first byte of the character that contains the given byte. Beyond the text, returns the length of the text.
 fn boundary(text: &str, byte: usize) -> usize {
     let byte = byte.min(text.len());
     (0..=byte).rev().find(|&byte| text.is_char_boundary(byte)).unwrap_or(0)

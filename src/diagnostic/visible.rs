@@ -1,28 +1,28 @@
-//! Makes texts safe for a terminal: nothing in them can move the cursor, start a line or reorder the text.
+//! Makes texts safe to print in a terminal by escaping invisible characters.
 //!
-//! Names of files and words of scenes may contain any character. Control characters give commands to the terminal, and
-//! characters that set the writing direction can disguise a text as another one.
+//! File names and words of a scene may contain any character. Control characters can move the cursor or start a line, and characters that
+//! set the writing direction can disguise a text as another one.
 
 use std::path::Path;
 
-/// A text in one line. Invisible characters are written as in Rust: `\n`, `\u{202e}`.
+/// Escapes all invisible characters of a text as in Rust (`\n`, `\u{202e}`), so that the result is one line.
 pub fn visible(text: &str) -> String {
     escaped(text, is_invisible)
 }
 
-/// A text that keeps its lines and tabs; all other invisible characters are written as in [`visible`].
+/// Escapes invisible characters as [`visible`] does, but keeps line breaks and tabs.
 pub fn visible_lines(text: &str) -> String {
     escaped(text, |c| is_invisible(c) && !matches!(c, '\n' | '\t'))
 }
 
-/// The path of a file in one line.
+/// Returns the path of a file as one line, with invisible characters escaped.
 pub fn visible_path(path: &Path) -> String {
     visible(&path.display().to_string())
 }
 
-/// Whether a character gives a command to the terminal, ends a line, sets the writing direction, or has no width.
+/// Returns true for a character that controls the terminal, ends a line, sets the writing direction, or has no width.
 ///
-/// The joiners U+200C and U+200D are kept: Persian and emoji need them.
+/// Returns false for the joiners U+200C and U+200D, which Persian and emoji need.
 pub fn is_invisible(c: char) -> bool {
     c.is_control()
         || matches!(c,

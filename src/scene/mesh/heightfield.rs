@@ -1,4 +1,4 @@
-//! Converts the gray levels of an image to heights.
+//! Converts a grayscale image into a surface whose heights are the gray levels.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -10,15 +10,15 @@ use super::{MOST_BYTES, Unreadable};
 use crate::dynamics::Mesh;
 use crate::scene::source::file;
 
-/// The maximum number of pixels. Each gives two triangles, so a heightfield has at most about 8 million triangles.
+/// The maximum number of pixels in an image. Each pixel gives about two triangles, so a heightfield has at most about 8 million triangles.
 const MOST_PIXELS: u64 = 1 << 22;
 
-/// Reads a PNG as a surface. Black is height 0 and white is height `size.y`, with 8 or 16 bits. Each pixel gives a
-/// vertex at its centre, and each square of four pixels gives two triangles, so the surface is exact to the pixel. A
-/// color counts by its luma (Rec. 709). Transparency is ignored.
+/// Reads a PNG image, with 8 or 16 bits per channel, as a surface of the given size, m. Black is height 0 and white is height `size.y`.
+/// Each pixel gives a vertex, and each square of four neighboring pixels gives two triangles, so the surface keeps the full resolution of
+/// the image. A color counts by its luma (Rec. 709). Transparency is ignored.
 ///
-/// POV-Ray's own height fields take less memory, but interpret colors, gamma and the edge of the image differently.
-/// With triangles, the picture, the camera and the ground have the same surface.
+/// POV-Ray's own height fields take less memory, but interpret colors, gamma and the edge of the image differently. With triangles, the
+/// image, the camera and the ground use the same surface.
 pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Unreadable> {
     let image = read(path)?;
     let [width, depth] = [image.width, image.levels.len() / image.width];
@@ -38,7 +38,7 @@ pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Un
         for column in 0..width - 1 {
             let far = (row * width + column) as u32;
             let near = far + width as u32;
-            // The vertices of a triangle are counter-clockwise as seen from above.
+            // The vertices of each triangle are counterclockwise as seen from above.
             triangles.extend([[far, near, far + 1], [far + 1, near, near + 1]]);
         }
     }
@@ -46,7 +46,7 @@ pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Un
     Ok(Mesh::surface(&name, vertices, triangles))
 }
 
-/// Gray levels from 0 to 1, row by row.
+/// The gray levels of an image, from 0 (black) to 1 (white), row by row.
 struct Image {
     width: usize,
     levels: Vec<f64>,

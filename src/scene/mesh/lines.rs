@@ -3,37 +3,37 @@
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
-/// The maximum length of a line, bytes. A face with some hundred vertices is far shorter.
+/// The maximum length of a line, in bytes. Even a face with hundreds of vertices needs far less.
 const LONGEST: u64 = 1 << 24;
 
-/// Feeds the lines of a mesh file to the parser of an external crate (for OBJ or STL), one at a time. If the parser
-/// fails, `number` is the number of the faulty line.
+/// Passes the lines of a mesh file, one at a time, to the parser of an external crate (for OBJ or STL). If the parser fails, `number` is
+/// the number of the faulty line.
 pub(super) struct Lines<'a> {
     file: BufReader<File>,
-    /// The number of lines read so far.
+    /// The number of lines read so far, which is the number of the current line.
     pub(super) number: usize,
     line: Vec<u8>,
-    /// The number of bytes of the line that have been handed out.
+    /// The number of bytes of the current line that the parser has consumed.
     used: usize,
     rewrite: Box<Rewrite<'a>>,
     ended: bool,
 }
 
-/// A function that rewrites a line for the parser.
+/// A function that changes a line before the parser reads it.
 type Rewrite<'a> = dyn FnMut(&mut Vec<u8>, Place) + 'a;
 
-/// A place in the file.
+/// The position of a line in the file, for the function that rewrites lines.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Place {
-    /// A line of the file, counted from 1.
+    /// The number of a line in the file, counted from 1.
     Line(usize),
-    /// After the last line.
+    /// The position after the last line, where a line can be added.
     End,
 }
 
 impl<'a> Lines<'a> {
-    /// Reads the lines of a file, without their line breaks. `rewrite` may change each line, and may add a line at
-    /// the end.
+    /// Makes a reader of the lines of a file. `rewrite` receives each line without its line break and may change it. It is called once
+    /// more after the last line, to add a line.
     pub(super) fn new(file: File, rewrite: impl FnMut(&mut Vec<u8>, Place) + 'a) -> Lines<'a> {
         let file = BufReader::new(file);
         let rewrite = Box::new(rewrite);
@@ -85,7 +85,8 @@ impl Read for Lines<'_> {
 }
 
 impl Seek for Lines<'_> {
-    /// Goes back to the beginning for any argument. Parsers seek only there, once they know the format.
+    /// Seeks to the beginning of the file, whatever the argument. The parsers seek only to the beginning, after they have detected the
+    /// format.
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
         self.file.seek(SeekFrom::Start(0))?;
         (self.number, self.used, self.ended) = (0, 0, false);

@@ -1,4 +1,4 @@
-//! Reads files of triangles as [`Mesh`].
+//! Reads mesh files (OBJ, STL) and images of heights as triangle meshes ([`Mesh`]).
 
 mod heightfield;
 mod lines;
@@ -18,32 +18,33 @@ use crate::scene::source::file;
 
 pub(super) use heightfield::heightfield;
 
-/// Why a file cannot be read as a mesh.
+/// The reason why a file cannot be read as a mesh.
 #[derive(Debug)]
 pub(super) struct Unreadable {
-    /// The mistake, as a clause.
+    /// The description of the error, as a clause for a message.
     pub(super) why: String,
-    /// The number of the faulty line, counted from 1, if it is known.
+    /// The number of the faulty line, counted from 1. `None` if the line is unknown.
     pub(super) line: Option<usize>,
 }
 
-/// Vertices, and triangles by the indices of their vertices.
+/// The positions of vertices, and triangles given by three indices of vertices.
 type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// The endings of mesh files, in lower case.
+/// The file name extensions of mesh files, in lower case.
 const OBJ: &str = "obj";
 const STL: &str = "stl";
 
-/// The largest coordinate of a vertex, m. Moments of inertia contain its fifth power, which must be finite.
+/// The maximum magnitude of a vertex coordinate, m. Moments of inertia contain its fifth power, which must be finite.
 const FARTHEST: f64 = 1e50;
 
-/// The maximum size of a file, bytes: ten million triangles in a binary STL. The script of that mesh has a gigabyte.
+/// The maximum size of a mesh file, in bytes: ten million triangles in a binary STL file. The script for a mesh of this size takes about a
+/// gigabyte.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// The maximum number of vertices. An edge, which is two vertices, then fits into 64 bits.
+/// The maximum number of vertices of a mesh. The two vertex indices of an edge then fit into 64 bits.
 const MOST_VERTICES: usize = 1 << 31;
 
-/// Reads a mesh. Merges vertices at the same place, so that surfaces that touch are connected.
+/// Reads a mesh file (OBJ or STL). Merges vertices at the same position, so that adjacent triangles share vertices.
 pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (positions, triangles) = match ending.as_deref() {
@@ -65,7 +66,7 @@ pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
     Ok(Mesh::new(&name, vertices, triangles))
 }
 
-/// The SHA-256 digest of a file.
+/// Computes the SHA-256 digest of a file.
 pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
     let (mut file, mut hash) = (file::open(path, MOST_BYTES)?, Sha256::new());
     let mut buffer = [0; 1 << 16];

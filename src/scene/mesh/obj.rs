@@ -1,4 +1,4 @@
-//! Reads Wavefront OBJ with the crate `tobj`.
+//! Reads Wavefront OBJ files with the crate `tobj`.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -9,7 +9,7 @@ use tobj::{LoadError, LoadOptions};
 use super::lines::{Lines, Place};
 use super::{Triangles, Unreadable};
 
-/// Reads the positions and triangles of a file. Cuts polygons into fans of triangles, and ignores points and lines.
+/// Reads the vertices and triangles of an OBJ file. Splits polygons into fans of triangles, and ignores points and lines.
 pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
     let mut lines = Lines::new(file, only_geometry);
     let options =
@@ -18,10 +18,10 @@ pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
     let models = tobj::load_obj_buf(&mut lines, &options, no_materials);
     let (models, _) = models.map_err(|error| {
         let unreadable = Unreadable::new(reason(error));
-        // The parser resolves the vertices of faces after the last line, so such an error has no line number.
+        // The parser looks up the vertices of faces after the last line, so an error in a vertex index has no line number.
         if is_of_a_line(error) { unreadable.at(lines.number) } else { unreadable }
     })?;
-    // The lines of objects and groups have been removed, so there is one model.
+    // The lines that begin objects and groups have been removed, so there is only one model.
     let mesh = models.into_iter().next().map(|model| model.mesh).unwrap_or_default();
     let positions = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
     let triangles =
@@ -29,8 +29,8 @@ pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
     Ok((positions, triangles))
 }
 
-/// Keeps only the lines of vertices and faces, and of a face only the indices of its vertices. Mistakes in textures,
-/// normals, names and materials do not concern the shape.
+/// Rewrites a line of an OBJ file: keeps vertices, faces and the vertex indices of faces, and empties all other lines. Errors in textures,
+/// normals, names and materials do not matter for the shape.
 fn only_geometry(line: &mut Vec<u8>, _: Place) {
     let start = line.len() - line.trim_ascii_start().len();
     line.drain(..start);
@@ -39,14 +39,14 @@ fn only_geometry(line: &mut Vec<u8>, _: Place) {
     }
     let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
     if word == b"f" {
-        // Drop the texture and the normal: `1/2/3` → `1`.
+        // Removes the indices of the texture coordinate and the normal: `1/2/3` → `1`.
         let mut after_slash = false;
         line.retain(|byte| {
             after_slash = !byte.is_ascii_whitespace() && (after_slash || *byte == b'/');
             !after_slash
         });
     } else if word == b"v" {
-        // A weight, or the three numbers of a color, may follow the three coordinates.
+        // The three coordinates may be followed by a weight or by the three components of a color.
         let words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         if words.count() > 5 {
             let mut words = 0;

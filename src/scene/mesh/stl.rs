@@ -1,4 +1,4 @@
-//! Reads STL, binary or as text, with the crate `stl_io`.
+//! Reads STL files, binary or text, with the crate `stl_io`.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -9,13 +9,13 @@ use stl_io::create_stl_reader;
 use super::lines::{Lines, Place};
 use super::{Triangles, Unreadable};
 
-/// The number of bytes before the triangles of a binary file. The last four are the number of triangles.
+/// The size of the header of a binary STL file, in bytes. Its last four bytes are the number of triangles.
 const HEAD: usize = 84;
-/// The size of a triangle, bytes.
+/// The size of a triangle in a binary STL file, in bytes.
 const TRIANGLE: u64 = 50;
 
-/// Reads the positions and triangles of a file. Each triangle has its own three vertices. Ignores the normals,
-/// because they follow from the vertices.
+/// Reads the vertices and triangles of an STL file. Each triangle has its own three vertices. Ignores the normals, because they follow
+/// from the vertices.
 pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     let mut head = Vec::with_capacity(HEAD);
     (&mut file).take(HEAD as u64).read_to_end(&mut head)?;
@@ -24,7 +24,7 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     let count = head.get(HEAD - 4..).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
     let claimed = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
     let says_solid = head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    // A binary file may begin with `solid`, too, but its number of triangles hardly ever lacks a zero byte.
+    // A binary file may begin with `solid`, too. Its number of triangles, however, almost always contains a zero byte, unlike text.
     if claimed == Some(length) || !says_solid || head.contains(&0) {
         return match (count, claimed) {
             (Some(_), Some(claimed)) if claimed <= length => triangles(&mut Binary(file)),
@@ -40,7 +40,7 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
     triangles(&mut lines).map_err(|error| error.at(lines.number))
 }
 
-/// Reads the triangles with the crate.
+/// Reads all triangles of an STL file with the crate `stl_io`.
 fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, Unreadable> {
     let mut positions = Vec::new();
     for triangle in create_stl_reader(file)? {
@@ -51,11 +51,11 @@ fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, Unreadable> {
     Ok((positions, (0..count / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()))
 }
 
-/// Rewrites a line for the crate: in lower case, with a name after the first `solid`, and with several solids joined
-/// into one, because the crate stops after the first.
+/// Rewrites a line of a text STL file for the crate `stl_io`: converts it to lower case, adds a name after the first `solid`, and joins
+/// several solids into one, because the crate stops after the first. `closed` holds true if the last nonblank line so far was `endsolid`.
 fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
     if place == Place::End {
-        // A file that is cut off lacks its last line, and the crate must report this.
+        // A truncated file lacks its final `endsolid`. It stays missing, so that the crate reports an error.
         line.extend_from_slice(if *closed { b"endsolid" } else { b"" });
         return;
     }
@@ -69,13 +69,13 @@ fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
         line.clear();
     }
     if place == Place::Line(1) {
-        // Line 1 becomes the header, because blank lines may precede the word `solid`.
+        // The first line always becomes the header, because blank lines may precede the word `solid`.
         line.splice(.., *b"solid x");
     }
 }
 
-/// A binary file with a 0 as its first byte. The crate would take a file that begins with `solid` for text, and does
-/// not use the first bytes otherwise.
+/// A binary STL file that is read with a 0 as its first byte. The crate would read a file that begins with `solid` as text. It ignores the
+/// first bytes otherwise.
 struct Binary(File);
 
 impl Read for Binary {

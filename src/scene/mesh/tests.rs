@@ -1,10 +1,10 @@
-//! Tests intact and broken mesh files.
+//! Tests reading of intact and damaged mesh files.
 
 use std::fs;
 
 use super::*;
 
-/// A tetrahedron of volume 1/6.
+/// An OBJ file of a tetrahedron with the volume 1/6.
 const OBJ_TEXT: &str = "# a corner of a cube
 mtllib none.mtl
 o corner
@@ -25,7 +25,7 @@ p 1
 f 3 1 4
 ";
 
-/// The same tetrahedron as a text with two solids.
+/// The same tetrahedron as a text STL file that is divided into two solids.
 const STL_TEXT: &str = "
 SOLID
  facet normal 0 0 -1
@@ -107,7 +107,7 @@ fn every_format_gives_the_same_solid() {
 #[test]
 fn polygons_are_cut_and_seams_closed() {
     let mut cube = String::new();
-    // Every face has its own vertices, as in files from programs that cut surfaces at the seams of textures.
+    // Each face of the cube has its own vertices, as in files from programs that split surfaces at the seams of textures.
     for (axis, side) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)] {
         for (u, v) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
             let mut corner = [side; 3];
@@ -145,7 +145,7 @@ fn what_cannot_be_read_says_why_and_where() {
     assert_eq!(why("x.ply", b"ply"), "its name ends neither with `.obj` nor with `.stl`");
 }
 
-/// Reading a cut or changed file ends with a mesh or an error.
+/// Reading a truncated or changed file returns a mesh or an error, and never panics.
 #[test]
 fn broken_files_are_no_reason_to_panic() {
     let files = [("x.obj", OBJ_TEXT.into()), ("x.stl", STL_TEXT.into()), ("x.stl", binary_stl())];
@@ -166,7 +166,7 @@ fn broken_files_are_no_reason_to_panic() {
     }
 }
 
-/// Writes gray levels as a PNG.
+/// Writes a PNG file from the given pixel bytes.
 fn image(path: &Path, width: u32, depth: png::BitDepth, color: png::ColorType, bytes: &[u8]) {
     let bits = width as usize * color.samples() * depth as usize;
     let rows = bytes.len() / bits.div_ceil(8);

@@ -1,15 +1,15 @@
-//! Merges vertices at the same place.
+//! Merges vertices of a mesh that are at the same position.
 
 use glam::DVec3;
 
 use super::Triangles;
 
-/// Merges vertices at exactly the same place, and drops vertices without triangles. Keeps the order of the vertices.
-/// STL has no shared vertices at all, and programs that write OBJ cut surfaces at the seams of textures.
+/// Merges vertices at exactly the same position and removes vertices that no triangle uses. Keeps the order of the vertices. Merging is
+/// needed because STL files have no shared vertices, and programs that write OBJ files split surfaces at the seams of textures.
 pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> Triangles {
-    // Adding 0 turns −0 into 0, so that both are the same place.
+    // Adding 0 turns −0 into 0, so that both compare as the same position.
     positions.iter_mut().for_each(|p| *p += DVec3::ZERO);
-    // Sorting takes less memory than a table of places, and the result is the same on every machine.
+    // Sorting needs less memory than a hash map of positions, and gives the same result on every machine.
     let place = |vertex: u32| positions[vertex as usize].to_array();
     let compare = |a: &u32, b: &u32| {
         let ([ax, ay, az], [bx, by, bz]) = (place(*a), place(*b));

@@ -1,4 +1,4 @@
-//! The names of files in SDL.
+//! Finds the names of the files that SDL (POV-Ray's scene description language) reads.
 
 use std::ops::Range;
 
@@ -6,31 +6,32 @@ use super::standard::FONT_MACROS;
 use super::tokens::{Token, Tokens};
 use super::words::{FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS};
 
-/// The way in which a file is read.
+/// The type of a file that SDL reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
-    /// SDL: `#include`.
+    /// A file of SDL, read by `#include`.
     Include,
-    /// An image or a density: `image_map`, `height_field`, `df3` and their like.
+    /// An image or a density file, read by `image_map`, `height_field`, `df3` and similar keywords.
     Image,
-    /// A font: `ttf`, or a macro that takes one.
+    /// A font, read by `ttf` or passed to a macro.
     Font,
-    /// Anything else: `#fopen`, `load_file`, `file_exists`.
+    /// A file of another type, read by `#fopen`, `load_file` or `file_exists`.
     Data,
 }
 
-/// The name of a file in SDL.
+/// A file name in SDL.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileName<'a> {
-    /// The way in which the file is read.
+    /// The type of the file, according to the keyword before its name.
     pub kind: FileKind,
-    /// The name as it stands between its quotes; `None` if it is computed, so that only POV-Ray knows it.
+    /// The name as written between its quotes. `None` if an expression computes the name, so that only POV-Ray knows it.
     pub literal: Option<&'a str>,
-    /// Its place: the string with its quotes, or else the word that reads the file.
+    /// The byte range of the name with its quotes. If the name is computed, the range of the keyword that reads the file.
     pub range: Range<usize>,
 }
 
-/// The files that a text reads, in the order of the text, also in places that POV-Ray would not come to.
+/// Iterates over the names of all files that SDL reads, in the order of the text. Includes those in branches that POV-Ray would not
+/// execute.
 pub fn files(text: &str) -> impl Iterator<Item = FileName<'_>> {
     let mut tokens = Tokens::of(text);
     let mut before = None;
@@ -46,7 +47,8 @@ pub fn files(text: &str) -> impl Iterator<Item = FileName<'_>> {
     })
 }
 
-/// The file that a token reads, given the token before it and those after it.
+/// Returns the name of the file that a token reads. `before` is the previous token and `after` are the following tokens. `None` if the
+/// token reads no file.
 pub(super) fn file<'a>(
     token: Token<'a>,
     range: &Range<usize>,
@@ -60,15 +62,15 @@ pub(super) fn file<'a>(
         "ttf" => Some(named(FileKind::Font, range, after)),
         "load_file" => Some(named(FileKind::Data, range, after)),
         "fopen" => {
-            // The identifier of the file.
+            // The identifier of the file handle comes before the file name.
             after.next();
             Some(named(FileKind::Data, range, after))
         }
-        // `charset sys` is an encoding.
+        // In `charset sys`, the word `sys` is a character encoding, not an image format.
         "sys" if before == Some(Token::Word("charset")) => None,
         _ if FILE_TYPES.contains(&word) => Some(named(FileKind::Image, range, after)),
         _ if IMAGE_BLOCKS.contains(&word) => match opens(&mut after, '{').then(|| after.clone().next()) {
-            // The type of the file follows, and then its name; or the image is computed.
+            // Either the image is computed by a function, or the image format comes first; the format then reads the file name.
             Some(Some((Token::Word(next), _))) if next == "function" || FILE_TYPES.contains(&next) => None,
             Some(_) => Some(named(FileKind::Image, range, after)),
             None => unknown(FileKind::Image),
@@ -84,15 +86,15 @@ pub(super) fn file<'a>(
     }
 }
 
-/// Whether the next token is this bracket.
+/// Returns true if the next token is the given opening bracket.
 fn opens(after: &mut Tokens<'_>, bracket: char) -> bool {
     matches!(after.next(), Some((Token::Symbol(symbol), _)) if symbol == bracket)
 }
 
-/// The name that stands next, if it is a plain string; else the place of the word that reads the file.
+/// Reads the next token as a file name. If it is no plain string, the name is computed, and the range is that of the keyword `word`.
 fn named<'a>(kind: FileKind, word: &Range<usize>, mut after: Tokens<'a>) -> FileName<'a> {
     match after.next() {
-        // The meaning of a backslash in a file name differs between systems.
+        // A name with a backslash counts as computed, because operating systems interpret backslashes differently.
         Some((Token::Text(name), range)) if !name.contains('\\') => {
             FileName { kind, literal: Some(name), range }
         }

@@ -1,16 +1,16 @@
-//! The filter for SDL without `--trust`.
+//! Decides which SDL may be used without `--trust`. SDL is POV-Ray's scene description language.
 //!
-//! POV-Ray opens, overwrites and includes any file that its user can, and does so in surprising places: `include` works without
-//! its `#`, and a macro may end between a `#` and its word. So the filter does not look for dangerous code. It splits a text into
-//! POV-Ray's own tokens and passes only those it knows:
+//! POV-Ray opens, overwrites and includes every file that its user can access, and does so in surprising places: `include` works without
+//! its `#`, and a macro may end between a `#` and its word. Searching for dangerous code would therefore miss cases. Instead, the filter
+//! splits a text into POV-Ray's own tokens and accepts only tokens that are known to be safe:
 //!
-//! - reserved words that touch no file, and all identifiers but those of macros that write files;
-//! - directives, each directly behind its `#`, each `#if` or `#macro` with its own `#end` in the same text;
-//! - as the name of a file, a plain string that names an asset of the scene or a file that comes with POV-Ray. A computed
-//!   name could be that of any file.
+//! - reserved words that access no file, and all identifiers except those of macros that write files;
+//! - directives, each directly after its `#`, and each `#if` or `#macro` with its own `#end` in the same text;
+//! - as a file name, a plain string that names an asset of the scene or a file that comes with POV-Ray. A computed name could be that of
+//!   any file.
 //!
-//! `#include` may not stand in a macro: POV-Ray finds the end of a macro by its position, also in the included file, and may
-//! resume in the middle of a comment.
+//! `#include` is refused inside a macro: POV-Ray finds the end of a macro by its position, even in an included file, and may resume in the
+//! middle of a comment.
 
 use std::ops::Range;
 
@@ -19,56 +19,56 @@ use super::standard::{WRITING_MACROS, is_standard, is_writing};
 use super::tokens::{Token, Tokens, Unclosed};
 use super::words::{DIRECTIVES, OTHERS, REFUSED};
 
-/// The place of a text in the script.
+/// The position of a text of SDL in the script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
-    /// Before the bodies, or in a file that is included there.
+    /// At the top level before the bodies, or in a file that is included at the top level.
     Top,
-    /// In a body or a material, which may be the text of a macro.
+    /// Within a body or a material, which may itself be within a macro.
     Inside,
 }
 
-/// Something that SDL may not do without `--trust`.
+/// A part of a text of SDL that needs `--trust`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// The place in the text, bytes.
+    /// The byte range of the refused part in the text.
     pub range: Range<usize>,
-    /// Why it is refused.
+    /// The reason why the part is refused.
     pub why: Why,
 }
 
-/// Why SDL is refused.
+/// The reason why a part of SDL is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// A word that opens, reads or writes files.
+    /// The named word opens, reads or writes files.
     Word(String),
-    /// A macro of POV-Ray's include files that writes files.
+    /// The named macro, from one of POV-Ray's include files, writes files.
     Macro(String),
-    /// The name of a file behind this word is computed.
+    /// The file name after this word is computed.
     Computed(String),
-    /// A file of this name is neither an asset nor one of POV-Ray's own.
+    /// The named file is neither an asset of the scene nor a file that comes with POV-Ray.
     Unlisted(String),
-    /// An include file of POV-Ray's that serves to write files.
+    /// The named include file of POV-Ray contains mainly macros that write files.
     WritingInclude(String),
-    /// `#include` in a macro, a body or a material.
+    /// `#include` is within a macro, a body or a material.
     InnerInclude,
-    /// A `#` without a directive behind it.
+    /// A `#` is not followed by a directive.
     Hash,
-    /// A directive without `#` before it.
+    /// The named directive has no `#` before it.
     NoHash(String),
-    /// A comment, string or directive, by its first word, that is not closed.
+    /// A comment, a string or a directive is not closed. The value shows how it begins.
     Open(&'static str),
-    /// `#end`, `#else` or their like without the directive that it belongs to.
+    /// `#end`, `#else` or a similar directive is outside of the directive that it would belong to.
     Stray(String),
-    /// A NUL character.
+    /// The text contains a NUL character.
     Nul,
 }
 
-/// The most refusals that are reported of one text.
+/// The maximum number of refusals that are reported for one text.
 const MAX_REFUSALS: usize = 8;
 
-/// The parts of a text that need `--trust`, in order, and the names of the assets that the text includes. `is_asset` tells
-/// whether a name is an asset of the scene.
+/// Returns the parts of a text of SDL that need `--trust`, in order, and the names of the assets that the text includes. `is_asset`
+/// returns true for the name of an asset of the scene.
 pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (Vec<Refusal>, Vec<&str>) {
     let mut filter =
         Filter { place, is_asset, open: Vec::new(), macros: 0, refusals: Vec::new(), includes: Vec::new() };
@@ -102,17 +102,17 @@ pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (V
 struct Filter<'a, F> {
     place: Where,
     is_asset: F,
-    /// The directives that wait for their `#end`.
+    /// The directives that are still open, such as `#if`, with their byte ranges. Each needs an `#end`.
     open: Vec<(&'static str, Range<usize>)>,
-    /// How many of them are macros.
+    /// The number of `#macro` directives among the open directives.
     macros: usize,
     refusals: Vec<Refusal>,
     includes: Vec<&'a str>,
 }
 
-/// Directives that end with an `#end`.
+/// The directives that need a closing `#end`.
 const OPENING: [&str; 7] = ["for", "if", "ifdef", "ifndef", "macro", "switch", "while"];
-/// Directives that stand in one of those.
+/// The directives that are valid only between an opening directive and its `#end`.
 const INNER: [&str; 5] = ["break", "case", "else", "elseif", "range"];
 
 impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {

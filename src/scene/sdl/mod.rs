@@ -1,7 +1,7 @@
-//! POV-Ray's scene description language (SDL), as far as it can be told from a text which files it touches.
+//! Analyzes SDL, POV-Ray's scene description language, to find the files that a text accesses.
 //!
-//! POV-Ray restricts nothing: a script may open, overwrite and include any file of its user. So [`refusals`] holds SDL
-//! of an untrusted scene against a list of words that may be used, and [`files`] lists the names of files in a text.
+//! POV-Ray has no restrictions of its own: a script may open, overwrite and include any file of its user. [`refusals`] therefore compares
+//! the SDL of an untrusted scene with a list of allowed words, and [`files`] lists the names of files in a text.
 
 mod files;
 mod filter;

@@ -1,11 +1,11 @@
-//! The page of the documentation on what SDL may do without `--trust`.
+//! Generates the documentation page on what SDL may do without `--trust`.
 
 use std::fmt::Write as _;
 
 use super::standard::{FONT_MACROS, FONTS, IMAGES, INCLUDES, MAPS, WRITING_INCLUDES, WRITING_MACROS};
 use super::words::{DIRECTIVES, FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, OTHERS, REFUSED};
 
-/// The words that pass without `--trust`, as Markdown.
+/// Returns the page that lists the words allowed without `--trust`, as Markdown.
 pub fn reference() -> String {
     let mut page = HEAD.to_owned();
     let includes: Vec<&str> =
@@ -43,7 +43,7 @@ pub fn reference() -> String {
     page
 }
 
-/// Words in backquotes, in lines of at most 120 characters.
+/// Formats words in backquotes, in lines of at most 120 characters.
 fn lines(words: &[&str]) -> String {
     let mut text = String::new();
     let mut length = 0;

@@ -1,6 +1,6 @@
-//! The files that come with POV-Ray 3.7: include files, fonts and images.
+//! Lists the files that come with POV-Ray 3.7: include files, color maps, fonts and images.
 
-/// The include files. `makegrass.inc` and `meshmaker.inc` are among them.
+/// The include files of POV-Ray, including `makegrass.inc` and `meshmaker.inc`, which write files.
 pub(crate) const INCLUDES: &[&str] = &[
     "arrays.inc",
     "chars.inc",
@@ -43,10 +43,10 @@ pub(crate) const INCLUDES: &[&str] = &[
     "woods.inc",
 ];
 
-/// The include files that serve to write files: most of their macros do.
+/// The include files of POV-Ray whose macros mainly write files.
 pub(crate) const WRITING_INCLUDES: [&str; 2] = ["makegrass.inc", "meshmaker.inc"];
 
-/// Color maps, which are include files with another ending.
+/// The color maps of POV-Ray. They are include files with the extension `.map`.
 pub(super) const MAPS: [&str; 10] = [
     "ash.map",
     "benediti.map",
@@ -60,10 +60,10 @@ pub(super) const MAPS: [&str; 10] = [
     "whiteash.map",
 ];
 
-/// Fonts.
+/// The fonts that come with POV-Ray.
 pub(super) const FONTS: [&str; 4] = ["crystal.ttf", "cyrvetic.ttf", "povlogo.ttf", "timrom.ttf"];
 
-/// Images, and a density file.
+/// The images that come with POV-Ray, and a density file.
 pub(super) const IMAGES: [&str; 11] = [
     "Mount1.png",
     "Mount2.png",
@@ -78,8 +78,8 @@ pub(super) const IMAGES: [&str; 11] = [
     "test.png",
 ];
 
-/// Macros of the include files that write files, by themselves or by others that they call, apart from those of
-/// `WRITING_INCLUDES`.
+/// The macros of POV-Ray's include files that write files, directly or through other macros. The macros of `WRITING_INCLUDES` are not
+/// listed.
 pub const WRITING_MACROS: [&str; 8] = [
     "ARRAYS_Temp_WriteDF3",
     "ARRAYS_WriteDF3",
@@ -91,24 +91,24 @@ pub const WRITING_MACROS: [&str; 8] = [
     "Parse_String",
 ];
 
-/// Macros of the include files whose first parameter is the file of a font.
+/// The macros of POV-Ray's include files whose first parameter is the name of a font file.
 pub(super) const FONT_MACROS: [&str; 5] =
     ["Bevelled_Text", "Circle_Text", "Circle_Text_Valigned", "Text_Space", "Text_Width"];
 
-/// Whether a file of this name comes with POV-Ray and serves to write no files. POV-Ray adds the usual ending to a name
-/// that has none.
+/// Returns true if `name` means a file that comes with POV-Ray and is not in `WRITING_INCLUDES`. The extension may be missing, because
+/// POV-Ray adds it.
 pub(super) fn is_standard(name: &str) -> bool {
     let writes = |file: &str| WRITING_INCLUDES.contains(&file);
     let mut all = INCLUDES.iter().chain(&MAPS).chain(&FONTS).chain(&IMAGES);
     all.any(|file| is_called(file, name) && !writes(file))
 }
 
-/// Whether a name is that of an include file that serves to write files.
+/// Returns true if `name` means a file of `WRITING_INCLUDES`, whose macros write files.
 pub(super) fn is_writing(name: &str) -> bool {
     WRITING_INCLUDES.iter().any(|file| is_called(file, name))
 }
 
-/// Whether a script that says `name` may get the file, with or without its ending.
+/// Returns true if POV-Ray may open `file` for a script that contains `name`. The extension may be missing in `name`.
 fn is_called(file: &str, name: &str) -> bool {
     file == name || file.rsplit_once('.').is_some_and(|(stem, _)| stem == name)
 }

@@ -1,34 +1,33 @@
-//! Cuts SDL into the tokens that POV-Ray 3.7 reads.
+//! Splits SDL into the tokens of POV-Ray 3.7.
 //!
-//! The rules are those of POV-Ray's own tokenizer, also where they surprise: comments nest, a number ends where it can
-//! not go on (`1einclude` is the number `1e` and the word `include`), and a backslash protects any character of a
-//! string.
+//! The rules are those of POV-Ray's own tokenizer, even where these are surprising: comments nest, a number ends at the first character
+//! that cannot continue it (`1einclude` is the number `1e` and the word `include`), and a backslash in a string escapes any character.
 
 use std::ops::Range;
 
-/// One token of SDL.
+/// A token of SDL, POV-Ray's scene description language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Token<'a> {
     /// A reserved word or an identifier.
     Word(&'a str),
-    /// A number without its sign.
+    /// A number. A sign before it is a token of its own.
     Number,
-    /// A string as it is written, without its quotes.
+    /// The content of a string as written, without the quotes.
     Text(&'a str),
-    /// Any other character.
+    /// Any other single character.
     Symbol(char),
 }
 
-/// A construct that a text opens and does not close.
+/// A comment or string that is not closed at the end of the text. The value is the byte range of its opening mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unclosed {
-    /// A `/*`.
+    /// A comment that begins with `/*` at this range.
     Comment(Range<usize>),
-    /// A `"`.
+    /// A string that begins with `"` at this range.
     Text(Range<usize>),
 }
 
-/// The tokens of a text with their places in bytes, one after another.
+/// Iterates over the tokens of a text, each with its byte range.
 #[derive(Clone, Debug)]
 pub struct Tokens<'a> {
     text: &'a str,
@@ -37,12 +36,12 @@ pub struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
-    /// The tokens of a text.
+    /// Makes an iterator over the tokens of a text.
     pub fn of(text: &'a str) -> Tokens<'a> {
         Tokens { text, at: 0, unclosed: None }
     }
 
-    /// The comment or string that reaches the end of the text without being closed, once all tokens have been read.
+    /// Returns the comment or string that is not closed at the end of the text, if any. Known only after all tokens have been read.
     pub fn unclosed(&self) -> Option<&Unclosed> {
         self.unclosed.as_ref()
     }
@@ -103,7 +102,7 @@ impl<'a> Iterator for Tokens<'a> {
     }
 }
 
-/// The length of a comment behind its `/*`, with its `*/`; `None` if it is not closed.
+/// Returns the length, in bytes, of a comment from after its `/*` to the end of its `*/`. `None` if the comment is not closed.
 fn length_of_comment(text: &str) -> Option<usize> {
     let bytes = text.as_bytes();
     let (mut depth, mut at) = (1usize, 0);
@@ -121,7 +120,8 @@ fn length_of_comment(text: &str) -> Option<usize> {
     Some(at)
 }
 
-/// The length of a string behind its first quote, without its last one; `None` if it is not closed.
+/// Returns the length, in bytes, of a string's content between its quotes. `text` begins after the opening quote. `None` if the string is
+/// not closed.
 fn length_of_text(text: &str) -> Option<usize> {
     let mut escaped = false;
     for (at, byte) in text.bytes().enumerate() {
@@ -135,7 +135,7 @@ fn length_of_text(text: &str) -> Option<usize> {
     None
 }
 
-/// The length of the number at the beginning of a text; 0 if there is none.
+/// Returns the length, in bytes, of the number at the beginning of a text. 0 if the text does not begin with a number.
 fn length_of_number(text: &[u8]) -> usize {
     let digits = |from: usize| text[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
     let mut length = digits(0);

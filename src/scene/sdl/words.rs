@@ -1,9 +1,10 @@
-//! The reserved words of POV-Ray 3.7, by what a scene may do with them without `--trust`.
+//! Lists the reserved words of POV-Ray 3.7, by what a scene may do with them without `--trust`.
 //!
-//! Each of the 498 words stands in one of these lists, except `default` and `version`, which stand in two. A test asks
-//! POV-Ray itself whether there are others.
+//! Each of the 498 words is in exactly one of these lists, except `default` and `version`, which are in two. A test compares the lists
+//! with POV-Ray itself.
 
-/// Words that may stand directly behind a `#`, and, `default` and `version` aside, nowhere else.
+/// The words that are directives. They are allowed only directly after a `#`, except `default` and `version`, which are also allowed
+/// elsewhere.
 pub(super) const DIRECTIVES: [&str; 24] = [
     "break",
     "case",
@@ -31,19 +32,19 @@ pub(super) const DIRECTIVES: [&str; 24] = [
     "while",
 ];
 
-/// Words that open a block with an image in it: `image_map { png "wood.png" }`.
+/// The words that begin a block with an image: `image_map { png "wood.png" }`.
 pub(super) const IMAGE_BLOCKS: [&str; 5] =
     ["bump_map", "height_field", "image_map", "image_pattern", "material_map"];
 
-/// Words behind which the name of a file stands: `png "wood.png"`, `ttf "timrom.ttf"`.
+/// The words for file formats, which are followed by a file name: `png "wood.png"`, `ttf "timrom.ttf"`.
 pub(super) const FILE_TYPES: [&str; 15] = [
     "bmp", "df3", "exr", "gif", "hdr", "iff", "jpeg", "pgm", "png", "pot", "ppm", "sys", "tga", "tiff", "ttf",
 ];
 
-/// The function that asks whether a file is there: `file_exists("wood.png")`.
+/// The function that returns true if a file exists: `file_exists("wood.png")`.
 pub(super) const FILE_EXISTS: &str = "file_exists";
 
-/// Words that open, read or write files, and words of use only to POV-Ray's developers.
+/// The words that open, read or write files, and words that serve only POV-Ray's developers. They are refused.
 pub(super) const REFUSED: [&str; 16] = [
     "append",
     "dtag",
@@ -64,7 +65,7 @@ pub(super) const REFUSED: [&str; 16] = [
 ];
 
 #[rustfmt::skip]
-/// Words that touch no file: they may stand anywhere.
+/// The words that access no file. They are allowed everywhere.
 pub(super) const OTHERS: [&str; 439] = [
     "aa_level", "aa_threshold", "abs", "absorption", "accuracy", "acos", "acosh", "adaptive", "adc_bailout",
     "agate", "agate_turb", "albedo", "all", "all_intersections", "alpha", "altitude", "always_sample",
@@ -120,7 +121,7 @@ pub(super) const OTHERS: [&str; 439] = [
     "wood", "wrinkles", "x", "xyz", "y", "yes", "z",
 ];
 
-/// All reserved words, sorted.
+/// Returns all reserved words of POV-Ray, sorted.
 pub fn reserved_words() -> Vec<&'static str> {
     let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED, &OTHERS];
     let mut words = lists.concat();

@@ -1,28 +1,28 @@
-//! Finds errors in brackets, quotes and dotted keys that the parser does not report well.
+//! Finds errors in brackets, quotes and dotted keys that the TOML parser does not report well.
 //!
-//! The parser accepts TOML 1.1, which most editors and users of the schema do not know, so its additions are refused
-//! here. If a bracket is never closed, the parser reads on to the end of the file and reports every line, but the
-//! mistake is the bracket. The parser also refuses a key with too many parts, but does not report its place.
+//! The parser accepts TOML 1.1, whose additions most editors do not support yet, so they are refused. If a bracket is never closed, the
+//! parser reads on to the end of the file and reports many lines; the only useful position is that of the bracket. The parser also refuses
+//! a key with too many parts, but does not report its position.
 
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};
 
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// The maximum depth of nested values, as in the crate `toml`.
+/// The maximum nesting depth of lists and tables, as in the crate `toml`.
 const MAX_DEPTH: u32 = 80;
 
-/// The errors in a text's brackets, quotes and dotted keys.
+/// The errors that were found in the brackets, quotes and dotted keys of a text.
 pub(super) struct Brackets {
-    /// Additions of TOML 1.1.
+    /// The errors for syntax that only TOML 1.1 allows.
     pub(super) too_new: Vec<Diagnostic>,
-    /// The first bracket or quote that is never closed. The text after it is unreliable.
+    /// The error for the first bracket or quote that is never closed. The parsed values after it are unreliable.
     pub(super) unclosed: Option<Diagnostic>,
-    /// The keys with too many parts.
+    /// The errors for dotted keys with too many parts.
     pub(super) deep_keys: Vec<Diagnostic>,
 }
 
-/// Finds the errors in a text.
+/// Finds the errors in the brackets, quotes and dotted keys of a text.
 pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     let tokens = toml_parser::Source::new(text).lex().into_vec();
     let found = Brackets { too_new: Vec::new(), unclosed: None, deep_keys: Vec::new() };
@@ -32,21 +32,21 @@ pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     looker.found
 }
 
-/// An open list or inline table.
+/// A list or an inline table that is still open during the parse.
 struct Open {
     start: usize,
     is_list: bool,
-    /// The last comma. `None` if a value follows it.
+    /// The most recent comma in the list or table. `None` if a value follows the comma.
     comma: Option<toml_parser::Span>,
-    /// Whether a line break stands directly in the list or table.
+    /// True if the list or table contains a line break that is not within an inner list or table.
     several_lines: bool,
 }
 
-/// A dotted key, as far as it has been read.
+/// A dotted key that is being read.
 struct Key {
     start: usize,
     parts: u32,
-    /// Whether a dot is the last thing read, so that another part must follow.
+    /// True if the last token was a dot, so that another part of the key must follow.
     goes_on: bool,
 }
 
@@ -67,7 +67,7 @@ impl Looker<'_> {
                 let is_list = kind == EventKind::ArrayOpen;
                 self.open.push(Open { start: span.start(), is_list, comma: None, several_lines: false });
             }
-            // If the parser skips unreadable text, brackets may close that were never opened.
+            // After unreadable text, the parser may report closing brackets without opening ones.
             EventKind::ArrayClose if self.open.last().is_some_and(|open| open.is_list) => {
                 self.close(span, "list", "]");
             }
@@ -130,7 +130,8 @@ impl Looker<'_> {
         }
     }
 
-    /// Ends a list or an inline table. If it is never closed, the parser gives an empty span.
+    /// Handles the end of a list or an inline table. The parser gives an empty span for a closing bracket that is missing, which is
+    /// reported as an error.
     fn close(&mut self, span: toml_parser::Span, noun: &str, bracket: &str) {
         if let (Some(open), true) = (self.open.pop(), span.is_empty()) {
             self.unclosed(open.start..open.start + 1, noun, bracket);
@@ -138,7 +139,8 @@ impl Looker<'_> {
     }
 
     fn unclosed(&mut self, range: std::ops::Range<usize>, noun: &str, closing: &str) {
-        // The outermost bracket comes last, and is the first in the text.
+        // The parser reports open brackets from the inside out. The error that is kept is the one for the outermost bracket, the first in
+        // the text.
         if self.found.unclosed.as_ref().and_then(Diagnostic::span).is_none_or(|span| range.start < span.start)
         {
             let error = Diagnostic::error(Code::TomlUnclosed, format!("the {noun} is never closed"));

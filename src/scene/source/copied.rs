@@ -1,4 +1,4 @@
-//! Stores a table as its differences from another table: copies of a body differ in some values only.
+//! Stores a table as its differences from a template, because the copies of a body differ in few values.
 
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -7,16 +7,16 @@ use std::sync::Arc;
 use super::{Entry, Node, Table, Value};
 use crate::scene::timed::TimeFormula;
 
-/// A table that is stored as its differences from a template.
+/// A table that is stored as its differences from a template table.
 #[derive(Clone, Debug)]
 pub struct CopiedTable {
     template: Arc<Table>,
-    /// The changed values, in the order of their places.
+    /// The values that differ from the template, sorted by `place`.
     changes: Box<[Change]>,
 }
 
-/// A value that differs from the template. Its place is its index among all values of the template, in the order of
-/// the file. Tables and lists count as values, too.
+/// A value that differs from the template. `place` is the index of the value among all values of the template, in the order of the file.
+/// Tables and lists count as values, too.
 #[derive(Clone, Debug)]
 enum Change {
     Number { place: u32, value: f64 },
@@ -43,21 +43,21 @@ impl Change {
 }
 
 impl CopiedTable {
-    /// Stores a table as its differences from a template. `None` if the keys or their places differ.
+    /// Stores a table as its differences from a template. Returns `None` if the keys or the source spans differ.
     pub fn new(table: &Table, template: &Arc<Table>) -> Option<CopiedTable> {
         let mut changes = Vec::new();
         let is_alike = compare_tables(table, template, &mut 0, &mut changes);
         is_alike.then(|| CopiedTable { template: template.clone(), changes: changes.into() })
     }
 
-    /// Rebuilds the table.
+    /// Rebuilds the table from the template and the differences.
     pub fn table(&self) -> Table {
         copy_table(&self.template, &mut 0, &mut self.changes.iter().peekable())
     }
 }
 
-/// Collects the values that differ from the template. Returns whether everything except the values is the same.
-/// `next` is the index of the next value.
+/// Appends the values that differ from the template to `changes`. Returns true if the tables have the same keys at the same positions in
+/// the text. `next` is the index of the next value.
 fn compare_tables(table: &Table, template: &Table, next: &mut u32, changes: &mut Vec<Change>) -> bool {
     if table.entries.is_same(&template.entries) {
         *next += values_of(template);
@@ -103,7 +103,7 @@ fn compare(value: &Value, old: &Value, next: &mut u32, changes: &mut Vec<Change>
     true
 }
 
-/// The number of values within a value.
+/// Returns the number of values nested within a value, not counting the value itself.
 fn values_within(value: &Value) -> u32 {
     match value {
         Value::Table(table) => values_of(table),
@@ -120,7 +120,8 @@ fn values(node: &Node) -> u32 {
     1 + values_within(&node.value)
 }
 
-/// Rebuilds a table. Parts without changes share memory with the template.
+/// Rebuilds a table from the template and the remaining changes. Inner tables and lists without changes share memory with the template.
+/// `next` is the index of the next value.
 fn copy_table(template: &Table, next: &mut u32, changes: &mut Peekable<Iter<'_, Change>>) -> Table {
     let end = *next + values_of(template);
     if changes.peek().is_none_or(|change| change.place() >= end) {
@@ -171,7 +172,7 @@ mod tests {
         }
     }
 
-    /// A table in words, without places in the text.
+    /// Formats a table for comparisons, with `Debug`.
     fn shown(table: &Table) -> String {
         format!("{table:?}")
     }
@@ -182,7 +183,7 @@ mod tests {
         for (text, changes) in [
             ("a = 1\nb = [1, 2]\nc = { d = 'x', e = [3] }\nf = true\n", 0),
             ("a = 2\nb = [1, 3]\nc = { d = 'y', e = [4] }\nf = 1.25\n", 5),
-            // A value replaces a list or a table, and the values after it change, too.
+            // In this text, single values replace a list and an inner list, and the value after them changes, too.
             ("a = 1\nb = 123456\nc = { d = 'x', e = 333 }\nf = 1.25\n", 3),
         ] {
             let table = table(text);

@@ -1,20 +1,20 @@
-//! Opens the files of a scene: only regular files up to a maximum size.
+//! Opens the files of a scene. Accepts only regular files up to a maximum size.
 
 use std::fs::{File, FileType, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Opens a regular file of at most `most` bytes. Refuses other files before reading them: a pipe would block until
-/// somebody writes to it, and a device may have no end.
+/// Opens a regular file of at most `most` bytes. Other files are refused before reading: a pipe would block until another process writes
+/// to it, and a device may have no end.
 ///
 /// # Errors
-/// If the file cannot be opened, is not a regular file, or is too large. The error's message says which, as a clause.
+/// If the file cannot be opened, is not a regular file, or is too large. The error's message is a clause that names the reason.
 pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
-    // Opening a device may have side effects, so check the metadata before.
+    // Opening a device may have side effects, so its metadata are checked first.
     accept(&std::fs::metadata(path)?, most)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Another file may have taken its place since the check. If it is a pipe, opening it must not block.
+    // Another file may have replaced the checked one. If it is a pipe, opening it must not block.
     #[cfg(all(unix, feature = "render"))]
     {
         use std::os::unix::fs::OpenOptionsExt;
@@ -31,12 +31,12 @@ pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
 /// The errors of [`open`].
 pub(in crate::scene) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    // The file may have grown since it was opened.
+    // Reading at most one byte more than the limit detects a file that has grown since it was opened.
     open(path, most)?.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
 }
 
-/// Reads a regular file of at most `most` bytes as UTF-8.
+/// Reads a regular file of at most `most` bytes as UTF-8 text.
 ///
 /// # Errors
 /// The errors of [`open`], and an error if the bytes are not UTF-8.
@@ -47,7 +47,7 @@ pub(in crate::scene) fn read_text(path: &Path, most: u64) -> io::Result<String> 
     })
 }
 
-/// The type of a file that is not a regular file, in words: `a named pipe`.
+/// Describes the type of a file in words, such as "a named pipe". `None` for a regular file.
 pub(in crate::scene) fn irregular(kind: FileType) -> Option<&'static str> {
     #[cfg(unix)]
     {

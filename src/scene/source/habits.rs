@@ -1,4 +1,4 @@
-//! Corrects notations from other languages to TOML.
+//! Recognizes notations of other languages, such as `(1, 2, 3)` or `0,5`, and rewrites them as TOML.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use crate::scene::expression::Formula;
 use crate::scene::grammar::unit_of_key;
 use crate::scene::units;
 
-/// A correction of part of a line: the range, the new text, and the reason.
+/// The correction of a part of a line: its byte range in the line, the new text, and the explanation for the user.
 pub(super) struct Mended {
     pub(super) range: Range<usize>,
     pub(super) text: String,
     pub(super) why: &'static str,
 }
 
-/// A corrected value, and the reason.
+/// A corrected value as TOML, and the explanation for the user.
 type Better = (String, &'static str);
 
 const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
@@ -27,7 +27,7 @@ const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
 const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
 const HEADER: &str = "a dot stands between the parts of a header";
 
-/// Corrects a line that is not TOML. `None` if the right text is unclear.
+/// Corrects a line that is not valid TOML. `None` if the intended text is unclear.
 pub(super) fn mend(line: &str) -> Option<Mended> {
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
@@ -44,7 +44,7 @@ pub(super) fn mend(line: &str) -> Option<Mended> {
         return None;
     }
     let mut raw = content[split + 1..].trim();
-    // A hexadecimal color without quotes looks like a comment.
+    // A hexadecimal color without quotes, such as `#ff0000`, looks like a comment.
     let color = line[content.len()..].trim();
     if raw.is_empty() && color.len() > 3 && color[1..].bytes().all(|byte| byte.is_ascii_hexdigit()) {
         raw = color;
@@ -75,7 +75,8 @@ fn header(content: &str, trimmed: &str) -> Option<Mended> {
     })
 }
 
-/// Corrects a value to TOML. `key` is the last part of its key.
+/// Rewrites a value as TOML. `key` is the last part of the value's dotted key; it determines the unit. `None` if the intended value is
+/// unclear.
 fn value(raw: &str, key: &str) -> Option<Better> {
     let is_toml = |text: &str| parse_value(text, no_source()).is_ok();
     let cut = raw.trim_end_matches([';', ',']).trim_end();
@@ -100,7 +101,7 @@ fn value(raw: &str, key: &str) -> Option<Better> {
         if let Some(inner) = cut.strip_prefix(open).and_then(|rest| rest.strip_suffix(close)) {
             let is_table = open == '{' && !top_level(inner, &['=', ':']).is_empty();
             let better = if is_table { table(inner) } else { list(inner, key) };
-            // A formula such as `(1 + 2) * (3 + 4)` is not a list.
+            // The result must be valid TOML: a formula such as `(1 + 2) * (3 + 4)` begins and ends like a list.
             if better.as_ref().is_some_and(|(text, _)| is_toml(text)) {
                 return better;
             }
@@ -122,7 +123,7 @@ fn value(raw: &str, key: &str) -> Option<Better> {
     (!cut.contains(['"', '\\']) && (is_word(cut) || is_formula())).then(|| (format!("\"{cut}\""), QUOTES))
 }
 
-/// Corrects a number that TOML does not read: `.5`, `5.`, `0,5`, `007`.
+/// Rewrites a number that is not valid TOML, such as `.5`, `5.`, `0,5` or `007`.
 fn number(text: &str) -> Option<String> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(rest) => ("-", rest),
@@ -149,7 +150,7 @@ fn number(text: &str) -> Option<String> {
     Some(format!("{sign}{whole}{part}{}", exponent.map_or(String::new(), |exponent| format!("e{exponent}"))))
 }
 
-/// Corrects a list with any separators.
+/// Rewrites a list as TOML, whatever separates its items. `inner` is the text between the brackets.
 pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     let split = |by: &[char]| {
         let mut items = Vec::new();
@@ -164,7 +165,7 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     };
     let mended = |items: Vec<&str>| items.iter().map(|item| value(item, key)).collect::<Option<Vec<_>>>();
     let decimal = |item: &&str| number(item).is_some();
-    // In `0,5; 1,5` and `0,5, 1,5`, a comma before a space separates values, and any other comma is a decimal comma.
+    // In `0,5; 1,5` and `0,5, 1,5`, a comma before a space separates two values. Any other comma is a decimal comma.
     let spaced: Vec<&str> = inner.split(", ").map(str::trim).collect();
     let has_decimal_commas = spaced.len() > 1
         && spaced.iter().all(decimal)
@@ -182,14 +183,14 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
     Some((format!("[{}]", items.join(", ")), why))
 }
 
-/// The number of items of a list in brackets.
+/// Returns the number of items of a list in square brackets. 0 for any other text.
 pub(in crate::scene) fn items(list: &str) -> usize {
     list.strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
         .map_or(0, |inner| top_level(inner, &[',']).len() + 1)
 }
 
-/// Corrects a table in braces, with `=` or `:` between keys and values.
+/// Rewrites an inline table as TOML. `inner` is the text between the braces, with `=` or `:` between keys and values.
 fn table(inner: &str) -> Option<Better> {
     let mut entries = Vec::new();
     let mut ends = top_level(inner, &[',']);
@@ -209,7 +210,7 @@ fn table(inner: &str) -> Option<Better> {
     Some((format!("{{ {} }}", entries.join(", ")), TABLE))
 }
 
-/// The positions of characters outside of quotes and brackets.
+/// Returns the byte offsets of the characters `signs` that are outside of quotes and brackets.
 pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
     let (mut depth, mut quote, mut found) = (0usize, None, Vec::new());
     for (at, c) in text.char_indices() {
@@ -226,8 +227,7 @@ pub(super) fn top_level(text: &str, signs: &[char]) -> Vec<usize> {
     found
 }
 
-/// Splits a line into its content and the text of its comment. The comment may also begin with `//`, as in other
-/// languages.
+/// Splits a line into its content and the text of its comment, if any. A comment begins with `#` or, as in other languages, with `//`.
 fn split_comment(line: &str) -> (&str, Option<&str>) {
     let mut quote = None;
     for (at, c) in line.char_indices() {
@@ -245,12 +245,12 @@ fn split_comment(line: &str) -> (&str, Option<&str>) {
     (line, None)
 }
 
-/// A source for texts that are parsed only to see whether they are TOML.
+/// Returns a source id for text that is parsed only to test if it is valid TOML.
 fn no_source() -> crate::diagnostic::SourceId {
     Sources::default().add("", "")
 }
 
-/// Converts a YAML scalar or list to TOML.
+/// Rewrites a YAML scalar or list as TOML. `key` is the last part of its key.
 pub(super) fn scalar(raw: &str, key: &str) -> Option<String> {
     value(raw, key).map(|(text, _)| text)
 }

@@ -5,10 +5,13 @@ use std::path::Path;
 use super::file;
 use crate::diagnostic::{Code, Diagnostic, Report, Sources, Span};
 
-/// The maximum size of a scene file, bytes. Ten thousand bodies are one megabyte.
+/// The maximum size of a scene file, in bytes. For comparison, a scene of ten thousand bodies has about one megabyte.
 pub const MAX_BYTES: u64 = 64 << 20;
 
-/// Reads the text of a scene file. The error says why the file cannot be a scene.
+/// Reads the text of a scene file.
+///
+/// # Errors
+/// If the file cannot be read, is not a regular file, is too large, or is not UTF-8.
 pub fn load(path: &Path) -> Result<String, Report> {
     let shown = path.display();
     let cannot_read = |error: &std::io::Error| {
@@ -40,13 +43,13 @@ fn too_large(path: &Path) -> Report {
     Report::of_error(Code::FileTooLarge, message)
 }
 
-/// Reports the first byte that is not UTF-8, in its line.
+/// Creates the error for a file that is not UTF-8. It marks the first invalid byte.
 fn not_utf8(path: &Path, error: &std::string::FromUtf8Error) -> Report {
     let mut sources = Sources::default();
     let valid = error.utf8_error().valid_up_to();
     let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
     let id = sources.add(path.display().to_string(), text);
-    // No byte before the first bad byte is replaced, so that byte has the same place in the shown text.
+    // The valid text before the invalid byte is unchanged, so the byte has the same offset in the text that is shown.
     let span = Span::new(id, valid..valid + char::REPLACEMENT_CHARACTER.len_utf8());
     let diagnostic = Diagnostic::error(Code::NotUtf8, "the file is not UTF-8, which TOML asks for")
         .at(span, "this byte is no character")

@@ -1,4 +1,4 @@
-//! The scene as written: converts texts to a tree of values with their places.
+//! Parses the texts of a scene into a tree of values that know their positions in the text.
 
 mod brackets;
 mod copied;

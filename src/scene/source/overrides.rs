@@ -1,24 +1,24 @@
-//! `--set KEY=VALUE`: values that override those in the file.
+//! The argument `--set KEY=VALUE`, which overrides a value of the scene file.
 
 use super::{Entry, Name, Node, Table, Value, toml};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Sources, Span};
 
-/// A value that overrides a value of the scene: `simulation.step=0.001`.
+/// A value from the command line that overrides a value of the scene, such as `simulation.step=0.001`.
 #[derive(Clone, Debug)]
 pub struct Override(String);
 
 impl Override {
-    /// Makes an override from an argument of the command line: a dotted key, `=`, and a TOML value or a string.
+    /// Makes an override from a command-line argument: a dotted key, `=`, and a TOML value or a string without quotes.
     pub fn new(argument: impl Into<String>) -> Override {
         Override(argument.into())
     }
 
-    /// The override as the user wrote it.
+    /// Returns the override as the user wrote it.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Sets the value in the tree.
+    /// Sets the overriding value in the tree of the scene. Errors are added to `diagnostics`.
     pub(crate) fn apply(&self, root: &mut Table, sources: &mut Sources, diagnostics: &mut Vec<Diagnostic>) {
         let source = sources.add("--set", self.0.clone());
         match self.parse(source) {
@@ -35,7 +35,7 @@ impl Override {
                 .help("write it as KEY=VALUE, as in simulation.step=0.001")
         };
         let (key, value) = self.0.split_once('=').ok_or_else(|| wrong("`--set` needs a `=`"))?;
-        // A key with a newline or a second `=` would be more than a key.
+        // With a line break or a second `=`, the text would not parse as a single key.
         let mut errors = Vec::new();
         let document = toml::parse(&format!("{key}=0"), source, &mut errors);
         let path = document.as_table().and_then(|table| path(table, Vec::new()));
@@ -47,14 +47,14 @@ impl Override {
         let node = match toml::parse_value(value.trim(), source) {
             Ok((node, said)) => {
                 let by = key.len() + 1 + (value.len() - value.trim_start().len());
-                // A number that is too large has no value for the check to report, so report the parser's error.
+                // The value of a number that is too large is lost in the tree, so the later check could not report it.
                 if let Some(mut error) = said.into_iter().next() {
                     error.labels.iter_mut().for_each(|label| label.span = shifted(label.span, by));
                     return Err(error);
                 }
                 moved(node, by)
             }
-            // A value that begins like this is wrong TOML rather than a string.
+            // A value that begins with a bracket or a quote is faulty TOML, not a string.
             Err(_) if value.trim_start().starts_with(['[', '{', '"']) => {
                 let help = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
                 let message = "the value begins as TOML, and is none";
@@ -68,7 +68,7 @@ impl Override {
     }
 }
 
-/// The keys that lead to the only value in nested tables.
+/// Returns the keys that lead through nested tables to their only value. `None` if a table has more or fewer entries than one.
 fn path(table: &Table, mut names: Vec<Name>) -> Option<Vec<Name>> {
     let [entry] = table.entries.as_slice() else { return None };
     names.push(entry.name.clone());
@@ -82,7 +82,7 @@ fn shifted(span: Span, by: usize) -> Span {
     Span { start: span.start + by, end: span.end + by, ..span }
 }
 
-/// Moves all places in a node by `by` bytes.
+/// Moves all source spans in a node by `by` bytes.
 fn moved(mut node: Node, by: usize) -> Node {
     let shift = |span: Span| shifted(span, by);
     node.span = shift(node.span);
@@ -108,7 +108,7 @@ fn put(table: &mut Table, path: &[Name], value: Node, diagnostics: &mut Vec<Diag
     }
     let Some(entry) = table.get_mut(&name.text) else { return };
     if rest.is_empty() {
-        // Replace the name, too, so that later errors point at the override.
+        // The name is replaced as well, so that later errors refer to the `--set` argument.
         *entry = Entry { name: name.clone(), node: value };
         return;
     }

@@ -1,20 +1,19 @@
-//! Lists that copies share until one of them is changed.
+//! Lists whose clones share memory until one of them is changed (copy on write).
 
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
-/// A list whose clones share memory until one of them is changed. So many equal copies of a body take little more
-/// memory than one.
+/// A list whose clones share memory until one of them is changed. This lets many equal copies of a body take little more memory than one.
 #[derive(Clone, Debug)]
 pub struct Shared<T>(Arc<Vec<T>>);
 
 impl<T> Shared<T> {
-    /// Whether two lists share memory. If so, they are equal.
+    /// Returns true if two lists share memory, which implies that they are equal. Equal lists need not share memory.
     pub(in crate::scene) fn is_same(&self, other: &Shared<T>) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// The address that identifies the list while it exists. `None` if it has no clones.
+    /// Returns the memory address of the list, which identifies it while it exists. `None` if the list has no clones.
     pub(in crate::scene) fn address(&self) -> Option<usize> {
         (Arc::strong_count(&self.0) > 1).then(|| Arc::as_ptr(&self.0).addr())
     }

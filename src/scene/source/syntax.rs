@@ -1,14 +1,13 @@
-//! Rewrites the parser's syntax errors in the style of all other messages.
+//! Rewrites the syntax errors of the TOML parser in the style of jabuka's other messages.
 
 use toml::de::Error;
 
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// The parser's message for a key with too many parts, which has no place. `brackets` reports the error with its
-/// place.
+/// The parser's message for a key with too many parts, which has no position. The module `brackets` reports this error with its position.
 pub(super) const DEEP_KEY: &str = "recursion limit";
 
-/// Converts an error of the parser to a diagnostic. An unknown message stays unchanged.
+/// Converts an error of the TOML parser to a diagnostic. An unknown message is passed on unchanged.
 pub(super) fn diagnose(error: &Error, text: &str, source: SourceId) -> Diagnostic {
     let range = error.span();
     let found = range.clone().and_then(|range| text.get(range)).unwrap_or_default();
@@ -38,7 +37,7 @@ fn is_unclosed(expected: &str) -> bool {
     matches!(expected, "`\"`" | "`'`" | "'''")
 }
 
-/// The message and the help of a syntax error. `found` is the wrong text, and `next` its first character.
+/// Returns the message and the advice for a syntax error. `found` is the faulty text, and `next` is the first character at the error.
 fn words(what: &str, expected: &str, found: &str, next: Option<char>) -> (String, String) {
     let (message, help): (&str, &str) = match what {
         "string values must be quoted" | "missing value for key" if found.is_empty() => {

@@ -1,4 +1,4 @@
-//! Parses TOML into a tree.
+//! Parses TOML into the tree of a scene.
 
 use std::num::IntErrorKind;
 
@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue, Error};
 use super::{Entry, Name, Node, Table, Value, brackets, habits, syntax, yaml};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
-/// Parses a text. Reports unreadable parts as diagnostics and returns a tree of the rest.
+/// Parses a text. Reports syntax errors as diagnostics, and returns a tree of the readable values.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
     let (document, mut errors) = DeTable::parse_recoverable(text);
     errors.retain(|error| error.message() != syntax::DEEP_KEY);
@@ -29,7 +29,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     let end = brackets.unclosed.as_ref().and_then(Diagnostic::span).map_or(text.len() + 1, |span| span.start);
     let mut last_line = None;
     for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
-        // The second error of a line mostly follows from the first.
+        // A second error in the same line is usually a consequence of the first, so it is dropped.
         let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
         let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
         if line.is_none() || line != last_line {
@@ -47,7 +47,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     root
 }
 
-/// The error for a text that is YAML, with the equivalent TOML.
+/// Creates the error for a text in YAML. Its fix replaces the text by the equivalent TOML.
 fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, error.span().map_or(0, |range| range.start));
     let (start, end) = (line.start, line.end);
@@ -57,7 +57,7 @@ fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagno
     error.fix(Span::new(source, 0..text.len()), toml)
 }
 
-/// Adds a fix with the corrected line, if the right text is clear.
+/// Adds a fix with the corrected line, if the intended text is clear. `at` is the byte offset of the error.
 fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, at);
     let is_duplicate = diagnostic.code == Code::DuplicateKey;
@@ -69,7 +69,7 @@ fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -
     diagnostic.fix(Span::new(source, start..end), mended.text)
 }
 
-/// The range of the line that contains a byte, without its line break.
+/// Returns the byte range of the line that contains the byte `at`, without its line break.
 fn line_at(text: &str, at: usize) -> std::ops::Range<usize> {
     let bytes = text.as_bytes();
     let at = at.min(bytes.len());
@@ -79,7 +79,7 @@ fn line_at(text: &str, at: usize) -> std::ops::Range<usize> {
     start..end
 }
 
-/// Parses a single value, as written after `key = `.
+/// Parses a single TOML value, such as the text after `key = `.
 pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Diagnostic>), Error> {
     let value = DeValue::parse(text)?;
     let mut diagnostics = Vec::new();
@@ -89,7 +89,7 @@ pub(super) fn parse_value(text: &str, source: SourceId) -> Result<(Node, Vec<Dia
 
 struct Reader<'a> {
     source: SourceId,
-    /// The places of syntax errors, in order. A value that touches one is unreliable.
+    /// The byte offsets of syntax errors, in increasing order. A value that contains one of them is unreliable.
     wrong: Vec<usize>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -101,7 +101,7 @@ impl Reader<'_> {
             let name = Name { span: Span::new(self.source, key.span()), text: text.as_ref().into() };
             Entry { name, node: self.node(value) }
         };
-        // The parser sorts a table by its keys. Restore the order of the file.
+        // The parser sorts a table by its keys; sorting by position restores the order of the file.
         let mut in_order: Vec<_> = table.iter().collect();
         in_order.sort_by_key(|(key, _)| key.span().start);
         Table { entries: in_order.into_iter().map(entry).collect() }
@@ -112,7 +112,7 @@ impl Reader<'_> {
         let value = match value.get_ref() {
             DeValue::Array(items) => self.list(items),
             DeValue::Table(table) => Value::Table(self.table(table)),
-            // If a value is missing, the parser invents a value with an empty span.
+            // For a missing value, the parser inserts a placeholder with an empty span.
             _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
             DeValue::String(text) => Value::String(text.as_ref().into()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
@@ -123,7 +123,8 @@ impl Reader<'_> {
                 },
             },
             DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
-                // `1e999` is a mistake. A written `inf` may be intended, and the check of the key reports it.
+                // A number such as `1e999` is reported as too large. A literal `inf` may be intended, and the later check of the key
+                // reports it.
                 Ok(number) if number.is_infinite() && !digits.as_str().contains("inf") => {
                     self.too_large(span)
                 }
@@ -136,7 +137,7 @@ impl Reader<'_> {
         Node { span, value }
     }
 
-    /// Reads a list. If one item is invalid, the whole list is.
+    /// Reads a list. If an item is invalid, the whole list becomes [`Value::Invalid`].
     fn list(&mut self, items: &[Spanned<DeValue<'_>>]) -> Value {
         let items: Vec<Node> = items.iter().map(|item| self.node(item)).collect();
         if items.iter().any(|item| matches!(item.value, Value::Invalid)) {

@@ -1,4 +1,4 @@
-//! The tree of a scene as written.
+//! The tree of values into which the text of a scene is parsed.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -9,52 +9,52 @@ use crate::scene::drawn::DrawnFormula;
 use crate::scene::law::BodyFormula;
 use crate::scene::timed::TimeFormula;
 
-/// A value and its place in the text.
+/// A value with its position in the text.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// The place of the value in the text.
+    /// The byte range of the value in the text.
     pub span: Span,
-    /// The value.
+    /// The parsed value.
     pub value: Value,
 }
 
-/// A value in TOML, or a formula in place of a string.
+/// A TOML value, or a parsed formula that has replaced a string.
 #[derive(Clone, Debug)]
 pub enum Value {
-    /// Text, or a formula that has not been evaluated.
+    /// A string. Where the grammar expects a number, the string is a formula that has not been parsed yet.
     String(Arc<str>),
-    /// A whole number of at most 64 bits.
+    /// A whole number that fits into 64 bits.
     Integer(i64),
-    /// Any other number, which may be infinite or not a number.
+    /// A floating-point number, which may be infinite or NaN.
     Float(f64),
-    /// A formula of the time, in place of a string.
+    /// A parsed formula of the time `t`. It replaces a string.
     Formula(Arc<TimeFormula>),
-    /// A formula with random numbers that are drawn later, in place of a string.
+    /// A parsed formula that each particle evaluates with its own random numbers. It replaces a string.
     Drawn(Arc<DrawnFormula>),
-    /// A formula of quantities of a body, in place of a string.
+    /// A parsed formula of quantities of a body, such as its velocity. It replaces a string.
     OfBody(Arc<BodyFormula>),
     /// `true` or `false`.
     Boolean(bool),
-    /// A date or a time. No key of a scene takes one.
+    /// A date or a time. No key of a scene accepts this type.
     Datetime,
-    /// A list.
+    /// A list of values.
     Array(Shared<Node>),
-    /// A table.
+    /// A table of named values.
     Table(Table),
-    /// A table that is stored as its differences from a template: see [`Node::table`].
+    /// A table that is stored as its differences from a template. [`Node::table`] rebuilds it.
     Copied(CopiedTable),
-    /// An unreadable value. The error has been reported.
+    /// A value with an error that has been reported.
     Invalid,
 }
 
-/// A table: its entries in the order of the file. Clones share the entries.
+/// A table whose entries are in the order of the file. Clones share the memory of the entries.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// The entries. Names are unique.
+    /// The entries of the table. Their names are unique.
     pub entries: Shared<Entry>,
 }
 
-/// An entry of a table.
+/// An entry of a table: a key with its value.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The key of the entry.
@@ -63,22 +63,22 @@ pub struct Entry {
     pub node: Node,
 }
 
-/// A key and its place in the text.
+/// A key with its position in the text.
 #[derive(Clone, Debug)]
 pub struct Name {
-    /// The place of the key in the text.
+    /// The byte range of the key in the text.
     pub span: Span,
     /// The key, without quotes.
     pub text: Arc<str>,
 }
 
 impl Table {
-    /// The entry with the given name. `None` if there is no such entry.
+    /// Returns the entry with this name. `None` if the table has no such entry.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| &*entry.name.text == name)
     }
 
-    /// Like [`Table::get`], but mutable.
+    /// Returns mutable access to the entry with this name. `None` if the table has no such entry.
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Entry> {
         let place = self.entries.iter().position(|entry| &*entry.name.text == name)?;
         self.entries.get_mut(place)
@@ -86,7 +86,7 @@ impl Table {
 }
 
 impl Node {
-    /// The value as a table. `None` for other values and for a [`Value::Copied`].
+    /// Returns the value as a table. `None` for other values, including [`Value::Copied`].
     pub fn as_table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
@@ -94,7 +94,7 @@ impl Node {
         }
     }
 
-    /// The value as a table. Rebuilds the table of a [`Value::Copied`]. `None` for other values.
+    /// Returns the value as a table, rebuilt from a template for [`Value::Copied`]. `None` for other values.
     pub fn table(&self) -> Option<Cow<'_, Table>> {
         match &self.value {
             Value::Table(table) => Some(Cow::Borrowed(table)),
@@ -103,7 +103,7 @@ impl Node {
         }
     }
 
-    /// The value as text. `None` for other values.
+    /// Returns the value if it is a string, otherwise `None`.
     pub fn as_str(&self) -> Option<&str> {
         match &self.value {
             Value::String(text) => Some(text),
@@ -111,7 +111,7 @@ impl Node {
         }
     }
 
-    /// The value as a number. `None` for other values.
+    /// Returns the value if it is an integer or a float, otherwise `None`.
     #[allow(
         clippy::cast_precision_loss,
         reason = "a scene's whole numbers are small; TOML's own floats round too"
@@ -124,7 +124,7 @@ impl Node {
         }
     }
 
-    /// The type of the value, in words: `a string`.
+    /// Describes the type of the value in words, such as "a string".
     pub fn in_words(&self) -> &'static str {
         match &self.value {
             Value::String(_) => "a string",

@@ -1,24 +1,24 @@
-//! Converts a scene in YAML to TOML, for users who confuse the two.
+//! Converts a scene in YAML to TOML, for users who confuse the two formats.
 
 use std::fmt::Write as _;
 
 use super::habits;
 use crate::scene::grammar::{Kind, SCENE};
 
-/// A line of YAML: its indentation, its key, and its value, which may be empty.
+/// A line of YAML: its indentation, its key (`None` for a list item), and its value, which may be empty.
 struct Line<'a> {
     indent: usize,
     key: Option<&'a str>,
     value: &'a str,
 }
 
-/// Converts YAML with keys, values and lists to TOML. `None` for any other YAML.
+/// Converts simple YAML (keys, values and lists) to TOML. Returns `None` for other YAML and for all other texts.
 pub(super) fn to_toml(text: &str) -> Option<String> {
     let lines: Vec<Line<'_>> = text.lines().filter_map(line).collect::<Option<Vec<_>>>()?;
     if lines.is_empty() {
         return None;
     }
-    // The keys that lead to a line, each with its indentation.
+    // The keys of the mappings that contain the current line, each with its indentation.
     let mut path: Vec<(usize, &str)> = Vec::new();
     let mut entries: Vec<(Vec<&str>, String)> = Vec::new();
     let mut lists: Vec<(Vec<&str>, Vec<String>)> = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn to_toml(text: &str) -> Option<String> {
     Some(write(&entries))
 }
 
-/// Reads a line. `None` for a line without content, `Some(None)` for an unreadable line.
+/// Reads a line of YAML. Returns `None` for a line without content, and `Some(None)` for an unreadable line.
 #[allow(
     clippy::option_option,
     reason = "a line that says nothing and one that is not understood are two things"
@@ -76,7 +76,7 @@ fn line(text: &str) -> Option<Option<Line<'_>>> {
     }))
 }
 
-/// Writes the entries under the headers of a scene: `[simulation]`, `[body.ball]`.
+/// Formats entries as TOML, below the headers of a scene such as `[simulation]` and `[body.ball]`.
 fn write(entries: &[(Vec<&str>, String)]) -> String {
     let mut sections: Vec<(String, Vec<String>)> = vec![(String::new(), Vec::new())];
     for (path, value) in entries {
