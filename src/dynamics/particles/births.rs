@@ -1,36 +1,36 @@
 //! The birth times of particles.
 
-/// The birth times of the particles of a source.
+/// The birth times of the particles of a source: groups of particles are born at equal intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Births {
     /// The time of the first birth, s.
     pub start: f64,
-    /// The largest time of a birth, s.
+    /// The last time at which particles may be born, s.
     pub end: f64,
-    /// The number of particles born at once, at least 1.
+    /// The number of particles that are born at the same time, at least 1.
     pub at_once: u64,
-    /// The interval between two births, s. Infinite if there is only one birth.
+    /// The interval between two birth times, s. Infinite if there is only one birth time.
     pub every: f64,
 }
 
 impl Births {
-    /// Creates births of single particles at `rate` per second. The rate is greater than 0.
+    /// Creates births of single particles at `rate` per second, from time `start` to time `end`, s. The rate is greater than 0.
     #[must_use]
     pub fn rate(rate: f64, start: f64, end: f64) -> Births {
         Births { start, end, at_once: 1, every: 1.0 / rate }
     }
 
-    /// The birth time of a particle, s. `None` if the particle is never born.
+    /// Returns the birth time of the particle with this number, s; `None` if the particle is never born. Numbers start at 0.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "no run has 2⁵³ births")]
     pub fn time(&self, number: u64) -> Option<f64> {
         let turn = number / self.at_once;
-        // Treat turn 0 separately, since 0 times infinity is NaN.
+        // Turn 0 is treated separately, because 0 times infinity is NaN.
         let time = if turn == 0 { self.start } else { self.start + turn as f64 * self.every };
         (time <= self.end && time.is_finite()).then_some(time)
     }
 
-    /// The number of the first particle that is born at time `t` (s) or later. Ignores the end of the births.
+    /// Returns the number of the first particle that is born at time `t` (s) or later. The end of the births is ignored.
     #[must_use]
     #[allow(
         clippy::cast_possible_truncation,
@@ -42,7 +42,7 @@ impl Births {
         if t <= self.start || turns.is_nan() {
             return 0;
         }
-        // The quotient is rounded, so `turn` may be off by one.
+        // The quotient is rounded, so `turn` may be wrong by one.
         let mut turn = (turns as u64).saturating_sub(1);
         while self.time(turn.saturating_mul(self.at_once)).is_some_and(|time| time < t) {
             turn += 1;

@@ -1,10 +1,9 @@
-//! Collisions of a particle with obstacles: impacts, friction and rest.
+//! Collisions of a particle with obstacles: impacts, friction and lasting contact.
 //!
-//! A particle is a small ball without rotation. If its path through a step leads into an obstacle, conservative
-//! advancement finds the first time of contact (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems*
-//! (1996), chapter 2). There the particle gets an impulse by Newton's law of impact and Coulomb's law of friction. The
-//! rest of the step starts from there. If the rebound would last for less than a fraction of a step, the particle stays
-//! in contact: it slides or sticks.
+//! A particle is a small ball without rotation. If its path during a step leads into an obstacle, conservative advancement finds the first
+//! time of contact (B. V. Mirtich, *Impulse-based dynamic simulation of rigid body systems* (1996), chapter 2). At that time, the particle
+//! gets an impulse by Newton's law of impact and Coulomb's law of friction. The remaining part of the step starts at that time. If the
+//! rebound would last for less than a fraction of a step, the particle stays in contact: it slides or sticks.
 
 use glam::DVec3;
 
@@ -14,53 +13,54 @@ use super::stepper::Stepper;
 use super::way::{Leap, Way};
 use crate::dynamics::contact::{Ball, Meeting, Surface};
 
-/// The largest gap of a touching particle, relative to its radius, or, for `DIGITS`, relative to its coordinates.
+/// A particle touches an obstacle if the gap is at most `TOUCH` times its radius, or `DIGITS` times its largest coordinate, whichever is
+/// larger.
 const TOUCH: f64 = 1e-11;
 const DIGITS: f64 = 2e-15;
-/// The largest gap that counts as contact unless the bodies separate, relative to the particle's radius.
+/// A gap up to this fraction of the particle's radius counts as contact at the beginning of a step.
 const SNUG: f64 = 1e-6;
-/// Approaches slower than this fraction of the speed are rounding errors.
+/// Approaches slower than this fraction of the speed are taken for rounding errors.
 const SLIGHT: f64 = 1e-10;
-/// A rebound that lasts for less than this fraction of a step is ignored.
+/// A rebound that would last for less than this fraction of a step is ignored: the particle stays in contact.
 const SHORT: f64 = 0.25;
-/// The largest number of events in one step.
+/// The largest number of impacts and new contacts in one step of a particle.
 const MOST: usize = 12;
-/// The largest number of safe steps towards a contact. After these steps, the path is followed in parts of a fixed
-/// length.
+/// The largest number of iterations of conservative advancement towards a contact. After these, the time advances by at least the fraction
+/// `PART` of the step in each iteration.
 const ADVANCES: usize = 60;
 const PART: f64 = 1.0 / 64.0;
 /// The largest number of iterations for the impulses of simultaneous contacts.
 const ROUNDS: usize = 50;
 
-/// Moves the particles of one emitter among obstacles.
+/// Moves the particles of one source among obstacles.
 #[derive(Clone)]
 pub(super) struct Bouncer {
     pub(super) ball: Ball,
     surface: Surface,
-    /// A stepper for single particles. It repeats the rest of a step after an impact.
+    /// A stepper for single particles. After an impact, it computes the remaining part of the step.
     spare: Stepper,
     targets: Vec<Target>,
     seen: Vec<Contact>,
 }
 
-/// A part of an obstacle that the particle may touch, at one time.
+/// A part of an obstacle that the particle may touch, with its distance and relative motion at one time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     pub(super) target: Target,
     pub(super) near: Near,
     pub(super) law: Meeting,
-    /// The rate of change of the gap, m/s.
+    /// The rate of change of the gap between particle and part, m/s; negative if they approach each other.
     rate: f64,
-    /// The speed up to which an approach is ignored, m/s.
+    /// The speed of approach up to which an approach is taken for a rounding error, m/s.
     slight: f64,
-    /// The speed up to which a rebound is ignored, m/s.
+    /// The speed up to which an approach or a rebound is too slow for an impact, m/s. The particle then stays in contact.
     slow: f64,
     /// Whether a force presses the particle against the part.
     is_pressed: bool,
 }
 
 impl Contact {
-    /// Whether the particle touches the part: the gap is at most `snug`, m.
+    /// Returns whether the particle touches the part: the gap is at most `snug`, m.
     fn touches(&self, snug: f64) -> bool {
         !self.near.is_hidden && self.near.gap <= snug
     }
@@ -75,7 +75,8 @@ impl Bouncer {
         &mut self.spare
     }
 
-    /// The place and velocity at the end of a step among obstacles. `leap` is the same step without obstacles.
+    /// Returns the place (m) and the velocity (m/s) of a particle at the end of a step among obstacles. `leap` is the same step without
+    /// obstacles.
     pub(super) fn step(&mut self, leap: &Leap, scenery: &Scenery) -> (DVec3, DVec3) {
         let whole = leap.span();
         let mut leap = *leap;
@@ -112,23 +113,24 @@ impl Bouncer {
             (leap.places[0], leap.velocities[0]) = (way.place(hit), way.velocity(hit));
             self.again(&mut leap);
         }
-        // After too many impacts, the particle moves with the nearest obstacle for the rest of the step.
+        // After too many impacts, the particle moves with the nearest obstacle until the end of the step.
         let last = self.seen.iter().min_by(|a, b| a.near.gap.total_cmp(&b.near.gap));
         let velocity = last.map_or(DVec3::ZERO, |it| it.near.velocity);
         (leap.places[0] + leap.span() * velocity, velocity)
     }
 
-    /// Repeats the rest of a step, after a change of the place or velocity at its beginning.
+    /// Computes the end of a step again without obstacles, after the time, the place or the velocity at its beginning has changed.
     fn again(&mut self, leap: &mut Leap) {
         (leap.places[1], leap.velocities[1]) =
             self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);
     }
 
-    /// Finds all parts that the particle may touch within a step, and their gaps at the beginning of the step.
+    /// Finds all parts of obstacles that the particle may touch within a step, and their gaps at the beginning of the step. `whole` is the
+    /// length of the full step, s.
     fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
         let Bouncer { ball, surface, targets, seen, .. } = self;
         seen.clear();
-        // A bound on the deviation of a particle in contact from its free path.
+        // The margin bounds how far a particle in contact can deviate from its path without obstacles.
         let radius = ball.radius();
         let margin = leap.span() * (leap.span() * leap.acceleration().length() + scenery.fastest());
         scenery.near(leap.bounds(), (1.0 + SNUG) * radius + margin, leap.times, targets);
@@ -152,7 +154,7 @@ impl Bouncer {
         }
     }
 
-    /// The velocity after the impacts at all touched places.
+    /// Returns the velocity after simultaneous impacts at all touched parts. `before` is the velocity before the impacts.
     fn strike(&self, before: DVec3, snug: f64) -> DVec3 {
         let struck = self.seen.iter().filter(|it| it.touches(snug));
         let mut struck: Vec<(&Contact, f64, DVec3)> = struck.map(|it| (it, 0.0, DVec3::ZERO)).collect();
@@ -177,8 +179,8 @@ impl Bouncer {
         velocity
     }
 
-    /// The time of the first contact with a part, s after the beginning of the path. `None` if the particle does not
-    /// reach the part.
+    /// Returns the time of the first contact with a part, in s after the beginning of the path; `None` if the particle does not reach the
+    /// part.
     fn touch(&self, way: &Way, contact: &Contact, leap: &Leap, scenery: &Scenery) -> Option<f64> {
         let span = leap.span();
         let touch = (TOUCH * self.ball.radius()).max(DIGITS * leap.places[0].abs().max_element());
@@ -188,21 +190,20 @@ impl Bouncer {
             let velocity = way.rate(time);
             let bend = way.bend + near.bend;
             let mut safe = if near.is_hidden && near.gap <= touch {
-                // The particle touches a neighbouring triangle instead, but may reach this one later.
+                // The particle touches a neighbouring triangle, but may reach this triangle later.
                 PART * span
             } else if near.gap <= touch {
                 let rate = near.normal.dot(velocity - near.velocity);
                 if rate < -contact.slight {
                     return Some(time);
                 }
-                // The particle touches the part without approaching it, until the curvature of the paths closes the
-                // gap.
+                // The particle touches the part without approaching it. The gap stays open until the curvature of the paths can close it.
                 let safe = if bend > 0.0 { 2.0 * rate.max(0.0) / bend } else { f64::INFINITY };
                 safe.max(PART * span)
             } else {
                 let shrink = near.coming - near.normal.dot(velocity);
                 let root = (shrink * shrink + 2.0 * bend * near.gap).sqrt();
-                // The smallest positive root of gap − shrink t − ½ bend t², without cancellation.
+                // This is the smallest positive root of gap − shrink t − ½ bend t², in a form without cancellation.
                 if shrink > 0.0 {
                     2.0 * near.gap / (shrink + root)
                 } else if bend > 0.0 {

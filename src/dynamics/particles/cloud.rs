@@ -1,4 +1,4 @@
-//! The living particles of one source.
+//! The living particles of one source, and their motion.
 
 use std::sync::Arc;
 
@@ -10,26 +10,26 @@ use super::{Course, Field, ParticleSource, Scenery};
 use crate::dynamics::contact::{Ball, Surface};
 use crate::dynamics::{BodyId, Method};
 
-/// The number of particles that are advanced side by side. The data of 128 particles fit into the first-level cache.
+/// The number of particles that are advanced side by side. Their data fit into the first-level cache.
 const LANES: usize = 128;
 
-/// A living particle.
+/// A living particle at the current time of its cloud.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// The number of the particle: the number of particles born before it.
+    /// The number of the particle in its source: the number of particles born earlier.
     pub number: u64,
-    /// The location of the particle, m.
+    /// The location of the particle, world axes, m.
     pub location: DVec3,
-    /// The velocity of the particle, m/s.
+    /// The velocity of the particle, world axes, m/s.
     pub velocity: DVec3,
-    /// The time of birth, s.
+    /// The time at which the particle was born, s.
     pub born: f64,
-    /// The time of death, s, from which the particle is gone. It may be infinite.
+    /// The time at which the particle disappears, s. It may be infinite.
     pub dies: f64,
 }
 
 impl Particle {
-    /// The age at time `t` (s), as a part of the lifetime: from 0 to 1. 0 for a particle that never dies.
+    /// Returns the age of the particle at time `t` (s), as a fraction of its lifetime from 0 to 1; 0 for a particle that never dies.
     #[must_use]
     pub fn age(&self, t: f64) -> f64 {
         ((t - self.born) / (self.dies - self.born)).clamp(0.0, 1.0)
@@ -43,20 +43,20 @@ pub struct Cloud {
     /// The body that carries the source. `None` if the source is fixed in the world.
     carrier: Option<BodyId>,
     time: f64,
-    /// The number of the next particle to be born.
+    /// The number of the next particle that will be born.
     next: u64,
-    /// The stride: only every n-th particle is computed.
+    /// The stride n: only every n-th particle of the source is computed.
     stride: u64,
     alive: Vec<Particle>,
     wide: Stepper,
     single: Stepper,
-    /// The bouncer. `None` if obstacles do not stop the particles.
+    /// Lets obstacles stop the particles; `None` if the particles pass through all obstacles.
     bouncer: Option<Bouncer>,
 }
 
 impl Cloud {
-    /// Creates the cloud of a source at time `from`, s. It contains no particles, and omits all particles born before
-    /// `from`. Only one of each `stride` particles is computed.
+    /// Creates the empty cloud of a source at time `from`, s. Particles born before `from` are omitted. Of each `stride` particles, only
+    /// one is computed.
     #[must_use]
     pub fn new(
         source: Arc<ParticleSource>,
@@ -71,7 +71,8 @@ impl Cloud {
         Cloud { source, carrier, time: from, next, stride, alive: Vec::new(), wide, single, bouncer: None }
     }
 
-    /// Lets the obstacles of a [`Scenery`] stop the particles: balls with a radius, m, and a surface.
+    /// Lets the obstacles of a [`Scenery`] stop the particles. For contacts, each particle is a ball with this radius (m) and this
+    /// surface.
     #[must_use]
     pub fn colliding(mut self, radius: f64, surface: Surface) -> Cloud {
         let bouncer = |ball| Bouncer::new(ball, surface, self.single.clone());
@@ -85,26 +86,26 @@ impl Cloud {
         self.time
     }
 
-    /// The living particles.
+    /// The living particles of the cloud, in order of birth.
     #[must_use]
     pub fn particles(&self) -> &[Particle] {
         &self.alive
     }
 
-    /// The time from which a cloud must be computed to be complete at time `t`, s. It is the birth of the oldest
-    /// particle that can live at `t`.
+    /// Returns the time from which a cloud must be computed to be complete at time `t`, s. At this time, the oldest particle is born that
+    /// can still live at `t`.
     #[must_use]
     pub fn needed_from(source: &ParticleSource, t: f64) -> f64 {
         (t - source.longest_life).max(source.births.start)
     }
 
-    /// Advances to time `to` (s) in steps of `step` seconds from the current time. Each particle begins exactly at its
-    /// birth. `course` returns the motion of a body in this interval, or `None` if the body is absent.
+    /// Advances the cloud from its current time to time `to` (s), in steps of `step` seconds. The path of each particle begins exactly at
+    /// its birth. `course` returns the motion of a body in this interval, or `None` if the body is absent.
     pub fn advance(&mut self, to: f64, step: f64, course: &dyn Fn(BodyId) -> Option<Course>) {
         self.advance_among(to, step, course, None);
     }
 
-    /// Advances like [`advance`](Cloud::advance), among obstacles, which stop the particles of a
+    /// Advances the cloud like [`advance`](Cloud::advance), among obstacles. The obstacles stop the particles of a
     /// [colliding](Cloud::colliding) cloud.
     pub fn advance_among(
         &mut self,
@@ -171,8 +172,8 @@ impl Cloud {
     }
 }
 
-/// Advances particles among obstacles. Particles far from all obstacles move as without obstacles. For all others, each
-/// step is checked for contacts.
+/// Advances particles from time `t` (s) among obstacles. Particles far from all obstacles move as without obstacles. For all other
+/// particles, each step is checked for contacts.
 fn advance_some(
     stepper: &mut Stepper,
     bouncer: &mut Bouncer,

@@ -1,11 +1,11 @@
-//! The motion of a body between two known times.
+//! The motion of a body between two known times, found by interpolation.
 
 use glam::{DQuat, DVec3};
 
 use super::Spot;
 use crate::dynamics::{BodySnapshot, Kinematics, Motion};
 
-/// The motion of a body from one time to a later one. The location is a cubic polynomial that matches the locations and
+/// The interpolated motion of a body from one time to a later time. The location is a cubic polynomial that matches the locations and
 /// velocities at both times. The rotation starts with the first angular velocity, and ends at the second orientation.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
@@ -13,12 +13,12 @@ pub struct Course {
     end: f64,
     from: BodySnapshot,
     to: BodySnapshot,
-    /// The rotation that remains after rotation with the first angular velocity: axis times angle, rad.
+    /// The part of the rotation that a constant first angular velocity does not explain, world axes: rotation axis times angle, rad.
     rest: DVec3,
 }
 
 impl Course {
-    /// Creates the course from time `begin` to time `end`, s.
+    /// Creates the motion from time `begin` to time `end` (s), with the body's snapshots at these times.
     #[must_use]
     pub fn new(begin: f64, from: BodySnapshot, end: f64, to: BodySnapshot) -> Course {
         let turned = DQuat::from_scaled_axis(from.angular_velocity * (end - begin)) * from.orientation;
@@ -29,13 +29,14 @@ impl Course {
         Course { begin, end, from, to, rest: rest.to_scaled_axis() }
     }
 
-    /// Creates the course of a body whose location, velocity and orientation are constant.
+    /// Creates the motion of a body whose location and orientation stay those of `body`. Its velocities may differ from zero, and emitted
+    /// particles inherit these velocities.
     #[must_use]
     pub fn still(body: BodySnapshot) -> Course {
         Course { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
     }
 
-    /// The course with the velocities set to zero, if it has no length in time. Other courses are unchanged.
+    /// Sets the velocities to zero if both times are equal. Returns other motions unchanged.
     pub(super) fn at_rest(self) -> Course {
         if self.end > self.begin {
             return self;
@@ -44,43 +45,43 @@ impl Course {
         Course::still(BodySnapshot { velocity, angular_velocity, ..self.from })
     }
 
-    /// Whether the body neither moves nor rotates.
+    /// Returns whether the body neither moves nor rotates between the two times.
     pub(super) fn is_still(&self) -> bool {
         let Course { from, to, rest, .. } = self;
         let speeds = [from.velocity, to.velocity, from.angular_velocity, to.angular_velocity, *rest];
         from.location == to.location && speeds == [DVec3::ZERO; 5]
     }
 
-    /// An upper bound for the speed of the centre of mass, m/s.
+    /// Returns an upper bound for the speed of the centre of mass, m/s.
     pub(super) fn largest_speed(&self) -> f64 {
         let (span, ends) = (self.end - self.begin, [self.from.velocity, self.to.velocity].map(DVec3::length));
         ends[0].max(ends[1]) + 0.5 * span * self.largest_acceleration()
     }
 
-    /// The largest acceleration of the centre of mass, m/s².
+    /// Returns the largest acceleration of the centre of mass, m/s².
     pub(super) fn largest_acceleration(&self) -> f64 {
         // The acceleration is linear in time, so its largest magnitude is at an end.
         self.at(self.begin).acceleration.length().max(self.at(self.end).acceleration.length())
     }
 
-    /// An upper bound for the angular speed, rad/s.
+    /// Returns an upper bound for the angular speed of the body, rad/s.
     pub(super) fn largest_turning(&self) -> f64 {
         let span = self.end - self.begin;
         let rest = if span > 0.0 { self.rest.length() / span } else { 0.0 };
         (self.from.angular_velocity.length() + rest).max(self.to.angular_velocity.length())
     }
 
-    /// A box around the path of the centre of mass: its lowest and its highest corner.
+    /// Returns a box around the path of the centre of mass, as its lowest and its highest corner, m.
     pub(super) fn places(&self) -> [DVec3; 2] {
         let Course { begin, end, from, to, .. } = self;
         let (span, way) = (end - begin, to.location - from.location);
-        // The Hermite polynomials of the velocities are at most 4/27.
+        // The Hermite polynomials that multiply the velocities are at most 4/27.
         let aside = (span * from.velocity - way).abs() + (span * to.velocity - way).abs();
         let margin = (4.0 / 27.0) * aside;
         [from.location.min(to.location) - margin, from.location.max(to.location) + margin]
     }
 
-    /// The place and motion of the body at time `t`, s.
+    /// Returns the pose, the velocity and the angular velocity of the body at time `t`, s.
     #[must_use]
     pub fn spot(&self, t: f64) -> Spot {
         let Kinematics { location, velocity, orientation, angular_velocity, .. } = self.at(t);

@@ -1,7 +1,6 @@
-//! The motion of a particle that stays in contact for a step: it slides or sticks.
+//! The motion of a particle that stays in contact with obstacles for a step: it slides or sticks.
 //!
-//! The computation uses the axes of the obstacle, in which the obstacle is at rest. The motion of these axes adds an
-//! acceleration.
+//! The motion is computed in the axes of an obstacle, where the obstacle is at rest. The motion of these axes adds inertial accelerations.
 
 use glam::{DQuat, DVec3};
 
@@ -10,22 +9,22 @@ use super::obstacles::{Scenery, Standing};
 use super::way::Leap;
 use crate::dynamics::contact::Ball;
 
-/// A particle rests if its speed is below this fraction of the velocity change by forces in a step.
+/// A particle comes to rest if its speed is below this fraction of the velocity change that forces cause in a step.
 const REST: f64 = 1e-6;
-/// Two unit normals are equal if they differ by less.
+/// Two unit normals count as equal if the length of their difference is at most this.
 const FLAT: f64 = 1e-12;
-/// The largest number of iterations for the impulses of several contacts. The iteration ends when it changes the
-/// velocity by less than `ACCURACY`, relative to the velocity change by forces in a step.
+/// The largest number of iterations for the impulses of several simultaneous contacts. The iteration ends earlier when it changes the
+/// velocity by at most `ACCURACY`, relative to the velocity change by forces in a step.
 const ROUNDS: usize = 60;
 const ACCURACY: f64 = 1e-13;
-/// The largest number of corrections that put the particle back on the surface at the end of a step.
+/// The largest number of corrections that move the particle onto the surfaces at the end of a step.
 const PLACINGS: usize = 6;
-/// The particle is on the surface if the gap is below this fraction of its radius.
+/// A particle counts as lying on a surface if the gap is at most this fraction of its radius.
 const GAP: f64 = 1e-11;
 
-/// The motion of a particle in the axes of an obstacle.
+/// The state of a particle at the beginning of a step, in the axes of an obstacle.
 struct Frame {
-    /// The poses of the obstacle at the beginning and at the end of the step.
+    /// The poses and velocities of the obstacle at the beginning and at the end of the step.
     standing: [Standing; 2],
     span: f64,
     place: DVec3,
@@ -48,7 +47,7 @@ impl Frame {
         Frame { standing, span: leap.span(), place, velocity, acceleration }
     }
 
-    /// Converts the place and velocity at the end of the step to world axes.
+    /// Converts a place and a velocity at the end of the step from the obstacle's axes to world axes.
     fn end(&self, place: DVec3, velocity: DVec3) -> (DVec3, DVec3) {
         let Standing { pose, .. } = self.standing[1];
         let place = pose.point(place);
@@ -60,7 +59,8 @@ impl Frame {
     }
 }
 
-/// The place and velocity at the end of a step, for a particle that stays in contact.
+/// Returns the place (m) and the velocity (m/s) at the end of a step, world axes, for a particle that stays in contact with the parts in
+/// `held`.
 pub(super) fn hold(ball: &Ball, leap: &Leap, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let frame = Frame::new(leap, &held[0], scenery);
     if let [contact] = held {
@@ -76,7 +76,7 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     let begin = frame.velocity.reject_from_normalized(normal);
     let push = -span * normal.dot(frame.acceleration);
     if push <= 0.0 {
-        // The rotation of the surface throws the particle off.
+        // The rotation of the obstacle throws the particle off its surface.
         let velocity = frame.velocity + span * frame.acceleration;
         return frame.end(frame.place + 0.5 * span * (frame.velocity + velocity), velocity);
     }
@@ -88,8 +88,8 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     }
     let (mut gap, mut end) = scenery.seen_within(ball, &contact.target, place);
     if gap.abs() < ball.radius() && (end - normal).length() > FLAT {
-        // On a curved surface, use the plane at the middle of the step. The curvature presses the particle on or throws
-        // it off.
+        // On a curved surface, the tangent plane at the middle of the step is used. The curvature presses the particle onto the surface,
+        // or throws it off.
         let middle = (normal + end).normalize_or(normal);
         let turned = DQuat::from_rotation_arc(normal, middle) * begin;
         let bent = middle.dot(DQuat::from_rotation_arc(normal, end) * begin - begin);
@@ -110,8 +110,8 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     frame.end(place, velocity)
 }
 
-/// Slides along a plane for a step. Returns the displacement and the final velocity. `along` is the velocity change
-/// without friction, and `most` the largest velocity change by friction.
+/// Slides along a plane for a step. Returns the displacement (m) and the final velocity (m/s). `along` is the velocity change without
+/// friction, and `most` is the largest velocity change by friction.
 fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
     let free = begin + along;
     let speed = free.length();
@@ -123,19 +123,20 @@ fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
     if before == 0.0 {
         return (DVec3::ZERO, DVec3::ZERO);
     }
-    // The particle stops within the step.
+    // Friction stops the particle within the step.
     let slowing = most - along.dot(begin) / before;
     let stop = if slowing > before { before / slowing } else { 1.0 };
     (0.5 * stop * span * begin, DVec3::ZERO)
 }
 
-/// The motion of a particle in contact with several parts. The impulses are found by iteration, one contact after the
-/// other.
+/// Returns the place and the velocity at the end of a step for a particle in contact with several parts. An iteration over the contacts
+/// finds the impulses.
 fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let span = frame.span;
     let acting = span * frame.acceleration.length();
     let mut velocity = frame.velocity + span * frame.acceleration;
-    // For each contact: its normal, the velocity of its obstacle, and its impulse so far.
+    // For each contact, the list holds its normal, the velocity of its obstacle, and the normal and friction impulses so far, per unit of
+    // mass.
     let other = |it: &Contact| {
         if Scenery::is_same(&it.target, &held[0].target) {
             return DVec3::ZERO;

@@ -1,18 +1,18 @@
 //! Particles: many small bodies from a source, each with its own lifetime.
 //!
-//! Particles are not bodies of a [`World`](super::World). Forces act on them as on bodies, with the same integrator and
-//! the same timesteps, and bodies can stop them. They do not act on bodies or on each other. The seed of the source and
-//! the number of a particle determine its motion, so any particle can be computed without the others.
+//! Particles are not bodies of a [`World`](super::World). Forces act on particles as on bodies, with the same integrator and the same
+//! timesteps, and bodies can stop particles. Particles do not act on bodies or on each other. The seed of the source and the number of a
+//! particle determine its motion, so any particle can be computed alone.
 //!
 //! | what | where |
 //! | --- | --- |
-//! | which particle is born when | [`Births`] |
-//! | where it begins | [`Origin`] |
-//! | all that a particle begins with | [`ParticleSource`] |
-//! | where a body is that sends them out or attracts them | [`Course`] |
-//! | those that are alive, and how they move | [`Cloud`] |
-//! | the bodies that stop them | [`Scenery`] |
-//! | what happens where they touch one | `bounce.rs`, `hold.rs` |
+//! | the birth times of particles | [`Births`] |
+//! | the region in which particles are born | [`Origin`] |
+//! | the initial values of particles | [`ParticleSource`] |
+//! | the motion of bodies that emit, attract or stop particles | [`Course`] |
+//! | the living particles and their motion | [`Cloud`] |
+//! | the bodies that stop particles | [`Scenery`] |
+//! | impacts, and lasting contact | `bounce.rs`, `hold.rs` |
 
 mod births;
 mod bounce;

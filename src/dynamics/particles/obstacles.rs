@@ -1,4 +1,4 @@
-//! The obstacles of particles: bodies in motion between two frames.
+//! The obstacles of particles: bodies, and the ground, that move between two frames.
 
 use std::sync::Arc;
 
@@ -8,13 +8,13 @@ use super::{Course, Spot};
 use crate::dynamics::contact::{Ball, Pose, Solid, Surface, Tree};
 use crate::dynamics::{BodyId, BodySnapshot, Motion, Shape};
 
-/// The largest number of parts that are searched one by one. More parts are put into a tree.
+/// The largest number of parts that are searched one by one. More parts are stored in a tree of boxes.
 const FEW: usize = 24;
 
-/// A body or the ground, as an obstacle of particles.
+/// A body or the ground, as an obstacle that stops particles.
 #[derive(Clone, Debug)]
 pub struct Obstacle {
-    /// The body. `None` for an obstacle that is fixed at `location`, such as the ground.
+    /// The body of the obstacle; `None` for an obstacle that is fixed at `location`, such as the ground.
     body: Option<BodyId>,
     location: DVec3,
     solid: Solid,
@@ -22,7 +22,7 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// Creates the obstacle of a body. `None` for a shape without a surface of convex parts, such as a torus.
+    /// Creates the obstacle of a body. Returns `None` for a shape whose surface does not consist of convex parts, such as a torus.
     #[must_use]
     pub fn body(body: BodyId, shape: &Shape, surface: Surface) -> Option<Obstacle> {
         let solid = Solid::of(shape)?;
@@ -37,73 +37,73 @@ impl Obstacle {
     }
 }
 
-/// All obstacles in one interval of time, with their motion.
+/// All obstacles that are present in one interval of time, with their motion.
 #[derive(Debug)]
 pub struct Scenery {
     obstacles: Arc<[Obstacle]>,
     placed: Vec<Placed>,
-    /// The half-spaces. They are infinite, so they are checked for each particle.
+    /// The parts that are half-spaces. They are infinite, so they are checked for each particle.
     endless: Vec<Target>,
-    /// All other parts, each with a box around its places in the interval. A mesh is a single entry with one box.
+    /// All finite parts, each with a box that contains it during the whole interval. A mesh is a single entry with one box.
     parts: Vec<(Target, [DVec3; 2])>,
     tree: Option<Tree>,
-    /// An upper bound for the speed of all finite parts, m/s.
+    /// An upper bound for the speed of the obstacles' surfaces, m/s. Half-spaces count with the speed of their centre.
     fastest: f64,
 }
 
-/// An obstacle that is present in the interval.
+/// An obstacle that is present in the interval, with its motion.
 #[derive(Debug)]
 struct Placed {
     obstacle: usize,
     course: Course,
-    /// The pose of the obstacle. `None` if it moves.
+    /// The pose of an obstacle at rest; `None` if the obstacle moves.
     still: Option<Pose>,
-    /// Upper bounds for the acceleration, m/s², and for the angular speed, rad/s.
+    /// Upper bounds for the acceleration of the centre of mass, m/s², and for the angular speed, rad/s.
     bend: f64,
     turning: f64,
 }
 
-/// A convex part of an obstacle.
+/// The indices of an obstacle and of one of its convex parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Target {
     placed: usize,
     part: usize,
 }
 
-/// An obstacle at one time.
+/// The pose and the velocities of an obstacle at one time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
     pub(super) pose: Pose,
     pub(super) spot: Spot,
 }
 
-/// The nearest points of a particle and a part.
+/// The distance between a particle and a part of an obstacle at one time, with bounds for its change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
-    /// The distance between the two points, m; negative if particle and part overlap.
+    /// The gap between the surfaces of particle and part, m; negative if they overlap.
     pub(super) gap: f64,
-    /// The unit normal of the part, towards the particle.
+    /// The unit normal of the contact, from the part towards the particle, world axes.
     pub(super) normal: DVec3,
-    /// The velocity of the obstacle at the centre of the particle, m/s.
+    /// The velocity of the obstacle's material at the centre of the particle, m/s.
     pub(super) velocity: DVec3,
     /// An upper bound for the speed at which the obstacle's motion closes the gap, m/s.
     pub(super) coming: f64,
-    /// An upper bound for the rate at which that speed changes, m/s².
+    /// An upper bound for the rate of change of the speed `coming`, m/s².
     pub(super) bend: f64,
-    /// Whether the part is a triangle with a nearer neighbour. The particle then touches the neighbour.
+    /// Whether the part is a triangle with a neighbour that is nearer to the particle. The particle then touches the neighbour.
     pub(super) is_hidden: bool,
 }
 
 impl Standing {
-    /// The velocity of a place that moves with the obstacle, m/s.
+    /// Returns the velocity of a point that moves with the obstacle, m/s. `place` is the position of the point, world axes, m.
     pub(super) fn velocity(&self, place: DVec3) -> DVec3 {
         self.spot.velocity + self.spot.angular_velocity.cross(place - self.spot.location)
     }
 }
 
 impl Scenery {
-    /// The obstacles in an interval. `course` returns the motion of a body in the interval, or `None` if the body is
-    /// absent.
+    /// Collects the obstacles that are present in an interval. `course` returns the motion of a body in the interval, or `None` if the
+    /// body is absent.
     #[must_use]
     pub fn new(obstacles: &Arc<[Obstacle]>, course: &dyn Fn(BodyId) -> Option<Course>) -> Scenery {
         let (mut placed, mut endless, mut parts) = (Vec::new(), Vec::new(), Vec::new());
@@ -148,12 +148,12 @@ impl Scenery {
         self.fastest
     }
 
-    /// Whether no obstacle is present.
+    /// Returns true if no obstacle is present.
     pub(super) fn is_empty(&self) -> bool {
         self.placed.is_empty()
     }
 
-    /// Whether a ball in the box from `low` to `high` may touch a part between the two `times`, s.
+    /// Returns whether a ball whose centre stays in the box from `low` to `high` may touch an obstacle between the two `times`, s.
     pub(super) fn may_stop(&self, ball: &Ball, [low, high]: [DVec3; 2], times: [f64; 2]) -> bool {
         let mut targets = Vec::new();
         self.near([low, high], ball.radius(), times, &mut targets);
@@ -165,7 +165,7 @@ impl Scenery {
         })
     }
 
-    /// Finds all parts that may come closer to a box than `within` (m) between the times `begin` and `end` (s).
+    /// Writes all parts to `found` that may come closer to a box than `within` (m) between the times `begin` and `end` (s).
     pub(super) fn near(
         &self,
         [low, high]: [DVec3; 2],
@@ -198,7 +198,7 @@ impl Scenery {
         }
     }
 
-    /// The pose and motion of an obstacle at time `t`, s.
+    /// Returns the pose and the velocities of an obstacle at time `t`, s.
     pub(super) fn standing(&self, target: &Target, t: f64) -> Standing {
         let Placed { course, still, .. } = &self.placed[target.placed];
         match *still {
@@ -214,7 +214,7 @@ impl Scenery {
         }
     }
 
-    /// The acceleration of a place that moves with an obstacle, at time `t` (s), m/s².
+    /// Returns the acceleration of a point that moves with an obstacle, at time `t` (s), m/s².
     pub(super) fn acceleration(&self, target: &Target, place: DVec3, t: f64) -> DVec3 {
         let Placed { course, still, .. } = &self.placed[target.placed];
         if still.is_some() {
@@ -225,7 +225,7 @@ impl Scenery {
         at.acceleration + turning.cross(arm) + at.angular_velocity.cross(at.angular_velocity.cross(arm))
     }
 
-    /// The nearest points of a part and a ball at `place`, at time `t`, s.
+    /// Returns the gap between a part and a ball with its centre at `place`, at time `t` (s), with bounds for its change.
     pub(super) fn seen(&self, ball: &Ball, target: &Target, place: DVec3, t: f64) -> Near {
         let standing = self.standing(target, t);
         let solid = self.solid(target);
@@ -239,8 +239,7 @@ impl Scenery {
             return Near { gap, normal, velocity: DVec3::ZERO, coming: 0.0, bend: 0.0, is_hidden };
         }
         let reach = solid.reach_of(target.part);
-        // A half-space is infinite, so its bounding radius is useless. Points near the particle have about the
-        // particle's distance.
+        // A half-space has no finite bounding radius. Its points near the particle are about as far from its centre as the particle is.
         let reach = if reach.is_finite() { reach } else { 2.0 * (place - standing.pose.location).length() };
         let speed = placed.turning;
         let coming = normal.dot(standing.spot.velocity) + speed * reach;
@@ -248,18 +247,18 @@ impl Scenery {
         Near { gap, normal, velocity: standing.velocity(place), coming, bend, is_hidden }
     }
 
-    /// The gap, m, and the normal of a part for a ball at `place`, in the axes of the obstacle.
+    /// Returns the gap (m) and the normal between a part and a ball with its centre at `place`, all in the axes of the obstacle.
     pub(super) fn seen_within(&self, ball: &Ball, target: &Target, place: DVec3) -> (f64, DVec3) {
         let (gap, normal, _) = ball.nearest(place, self.solid(target), target.part, &Pose::IDENTITY);
         (gap, normal)
     }
 
-    /// Whether an obstacle is at rest.
+    /// Returns whether an obstacle is at rest during the interval.
     pub(super) fn is_still(&self, target: &Target) -> bool {
         self.placed[target.placed].still.is_some()
     }
 
-    /// Whether two parts belong to the same obstacle.
+    /// Returns whether two parts belong to the same obstacle.
     pub(super) fn is_same(one: &Target, other: &Target) -> bool {
         one.placed == other.placed
     }
@@ -282,12 +281,12 @@ impl Placed {
         Placed { obstacle, course, still, bend, turning }
     }
 
-    /// An upper bound for the speed of the centre of mass, m/s.
+    /// Returns an upper bound for the speed of the obstacle's centre of mass, m/s.
     fn speed(&self) -> f64 {
         if self.still.is_some() { 0.0 } else { self.course.largest_speed() }
     }
 
-    /// An upper bound for the displacement of any point of a solid between two times, m.
+    /// Returns an upper bound for the displacement of any point of the obstacle between two times, m.
     fn way(&self, solid: &Solid, begin: f64, end: f64) -> f64 {
         if self.still.is_some() {
             return 0.0;
@@ -296,13 +295,13 @@ impl Placed {
         span * (speed + 0.5 * span * self.bend + self.turning * solid.reach())
     }
 
-    /// A box around all points within `reach` of the centre of mass, m, during the interval.
+    /// Returns a box that contains all points within `reach` (m) of the obstacle's centre of mass during the interval.
     fn around(&self, reach: f64) -> [DVec3; 2] {
         let [low, high] = self.course.places();
         [low - reach, high + reach]
     }
 
-    /// A box around all places of a part during the interval.
+    /// Returns a box that contains a part of the obstacle during the whole interval.
     fn box_of(&self, solid: &Solid, part: usize) -> [DVec3; 2] {
         if let Some(pose) = &self.still {
             return solid.box_of(part, pose);

@@ -1,4 +1,4 @@
-//! The origins of particles: where on a source they are born.
+//! The regions in which particles are born.
 
 use glam::{DQuat, DVec3};
 
@@ -6,11 +6,11 @@ use super::{Triangles, surface};
 use crate::dynamics::Shape;
 use crate::random::Stream;
 
-/// The region in which particles are born, in the axes of the carrier from its centre of mass, or in world axes without
-/// a carrier. The distribution in a disc, a box or a surface is uniform.
+/// The region in which particles are born, relative to the centre of mass of the body that carries the source, in body axes. Without such
+/// a body, in world axes. The distribution in a disc, in a box or on a surface is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
-    /// A point, m.
+    /// A single point, m.
     Point(DVec3),
     /// A flat disc.
     Disc {
@@ -21,34 +21,35 @@ pub enum Origin {
         /// The radius of the disc, m.
         radius: f64,
     },
-    /// A box with edges along the axes.
+    /// A box with edges parallel to the axes.
     Box {
         /// The centre of the box, m.
         centre: DVec3,
         /// The full lengths of the edges, m.
         size: DVec3,
     },
-    /// The surface of a shape. The shape must have one: see [`has_surface`](super::has_surface).
+    /// The surface of a shape for which [`has_surface`](super::has_surface) is true.
     Surface(Shape),
-    /// The triangles of a mesh.
+    /// The surface of a mesh, as triangles.
     Triangles(Triangles),
 }
 
-/// The place and motion of a body at one time.
+/// The pose, the velocity and the angular velocity of a body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// The location of the centre of mass, m.
+    /// The location of the centre of mass, world axes, m.
     pub location: DVec3,
-    /// The orientation of the body (`world_from_body`).
+    /// The orientation of the body: the rotation from body axes to world axes.
     pub orientation: DQuat,
-    /// The velocity of the centre of mass, m/s.
+    /// The velocity of the centre of mass, world axes, m/s.
     pub velocity: DVec3,
-    /// The angular velocity, world axes, rad/s.
+    /// The angular velocity of the body, world axes, rad/s.
     pub angular_velocity: DVec3,
 }
 
 impl Spot {
-    /// The place of a point of the body, m, and its velocity, m/s, both in world axes. `at` is in the body's axes.
+    /// Returns the position (m) and the velocity (m/s) of a point of the body, both in world axes. `at` is the point in body axes, from
+    /// the centre of mass.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         let arm = self.orientation * at;
@@ -57,7 +58,7 @@ impl Spot {
 }
 
 impl Origin {
-    /// Draws a place in the region, m. Returns the place and the normal there.
+    /// Draws a random place in the region. Returns the place (m) and the unit normal at this place.
     #[must_use]
     pub fn place(&self, random: &mut Stream) -> (DVec3, DVec3) {
         match self {
@@ -77,7 +78,8 @@ impl Origin {
     }
 }
 
-/// Draws a point in a disc about the origin, with uniform distribution: the square of its distance is uniform.
+/// Draws a random point in a disc about the origin, with uniform distribution over the area: the square of the distance from the centre is
+/// uniform.
 pub(super) fn within_disc(radius: f64, random: &mut Stream) -> (f64, f64) {
     let distance = radius * random.uniform().sqrt();
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.uniform());

@@ -1,4 +1,4 @@
-//! The sources of particles, which set their initial values.
+//! The sources of particles, which set the initial values of the particles.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -8,36 +8,37 @@ use glam::DVec3;
 use super::{Births, Origin, Spot};
 use crate::random::Stream;
 
-/// A number that each particle draws for itself.
+/// A quantity that has its own, possibly random value for each particle.
 pub trait Draw: Debug + Send + Sync {
-    /// The number for a particle that is born at time `t`, s. `random` is the particle's stream of random numbers.
+    /// Returns the value for a particle that is born at time `t`, s. `random` is the particle's own stream of random numbers.
     fn draw(&self, t: f64, random: &mut Stream) -> f64;
 }
 
-/// The same number for all particles.
+/// A constant: all particles get the same value.
 impl Draw for f64 {
     fn draw(&self, _: f64, _: &mut Stream) -> f64 {
         *self
     }
 }
 
-/// A source of particles.
+/// A source that emits particles.
 #[derive(Clone, Debug)]
 pub struct ParticleSource {
     /// The birth times of the particles.
     pub births: Births,
     /// The lifetime of a particle, s.
     pub lifetime: Arc<dyn Draw>,
-    /// The largest lifetime of a particle, s. It may be infinite.
+    /// The largest lifetime that a particle can have, s. It may be infinite.
     pub longest_life: f64,
     /// The region in which the particles are born.
     pub origin: Origin,
-    /// The mean direction in which particles leave the source, a unit vector in the axes of the carrier, or of the
-    /// world without a carrier. `None` for the normal of the surface at the particle's origin.
+    /// The mean direction in which particles leave the source: a unit vector in the axes of the body that carries the source, or in world
+    /// axes without such a body. `None` stands for the normal of the surface at which the particle is born.
     pub direction: Option<DVec3>,
-    /// The half angle of the cone of directions, rad. The distribution of directions in the cone is uniform.
+    /// The half angle of the cone of directions in which particles leave the source, rad. Directions are distributed uniformly over the
+    /// cone.
     pub spread: f64,
-    /// The speed relative to the source, m/s.
+    /// The initial speed of a particle relative to the source, m/s.
     pub speed: Arc<dyn Draw>,
     /// The mass of a particle, kg.
     pub mass: f64,
@@ -47,18 +48,18 @@ pub struct ParticleSource {
     pub random: Stream,
 }
 
-/// The number of branches of random numbers per particle.
+/// The number of branches of the random stream that are reserved for each particle.
 const BRANCHES: u64 = 4;
 
 impl ParticleSource {
-    /// The lifetime of a particle that is born at time `t`, s.
+    /// Returns the lifetime of a particle that is born at time `t` (s), s.
     #[must_use]
     pub fn life(&self, number: u64, t: f64) -> f64 {
         self.lifetime.draw(t, &mut self.branch(number, 0)).min(self.longest_life)
     }
 
-    /// The initial place and velocity of a particle that is born at time `t`, s. `carrier` is the place and motion of
-    /// the source's body.
+    /// Returns the initial place (m) and velocity (m/s), world axes, of a particle that is born at time `t`, s. `carrier` is the pose and
+    /// motion of the body that carries the source.
     #[must_use]
     pub fn begin(&self, number: u64, t: f64, carrier: Option<&Spot>) -> (DVec3, DVec3) {
         let mut random = self.branch(number, 1);
@@ -80,8 +81,8 @@ impl ParticleSource {
     }
 }
 
-/// Draws a direction in a cone about a unit vector, with uniform distribution over the solid angle: the cosine of the
-/// angle is uniform from cos(spread) to 1 (Archimedes' hat-box theorem).
+/// Draws a random direction in a cone about a unit vector, with uniform distribution over the solid angle: the cosine of the angle is
+/// uniform from cos(spread) to 1 (Archimedes' hat-box theorem).
 fn within_cone(middle: DVec3, spread: f64, random: &mut Stream) -> DVec3 {
     let (cosine, turn) = (random.uniform(), random.uniform());
     if spread == 0.0 {

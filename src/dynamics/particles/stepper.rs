@@ -9,10 +9,10 @@ use super::{Course, Particle};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
 
-/// Makes a force on particles, from the indices of the particles and of the bodies that cause the force.
+/// Makes a force on particles. The first list holds the indices of the particles, the second those of the bodies that cause the force.
 type Make = dyn Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync;
 
-/// A force on particles.
+/// A force that acts on particles.
 #[derive(Clone)]
 pub struct Field {
     make: Arc<Make>,
@@ -21,13 +21,13 @@ pub struct Field {
 }
 
 impl Field {
-    /// Creates a force that no body causes. `make` gets the indices of the particles.
+    /// Creates a force that no body causes, such as uniform gravity. `make` receives the indices of the particles.
     pub fn new(make: impl Fn(Vec<BodyId>) -> Arc<dyn Force> + Send + Sync + 'static) -> Field {
         Field { make: Arc::new(move |particles, _| make(particles)), sources: Vec::new() }
     }
 
-    /// Creates a force that bodies cause. It gets the indices of the particles, and the indices of the bodies after
-    /// them.
+    /// Creates a force that bodies cause, such as their gravitation. `make` receives the indices of the particles and the indices of these
+    /// bodies.
     pub fn from_bodies(
         sources: Vec<(BodyId, RigidBody)>,
         make: impl Fn(Vec<BodyId>, Vec<BodyId>) -> Arc<dyn Force> + Send + Sync + 'static,
@@ -36,7 +36,7 @@ impl Field {
     }
 }
 
-/// The steps of an interval. All steps have the same length, except the last one, which ends at `end`.
+/// The division of an interval into steps. All steps have the same length, except the last one, which ends at `end`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     pub(super) begin: f64,
@@ -44,17 +44,17 @@ pub(super) struct Grid {
     pub(super) step: f64,
 }
 
-/// The relative tolerance of the step length: a step that exceeds the largest length by less is not divided.
+/// The relative tolerance of step lengths: the last step may be longer than the others by this fraction.
 const ROUNDING: f64 = 1e-6;
 
 impl Grid {
-    /// The time at the end of a step, s. Step 0 is the beginning of the interval.
+    /// Returns the time at the end of step `number`, s. Number 0 stands for the beginning of the interval.
     fn time(&self, number: u32) -> f64 {
         let time = self.begin + f64::from(number) * self.step;
         if time >= self.end - ROUNDING * self.step { self.end } else { time }
     }
 
-    /// The number of the first step that ends after time `t`, s.
+    /// Returns the number of the first step that ends after time `t`, s.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -69,7 +69,7 @@ impl Grid {
     }
 }
 
-/// Advances a fixed number of particles side by side.
+/// Advances up to a fixed number of particles side by side.
 #[derive(Clone)]
 pub(super) struct Stepper {
     lanes: usize,
@@ -77,14 +77,14 @@ pub(super) struct Stepper {
     state: State,
     solver: Solver,
     integrator: Box<dyn Integrator>,
-    /// The bodies that cause forces. In the state, they come after the particles.
+    /// The bodies that cause forces. In the state, their entries come after those of the particles.
     sources: Vec<BodyId>,
-    /// The places and velocities at the beginning of a step. Empty if no caller needs them.
+    /// The place (m) and the velocity (m/s) of each particle at the beginning of a step. Empty if no caller needs them.
     before: Vec<(DVec3, DVec3)>,
 }
 
 impl Stepper {
-    /// Creates a stepper for particles with a mass (kg) and a charge (C).
+    /// Creates a stepper for `lanes` particles with this mass (kg) and this charge (C).
     pub(super) fn new(
         lanes: usize,
         (mass, charge): (f64, f64),
@@ -138,7 +138,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Advances particles like `advance`. `look` gets each step of each particle, with the particle's index.
+    /// Advances particles like `advance`. Calls `look` for each step of each particle, with the index of the particle.
     pub(super) fn advance_seen(
         &mut self,
         particles: &mut [Particle],
@@ -158,8 +158,8 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Advances particles like `advance`. `change` returns the end of each step of each particle. The integrator starts
-    /// anew at each step, so that no particle depends on an event of another particle.
+    /// Advances particles like `advance`. For each step of each particle, `change` returns the place and the velocity at the end of the
+    /// step. The integrator starts again at each step, so that no particle depends on an impact of another particle.
     pub(super) fn advance_changed(
         &mut self,
         particles: &mut [Particle],
@@ -183,7 +183,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Makes one step of a single particle. Takes and returns its place and velocity.
+    /// Makes one step of a single particle. Takes its place (m) and velocity (m/s) at the beginning, and returns those at the end.
     pub(super) fn leap(&mut self, (place, velocity): (DVec3, DVec3), times: [f64; 2]) -> (DVec3, DVec3) {
         (self.state.location[0], self.state.velocity[0]) = (place, velocity);
         self.integrator.discontinuity();
@@ -218,14 +218,14 @@ impl Stepper {
         self.rest();
     }
 
-    /// Saves the places and velocities of the first lanes at the beginning of a step.
+    /// Saves the places and velocities of the first `lanes` particles at the beginning of a step.
     fn note(&mut self, lanes: usize) {
         self.before.clear();
         let state = &self.state;
         self.before.extend((0..lanes).map(|lane| (state.location[lane], state.velocity[lane])));
     }
 
-    /// The step that a lane has made.
+    /// Returns the last step of the particle in a lane: its states at the beginning and at the end.
     fn made(&self, lane: usize, times: [f64; 2]) -> Leap {
         let (place, velocity) = self.before[lane];
         Leap {
@@ -235,7 +235,8 @@ impl Stepper {
         }
     }
 
-    /// Stops all lanes. In a lane without a new particle, the old particle would fly on and become non-finite.
+    /// Sets the velocities in all lanes to zero. In a lane without a new particle, the old particle would otherwise move on and become
+    /// non-finite.
     fn rest(&mut self) {
         self.state.velocity[..self.lanes].fill(DVec3::ZERO);
     }

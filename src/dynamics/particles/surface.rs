@@ -1,4 +1,4 @@
-//! Draws points on the surfaces of shapes, with uniform distribution over the area.
+//! Draws random points on the surfaces of shapes, with uniform distribution over the area.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,8 +8,8 @@ use super::origin::within_disc;
 use crate::dynamics::{Shape, cone_base};
 use crate::random::Stream;
 
-/// Whether the surface of a shape has a closed form, so that particles can be born there. For a mesh, use its
-/// [triangles](super::Triangles).
+/// Returns whether points on the surface of a shape can be drawn by a formula, so that particles can be born on that surface. For a mesh,
+/// use its [triangles](super::Triangles).
 #[must_use]
 pub fn has_surface(shape: &Shape) -> bool {
     matches!(
@@ -23,8 +23,8 @@ pub fn has_surface(shape: &Shape) -> bool {
     )
 }
 
-/// Draws a point on the surface of a shape, in the axes of the shape. Returns the point and the normal there, or the
-/// origin for a shape without a surface.
+/// Draws a random point on the surface of a shape, in the axes of the shape. Returns the point (m) and the unit normal at this point. For
+/// a shape without such a surface, the point is the origin.
 pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
     match *shape {
         Shape::Sphere { radius } => {
@@ -42,8 +42,8 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
         }
         Shape::Capsule { radius, height } => {
             let middle = height - 2.0 * radius;
-            // By Archimedes' theorem, the two half balls have the lateral area of a cylinder, 2πr per unit of height,
-            // as the wall has.
+            // By Archimedes' theorem, each half ball has the lateral area of a cylinder of the same height, 2πr per unit of height. The
+            // wall has the same area per unit of height.
             if random.uniform() * height < middle {
                 let wall = Frustum {
                     base: -middle / 2.0,
@@ -63,7 +63,7 @@ pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
     }
 }
 
-/// Draws a point on the unit sphere. By Archimedes' theorem, its height is uniform.
+/// Draws a random point on the unit sphere, with uniform distribution. By Archimedes' theorem, the height of such a point is uniform.
 fn on_unit_sphere(random: &mut Stream) -> DVec3 {
     let y = 2.0 * random.uniform() - 1.0;
     let (sin, cos) = libm::sincos(TAU * random.uniform());
@@ -87,7 +87,8 @@ fn on_box(size: DVec3, random: &mut Stream) -> (DVec3, DVec3) {
     (place, normal)
 }
 
-/// A cylinder or frustum about the y axis, with a lower and an upper radius, with or without the discs at its ends.
+/// A cylinder or frustum about the y axis, with or without the discs at its ends. `low` and `high` are the radii at its lower and upper
+/// end.
 struct Frustum {
     base: f64,
     height: f64,
@@ -111,8 +112,7 @@ fn on_frustum(
         let (y, normal) = if is_low { (base, -DVec3::Y) } else { (base + height, DVec3::Y) };
         return (DVec3::new(x, y, z), normal);
     }
-    // The area up to a part s of the height is proportional to s low + s² (high − low)/2. The inverse of this function
-    // gives s.
+    // The area below a fraction s of the height is proportional to s low + s² (high − low)/2. The inverse of this function gives s.
     let part = random.uniform();
     let (square, whole) = (low * low, part * (low * low - high * high));
     let radius = (square - whole).max(0.0).sqrt();
@@ -122,8 +122,8 @@ fn on_frustum(
     (DVec3::new(radius * cos, base + up * height, radius * sin), normal)
 }
 
-/// Draws a point on a torus. The density of the area along the tube is proportional to R + r cos, so points are drawn
-/// until one is accepted.
+/// Draws a random point on a torus by rejection sampling: the density of the area along the tube is proportional to R + r cos φ, so points
+/// are drawn until one is accepted.
 fn on_torus(radius: f64, tube_radius: f64, random: &mut Stream) -> (DVec3, DVec3) {
     let (sin, cos) = loop {
         let (sin, cos) = libm::sincos(TAU * random.uniform());

@@ -38,7 +38,7 @@ fn drag() -> Field {
     Field::new(|bodies| Arc::new(Drag { bodies, linear: 0.1, quadratic: 0.2, wind: DVec3::X }))
 }
 
-/// The attraction of three bodies at rest.
+/// Returns the gravitational force of three bodies at rest on particles.
 fn three_suns() -> Field {
     let suns = (0..3).map(|i| (BodyId::new(i), RigidBody::new(&Shape::Sphere { radius: 1.0 }, 10.0)));
     Field::from_bodies(suns.collect(), |bodies, against| {
@@ -57,7 +57,7 @@ fn still(body: BodyId) -> Option<Course> {
     Some(Course::still(BodySnapshot { id: body.index(), location: DVec3::X * x, ..BodySnapshot::default() }))
 }
 
-/// Creates a cloud and advances it from frame to frame.
+/// Creates a cloud of particles, and advances it from frame to frame.
 #[allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 fn cloud(
     source: &ParticleSource,
@@ -77,8 +77,8 @@ fn cloud(
     cloud
 }
 
-/// Each particle is born at its own time between two steps. Under a constant force, methods of order 2 or higher are
-/// exact. Euler–Cromer has an error of g t h/2, where h is the step, and as much again for the first, shorter step.
+/// Each particle is born at its own time between two steps. Under a constant force, methods of order 2 or higher must be exact.
+/// Euler–Cromer has an error of at most g t h/2, where h is the step.
 #[test]
 fn every_particle_flies_along_its_own_parabola() {
     let source = source(Births::rate(333.0, 0.0, f64::INFINITY), 2.0);
@@ -94,7 +94,7 @@ fn every_particle_flies_along_its_own_parabola() {
     }
 }
 
-/// Particles and bodies move by the same methods.
+/// A particle must move exactly like a body of a world with the same mass, forces and integration method.
 #[test]
 fn a_particle_moves_as_a_body_does() {
     for method in METHODS {
@@ -109,8 +109,8 @@ fn a_particle_moves_as_a_body_does() {
         world.add_force(UniformGravity { acceleration: GRAVITY });
         world.add_force(Drag { bodies: vec![ball], linear: 0.1, quadratic: 0.2, wind: DVec3::X });
         (1..=25).for_each(|frame| world.advance_to(f64::from(frame) * FRAME));
-        // Velocity Verlet predicts a velocity and keeps its loads for the next step. Particles compute these loads anew
-        // at each frame. The predicted velocity is off by h² times the rate of change of the acceleration, about 10
+        // Velocity Verlet predicts a velocity, and keeps its loads for the next step. Particles compute these loads again at each frame,
+        // so the two results differ slightly. The predicted velocity is wrong by h² times the rate of change of the acceleration, about 10
         // m/s³.
         let tolerance = if method.name == "velocity-verlet" { 10.0 * STEP * STEP } else { 1e-12 };
         let [particle] = cloud.particles() else { panic!("there is one") };
@@ -118,7 +118,7 @@ fn a_particle_moves_as_a_body_does() {
     }
 }
 
-/// At each time, the living particles are those born within the last lifetime.
+/// At any time, the living particles must be those that were born within the last lifetime.
 #[test]
 fn so_many_are_alive_as_are_born_in_a_lifetime() {
     let source = source(Births::rate(100.0, 0.005, 3.0), 0.5);
@@ -129,7 +129,7 @@ fn so_many_are_alive_as_are_born_in_a_lifetime() {
     assert!(late.particles().iter().all(|it| it.born > 1.5 - 1e-12 && it.born <= 2.0 && it.dies > 2.0));
 }
 
-/// After two thousand lifetimes, the cloud uses no more memory than at first.
+/// After two thousand lifetimes, the cloud must not hold more particles than at first.
 #[test]
 fn the_dead_take_no_memory() {
     let source = source(Births::rate(1000.0, 0.0, f64::INFINITY), 0.1);
@@ -142,7 +142,8 @@ fn the_dead_take_no_memory() {
     assert!((100..=101).contains(&most), "{most}");
 }
 
-/// The result holds for all kinds of forces and any number of neighbours.
+/// A cloud that is computed only from 1.48 s on must contain the same particles at 2 s as a cloud that is computed from the start, bit for
+/// bit, with every integration method.
 #[test]
 fn whoever_begins_later_gets_the_same_bits() {
     let mut source = source(Births::rate(1234.5, 0.0, f64::INFINITY), 0.5);
@@ -167,7 +168,7 @@ fn some_of_them_are_the_same_as_among_all() {
     assert_eq!(some.particles(), expected);
 }
 
-/// A time between two frames ends an additional interval, but the steps stay the same.
+/// A cloud is advanced to a time between two frames. The particles born since the last frame must be present, at the right positions.
 #[test]
 fn births_between_frames_are_seen_at_once() {
     let source = source(Births::rate(1000.0, 0.0, f64::INFINITY), 0.5);
@@ -178,8 +179,8 @@ fn births_between_frames_are_seen_at_once() {
     assert!((last.location.y - 2.0 - 5.0 * 0.0005).abs() < 1e-5);
 }
 
-/// The cosine of the angle is uniform from cos 30° to 1. Its mean over N draws has the standard deviation (1 − cos
-/// 30°)/√(12 N).
+/// The cosine of the angle between the direction and the axis of the cone is uniform from cos 30° to 1. Its mean over N draws has the
+/// standard deviation (1 − cos 30°)/√(12 N).
 #[test]
 fn directions_fill_the_cone_evenly() {
     const COUNT: u64 = 20_000;
@@ -198,11 +199,12 @@ fn directions_fill_the_cone_evenly() {
     }
     let count = COUNT as f64;
     assert!((sum / count - (1.0 + edge) / 2.0).abs() < 4.0 * (1.0 - edge) / (12.0 * count).sqrt());
-    // The mean of sin² is below ¼. Each of the two directions across has half of it.
+    // The mean of sin² of the angle is below ¼, so the mean of the vectors across the axis has a standard deviation below 1/(2√N).
     assert!((aside / count).length() < 4.0 * 0.5 / count.sqrt());
 }
 
-/// A fraction p of N points has the standard deviation √(p (1 − p)/N), at most 1/(2√N).
+/// The measured fraction of N random points that lie in a region of area fraction p has the standard deviation √(p (1 − p)/N), at most
+/// 1/(2√N).
 #[test]
 fn places_on_surfaces_are_as_likely_as_their_area() {
     const COUNT: u32 = 20_000;
@@ -221,20 +223,21 @@ fn places_on_surfaces_are_as_likely_as_their_area() {
     let across = |place: DVec3| (place.x * place.x + place.z * place.z).sqrt();
     is(&Shape::Sphere { radius: 2.0 }, 0.25, &|place| place.y > 1.0);
     is(&Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) }, 3.0 / 22.0, &|place| place.y > 1.0 - 1e-12);
-    // The wall has the area 2πrh, the ends 2πr². The wall's fraction is h/(h + r).
+    // The wall of a cylinder has the area 2πrh, its two ends have 2πr². So the wall's fraction of the area is h/(h + r).
     is(&Shape::Cylinder { radius: 1.0, height: 3.0 }, 0.75, &|place| place.y.abs() < 1.5 - 1e-9);
-    // The half balls have the area 4πr² of a total of 2πrh.
+    // The two half balls of a capsule have the area 4πr². The whole capsule has 2πrh.
     is(&Shape::Capsule { radius: 1.0, height: 6.0 }, 1.0 / 3.0, &|place| place.y.abs() > 2.0);
-    // The wall, of slant height 5, has the area 15π, the base 9π. Three quarters of the wall are below half the height.
+    // The wall of this cone has a slant height of 5 and the area 15π; the base has 9π. Three quarters of the wall are below half the
+    // height.
     let cone = Shape::Cone { radius: 3.0, top_radius: 0.0, height: 4.0 };
     is(&cone, 9.0 / 24.0, &|place| place.y < -1.0 + 1e-9);
     is(&cone, 9.0 / 24.0 + 0.75 * 15.0 / 24.0, &|place| place.y < 1.0);
-    // Outside the middle circle, the fraction of the area is 1/2 + r/(πR).
+    // The part of a torus outside its middle circle has the fraction 1/2 + r/(πR) of the area.
     is(&Shape::Torus { radius: 3.0, tube_radius: 1.0 }, 0.5 + 1.0 / (3.0 * PI), &|place| across(place) > 3.0);
 }
 
-/// Of two triangles of 2 m² and 6 m², the larger gets three quarters of the points. In a triangle, the half that is
-/// farther from a corner also gets three quarters.
+/// Of two triangles with areas of 2 and 6 square units of the mesh, the larger must get three quarters of the points. Within each
+/// triangle, the half that is farther from a corner must get three quarters as well.
 #[test]
 fn places_on_triangles_are_as_likely_as_their_area() {
     const COUNT: u32 = 20_000;
@@ -275,15 +278,15 @@ fn places_lie_on_their_surfaces_and_normals_point_outwards() {
         for _ in 0..500 {
             let (place, normal) = surface::place(&shape, &mut random);
             assert!((normal.length() - 1.0).abs() < 1e-12);
-            // No point of a convex shape is farther along the normal than the point itself.
+            // No point of a convex shape lies farther along the normal than the drawn point.
             let farthest = shape.support(DQuat::IDENTITY, normal).unwrap();
             assert!((place.dot(normal) - farthest).abs() < 1e-9, "{shape:?} {place} {normal}");
         }
     }
 }
 
-/// A wheel rotates at 500 rad/s, 20 rad per frame. Points of its rim stay on the circle at all times, and particles
-/// leave the rim with its speed.
+/// A wheel rotates at 500 rad/s, so by 20 rad per frame. Points on its rim must stay on the circle between frames, and particles must
+/// leave the rim with the rim's velocity.
 #[test]
 fn what_a_wheel_throws_has_the_speed_of_its_rim() {
     let turned = |t: f64| BodySnapshot {
@@ -304,7 +307,7 @@ fn what_a_wheel_throws_has_the_speed_of_its_rim() {
     assert!((velocity.length() - 500.0).abs() < 1e-8);
 }
 
-/// Between two frames, the course of a body under a constant force is the exact parabola.
+/// The interpolated motion of a body under a constant force must be the exact parabola between two frames.
 #[test]
 fn a_course_is_exact_under_a_constant_force() {
     let at = |t: f64| BodySnapshot {

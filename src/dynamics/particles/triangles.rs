@@ -1,4 +1,4 @@
-//! Draws points on a surface of triangles, with uniform distribution over the area.
+//! Draws random points on a surface of triangles, with uniform distribution over the area.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::dynamics::Mesh;
 use crate::random::Stream;
 
-/// The triangles of a mesh, m, and the cumulative sums of their areas.
+/// The corners of a mesh's triangles, m, and the cumulative sums of the triangles' areas, m².
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangles {
     corners: Arc<[[DVec3; 3]]>,
@@ -15,7 +15,7 @@ pub struct Triangles {
 }
 
 impl Triangles {
-    /// The triangles of a mesh. `scale` is the length of one unit of the mesh, m.
+    /// Computes the triangles of a mesh and their areas. `scale` is the length of one unit of the mesh, m.
     #[must_use]
     pub fn new(mesh: &Mesh, scale: f64) -> Triangles {
         let vertices = mesh.vertices();
@@ -33,10 +33,11 @@ impl Triangles {
         Triangles { corners, sums }
     }
 
-    /// Draws a point on the triangles. Returns the point and the normal there, or the origin if there are no triangles.
+    /// Draws a random point on the triangles. Returns the point (m) and the unit normal at this point. Without triangles, the point is the
+    /// origin.
     ///
-    /// The triangle is drawn by its area. The point in the triangle is drawn as in Osada, Funkhouser, Chazelle &
-    /// Dobkin, *Shape Distributions*, ACM Trans. Graph. 21 (2002) 807, section 4.2.
+    /// The triangle is drawn with a probability proportional to its area. The point in the triangle is drawn as in Osada, Funkhouser,
+    /// Chazelle & Dobkin, *Shape Distributions*, ACM Trans. Graph. 21 (2002) 807, section 4.2.
     pub(super) fn place(&self, random: &mut Stream) -> (DVec3, DVec3) {
         let chosen = random.uniform() * self.sums.last().copied().unwrap_or(0.0);
         let number = self.sums.partition_point(|sum| *sum <= chosen);

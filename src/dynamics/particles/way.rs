@@ -1,27 +1,27 @@
-//! The path of a particle within one step.
+//! The path of a particle within one step, as polynomials of time.
 
 use glam::DVec3;
 
-/// Values below this fraction of the coordinates are rounding errors.
+/// Differences below this fraction of the coordinates are taken for rounding errors.
 const ROUNDING: f64 = 2e-15;
 
-/// The state of a particle at the two ends of a step, or of a part of a step.
+/// A step of a particle, or a part of a step: the times, places and velocities at its beginning and its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leap {
-    /// The two times, s.
+    /// The times at the beginning and at the end, s.
     pub(super) times: [f64; 2],
-    /// The two places, m.
+    /// The places of the particle at the beginning and at the end, m.
     pub(super) places: [DVec3; 2],
-    /// The two velocities, m/s.
+    /// The velocities of the particle at the beginning and at the end, m/s.
     pub(super) velocities: [DVec3; 2],
 }
 
-/// The path between the two ends: polynomials of the time since the beginning of the step.
+/// The path of a particle within a step. The place and the velocity are polynomials of the time since the beginning of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     place: [DVec3; 4],
     velocity: [DVec3; 3],
-    /// An upper bound for the second derivative of the place, m/s².
+    /// An upper bound for the magnitude of the second derivative of the place, m/s².
     pub(super) bend: f64,
 }
 
@@ -30,26 +30,26 @@ impl Leap {
         self.times[1] - self.times[0]
     }
 
-    /// The mean acceleration in the step, m/s².
+    /// Returns the mean acceleration in the step, m/s².
     pub(super) fn acceleration(&self) -> DVec3 {
         (self.velocities[1] - self.velocities[0]) / self.span()
     }
 
-    /// A box around the path: its lowest and its highest corner.
+    /// Returns a box around the path, as its lowest and its highest corner, m.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
         let [from, to] = self.places;
         let way = to - from;
         let aside = |velocity: DVec3| (self.span() * velocity - way).abs();
-        // The Hermite polynomials of the velocities are at most 4/27, and s (1 − s) is at most 1/4.
+        // On a cubic path, the Hermite polynomials that multiply the velocities are at most 4/27. On a parabola, s (1 − s) is at most 1/4.
         let margin = 0.25 * aside(self.velocities[0]) + 0.25 * aside(self.velocities[1]);
         [from.min(to) - margin, from.max(to) + margin]
     }
 
-    /// The path: a parabola for a step with constant acceleration, by a method of order 2 or higher or by Euler–Cromer;
-    /// else the cubic polynomial through the places and velocities.
+    /// Returns the path of the particle. It is a parabola for a step with constant acceleration by Euler–Cromer or by a method of order 2
+    /// or higher. Otherwise, it is the cubic polynomial that matches the places and velocities at both ends.
     ///
-    /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So the path is x + v t + a t², although the
-    /// velocity is v + a t.
+    /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So the path is x + v t + a t², although the velocity is v + a
+    /// t.
     pub(super) fn way(&self) -> Way {
         let (h, a) = (self.span(), self.acceleration());
         let ([x, y], [v, w]) = (self.places, self.velocities);
@@ -74,20 +74,20 @@ impl Leap {
 }
 
 impl Way {
-    /// The place of the particle at time `t` after the beginning, s.
+    /// Returns the place of the particle at time `t` (s) after the beginning of the step, m.
     pub(super) fn place(&self, t: f64) -> DVec3 {
         let [a, b, c, d] = self.place;
         a + t * (b + t * (c + t * d))
     }
 
-    /// The derivative of the place at time `t` after the beginning, m/s.
+    /// Returns the time derivative of the place at time `t` (s) after the beginning of the step, m/s.
     pub(super) fn rate(&self, t: f64) -> DVec3 {
         let [_, b, c, d] = self.place;
         b + t * (2.0 * c + t * (3.0 * d))
     }
 
-    /// The velocity at time `t` after the beginning, m/s. By Euler–Cromer, it differs slightly from the derivative of
-    /// the place.
+    /// Returns the velocity of the particle at time `t` (s) after the beginning of the step, m/s. With Euler–Cromer, it differs slightly
+    /// from the derivative of the place.
     pub(super) fn velocity(&self, t: f64) -> DVec3 {
         let [a, b, c] = self.velocity;
         a + t * (b + t * c)
