@@ -1,4 +1,4 @@
-//! Arrows for velocity, acceleration and force, and the axes of bodies.
+//! Arrows that show vectors of bodies and joints, and the coordinate axes of bodies.
 
 use glam::{DQuat, DVec3};
 
@@ -9,7 +9,8 @@ use crate::dynamics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, Body, Color, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 
-/// The colors of arrows, in the order of their quantities. They are easy to tell apart, and rare for bodies.
+/// The colors of arrows on light backgrounds, in the order of [`Quantity::color`]. They are easy to tell apart, and rarely used for
+/// bodies.
 const COLORS: [Color; Quantity::COLORS] = [
     Color([0.03, 0.30, 0.70]),
     Color([0.93, 0.50, 0.04]),
@@ -19,7 +20,7 @@ const COLORS: [Color; Quantity::COLORS] = [
     Color([0.85, 0.10, 0.10]),
     Color([0.96, 0.78, 0.05]),
 ];
-/// The same for dark backgrounds.
+/// The colors of arrows on dark backgrounds, in the order of [`Quantity::color`].
 const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([0.35, 0.72, 1.0]),
     Color([1.0, 0.70, 0.25]),
@@ -30,123 +31,123 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([1.0, 0.92, 0.35]),
 ];
 
-/// The thing that an arrow belongs to.
+/// The body or joint that an arrow belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bearer {
-    /// The body with this number.
+    /// The body with this index.
     Body(usize),
     /// A joint.
     Joint {
-        /// Its number.
+        /// The index of the joint.
         joint: usize,
-        /// The body of its second end, or else of its first.
+        /// The index of the body at the second end of the joint, or else of the body at its first end.
         body: Option<usize>,
     },
 }
 
-/// An arrow for a vector of a body or of a joint.
+/// An arrow that shows a vector of a body or of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrow {
-    /// The thing that it belongs to.
+    /// The body or joint that the arrow belongs to.
     pub bearer: Bearer,
-    /// The quantity that it shows.
+    /// The quantity that the arrow shows.
     pub quantity: Quantity,
-    /// The root of the arrow, m.
+    /// The point where the arrow begins, in world axes, m.
     pub from: DVec3,
-    /// Its tip, m.
+    /// The tip of the arrow, in world axes, m.
     pub to: DVec3,
-    /// The radius of its shaft, m.
+    /// The radius of the arrow's shaft, m.
     pub radius: f64,
-    /// Its color.
+    /// The color of the arrow.
     pub color: Color,
 }
 
-/// The axes of a body, as three arrows from its centre.
+/// The coordinate axes of a body, drawn as three arrows from its center.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// The centre of the body, m.
+    /// The center of the body, m.
     pub location: DVec3,
-    /// The rotation that takes its own axes to the world's.
+    /// The orientation of the body: the rotation from body axes to world axes.
     pub orientation: DQuat,
-    /// The length of each, m.
+    /// The length of each axis, m.
     pub length: f64,
 }
 
-/// The length of the longest arrow without a scale, as part of the width of the picture.
+/// The length of the longest arrow without a given scale, relative to the width of the picture.
 pub(super) const LONGEST: f64 = 0.13;
-/// The radius of a shaft, in strokes.
+/// The radius of an arrow's shaft, in strokes. A stroke is the width of a clearly visible line.
 const SHAFT: f64 = 0.6;
-/// The radius of a head, in radii of the shaft.
+/// The radius of an arrow's head, relative to the radius of its shaft.
 pub(super) const HEAD: f64 = 3.2;
-/// Shorter arrows than this part of the width of the picture are less than a tenth of a pixel long.
+/// The length below which an arrow is omitted, relative to the width of the picture: less than a tenth of a pixel.
 const NOTHING: f64 = 5e-5;
 
-/// The length of an arrow without a scale for one unit of each quantity, m.
+/// The drawn length of one unit of each quantity, m, for arrows without a given scale.
 pub(super) type Scales = [f64; Quantity::COUNT];
 
-/// The arrows and axes of a scene.
+/// The arrows and coordinate axes that a scene requests.
 #[derive(Clone, Debug)]
 pub(super) struct Arrows {
-    /// The bodies with arrows or axes, in the order of their numbers.
+    /// The bodies with arrows or axes, each with its index, in the order of the scene.
     bodies: Vec<(usize, Body)>,
-    /// Their arrows, in the order of the bodies.
+    /// The arrows of these bodies, in the same order.
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,
-    /// The scene and the colors of arrows, if arrows show loads.
+    /// The scene and the colors of arrows. `None` if the scene shows no weights or contact forces.
     of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
-    /// The longest vector of each kind whose arrows have no scale, in its own unit.
+    /// The length of the longest vector of each quantity in the run, in the unit of the quantity. Only arrows without a given scale count.
     longest: [f64; Quantity::COUNT],
 }
 
-/// An arrow of a joint.
+/// A requested arrow of a joint.
 #[derive(Clone, Debug)]
 struct OfJoint {
     bearer: Bearer,
     end: JointEnd,
     quantity: Quantity,
-    /// Its length for one unit of the quantity, m, if it is given.
+    /// The drawn length of one unit of the quantity, m. `None` if the scene gives no scale.
     scale: Option<f64>,
     color: Color,
 }
 
-/// An arrow of one of the bodies.
+/// A requested arrow of a body.
 #[derive(Clone, Debug)]
 struct Planned {
-    /// The index of its body in `Arrows::bodies`.
+    /// The index of the body in `Arrows::bodies`.
     of: usize,
     quantity: Quantity,
-    /// The number of the quantity among all.
+    /// The index of the quantity in [`Quantity::OF_BODIES`].
     kind: usize,
-    /// Its length for one unit of the quantity, m, if it is given.
+    /// The drawn length of one unit of the quantity, m. `None` if the scene gives no scale.
     scale: Option<f64>,
     color: Color,
 }
 
-/// The sizes of arrows in the picture of a frame.
+/// The sizes of arrows in the picture of one frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ArrowSizes {
-    /// The width of what the camera sees, m.
+    /// The width in view of the camera, m.
     view: f64,
-    /// The radius of a shaft, m.
+    /// The radius of an arrow's shaft, m.
     radius: f64,
     scales: Scales,
 }
 
-/// The scales of arrows in a picture of the width `view` (m), for the longest vectors of each kind.
+/// Computes the drawn length of one unit of each quantity, m, for a width in view of `view` (m). The longest vector of each quantity gets
+/// the length [`LONGEST`].
 fn scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
 }
 
-/// [`scales`] rounded, so that small edits of a scene do not change them.
+/// Computes drawn lengths like [`scales`], and rounds them down, so that small edits of a scene do not change them.
 pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     scales(longest, view).map(round_down)
 }
 
-/// The largest number of the form 1, 1.5, 2, 3, … 9 times a power of ten that does not exceed a positive
-/// number.
+/// Rounds a positive number down to 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten. Returns 1 for 0.
 pub(super) fn round_down(number: f64) -> f64 {
     let decade = libm::pow(10.0, libm::floor(libm::log10(number) + 1e-12));
     let digits = [8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5];
@@ -186,17 +187,17 @@ impl Arrows {
         Arrows { bodies, arrows, of_joints, of_loads, longest }
     }
 
-    /// The sizes in all pictures of a fixed camera. The camera was placed for these scales.
+    /// The sizes of arrows in all pictures of a fixed camera, for the scales that the camera was placed for.
     pub(super) fn still_sizes(&self, scales: Scales, view: f64, stroke: f64) -> ArrowSizes {
         ArrowSizes { view, radius: SHAFT * stroke, scales }
     }
 
-    /// The sizes in a picture of a moving camera. They change smoothly with the width in view.
+    /// The sizes of arrows in one picture of a moving camera. They change smoothly with the width in view.
     pub(super) fn sizes(&self, view: f64, stroke: f64) -> ArrowSizes {
         ArrowSizes { view, radius: SHAFT * stroke, scales: scales(self.longest, view) }
     }
 
-    /// The arrows of a frame for a camera.
+    /// Computes the arrows of a frame as seen by a camera: first those of bodies, then those of joints.
     pub(super) fn arrows(&self, frame: &Frame, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let of_one = self.arrows.chunk_by(|one, next| one.of == next.of);
         let of_one = of_one.filter_map(|its| Some((its, frame.body(self.bodies[its[0].of].0)?)));
@@ -219,8 +220,8 @@ impl Arrows {
         arrows
     }
 
-    /// The arrows for weight and contacts. Their roots are inside the body or on its far side, so they move
-    /// in front of it.
+    /// Computes the arrows for weights and contact forces. These arrows begin inside the body or on its far side, so they are moved in
+    /// front of the body.
     fn loads(
         &self,
         (bodies, contacts): (&[BodySnapshot], &[ContactSnapshot]),
@@ -241,7 +242,7 @@ impl Arrows {
         loads_on(scene, bodies, contacts).iter().filter_map(arrow).collect()
     }
 
-    /// The axes of a frame.
+    /// The coordinate axes that are drawn in a frame.
     pub(super) fn axes(&self, frame: &Frame) -> Vec<Axes> {
         let axes = |(number, body): &(usize, Body)| {
             let (length, at) = (axis(body)?, frame.body(*number)?);
@@ -250,7 +251,7 @@ impl Arrows {
         self.bodies.iter().filter_map(axes).collect()
     }
 
-    /// The arrows of a ghost for a camera, if its body has any.
+    /// Computes the arrows of a ghost as seen by a camera. Empty if the ghosts of its body have no arrows.
     pub(super) fn of_ghost(&self, ghost: &Ghost, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let Ghost { body: at, contacts, .. } = ghost;
         let Ok(of) = self.bodies.binary_search_by_key(&at.id, |(number, _)| *number) else {
@@ -265,7 +266,7 @@ impl Arrows {
         arrows
     }
 
-    /// The arrows of one body, side by side where they point the same way.
+    /// Computes the arrows of one body. Arrows in nearly the same direction are placed side by side.
     fn of_body(&self, its: &[Planned], at: &BodySnapshot, sizes: ArrowSizes, camera: &Placed) -> Vec<Arrow> {
         let mut arrows: Vec<Arrow> = its.iter().filter_map(|arrow| self.arrow(arrow, at, sizes)).collect();
         if arrows.len() > 1 {
@@ -285,7 +286,7 @@ impl Arrows {
     }
 }
 
-/// Whether an arrow is long enough to be drawn.
+/// True if an arrow is finite and long enough to be drawn.
 fn is_seen(from: DVec3, to: DVec3, sizes: ArrowSizes) -> bool {
     to.is_finite() && from.distance(to) > NOTHING * sizes.view
 }

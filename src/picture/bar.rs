@@ -1,4 +1,4 @@
-//! The scale bar. Its width shows a length, m, at the scale of the centre of the framed bounds.
+//! The scale bar: a line with the number of meters that it represents at the center of the framed bounds.
 
 use glam::DVec3;
 
@@ -11,25 +11,25 @@ use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};
 use crate::scene::{Color, ScaleBar, Scene};
 
-/// A scale bar in the image plane. The picture is 2 wide there.
+/// A scale bar in the image plane, where the picture has a width of 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bar {
-    /// Its left end in the picture.
+    /// The horizontal position of the left end, from -1 to 1.
     pub from: f64,
-    /// Its right end in the picture.
+    /// The horizontal position of the right end, from -1 to 1.
     pub to: f64,
-    /// Its height in the picture.
+    /// The vertical position of the bar.
     pub y: Vertical,
-    /// Its thickness.
+    /// The thickness of the bar, in units of the image plane.
     pub thickness: f64,
-    /// The distance from the bar up to the base line of its number.
+    /// The distance from the bar up to the base line of its number, in units of the image plane.
     pub above: f64,
-    /// Its color.
+    /// The color of the bar.
     pub color: Color,
 }
 
 impl Bar {
-    /// The area of its picture, for a picture with the given ratio of height to width.
+    /// The area that the bar covers in a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
         let middle = self.y.above_middle(aspect);
         let half = 2.5 * self.thickness;
@@ -41,9 +41,9 @@ impl Bar {
 #[derive(Clone, Debug)]
 pub(super) struct ScaleBars {
     bar: ScaleBar,
-    /// The centre of the framed bounds, m. The bar is to scale at this point.
+    /// The center of the framed bounds, m. The bar is true to scale at this point.
     middle: DVec3,
-    /// The height of a line of text on the screen.
+    /// The height of a line of text in the image plane.
     height: f64,
     ink: Color,
 }
@@ -56,7 +56,8 @@ impl ScaleBars {
         ScaleBars { bar, middle, height, ink }
     }
 
-    /// The length that the bar shows, m, and its width in the image plane of a camera.
+    /// The length that the bar represents, m, and its width in the image plane of a camera. `None` if the center of the framed bounds is
+    /// behind the camera.
     pub(super) fn extent(&self, screen: &Screen) -> Option<(f64, f64)> {
         let spot = screen.spot(self.middle)?;
         let fifth = 0.5 / spot.metre;
@@ -64,8 +65,7 @@ impl ScaleBars {
         Some((length, length * spot.metre))
     }
 
-    /// The bar and its number, in the image plane of a camera. `None` if the centre of the framed bounds is behind the
-    /// camera.
+    /// Returns the bar and its number in the image plane of a camera. `None` if the center of the framed bounds is behind the camera.
     pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
         let (length, width) = self.extent(screen)?;
         let (x, align) = across(self.bar.corner);
@@ -90,7 +90,7 @@ impl ScaleBars {
     }
 }
 
-/// The largest of 1, 2 and 5 that does not exceed a number's leading digit.
+/// The largest of 1, 2 and 5 that does not exceed the leading digit of a number.
 fn digit(number: f64) -> f64 {
     let rest = number / decimal_step(number) + 1e-9;
     [5.0, 2.0].into_iter().find(|digit| *digit <= rest).unwrap_or(1.0)

@@ -1,4 +1,4 @@
-//! Puts parallel arrows of one body side by side, so that none hides another.
+//! Places parallel arrows of one body side by side, so that no arrow hides another.
 
 use glam::DMat3;
 
@@ -8,14 +8,13 @@ use crate::dynamics::BodySnapshot;
 use crate::scene::Body;
 use crate::simulate::surface;
 
-/// The distance between arrows that stand side by side, in radii of a head.
+/// The distance between two arrows placed side by side, in radii of an arrow's head.
 const APART: f64 = 2.2;
-/// Arrows stand fully side by side if their directions differ by less than the first angle (rad), and not at
-/// all if they differ by more than the second.
+/// The angles between two arrows, rad, up to which they are fully moved apart, and from which they are not moved at all.
 const ANGLES: [f64; 2] = [0.12, 0.35];
 
-/// Moves the overlapping arrows of a body sideways, as seen by a camera. They move smoothly with their
-/// directions and lengths.
+/// Moves the overlapping arrows of a body sideways, as seen by a camera. The offset changes smoothly with the directions and lengths of
+/// the arrows.
 pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera: &Placed) {
     let plain: Vec<Arrow> = arrows.to_vec();
     for (number, arrow) in arrows.iter_mut().enumerate() {
@@ -40,7 +39,7 @@ pub(super) fn apart(arrows: &mut [Arrow], body: &Body, at: &BodySnapshot, camera
     }
 }
 
-/// The share by which two arrows overlap, from 0 to 1.
+/// The degree to which two arrows overlap, from 0 to 1.
 fn overlap(one: &Arrow, other: &Arrow) -> f64 {
     let [a, b] = [one, other].map(|arrow| arrow.to - arrow.from);
     let angle = a.angle_between(b);
@@ -83,9 +82,9 @@ mod tests {
             assert!((2.0 * head..3.0 * head).contains(&apart), "{apart} of {head}");
         }
         for (arrow, length) in [(velocity, 1.6), (acceleration, 1.0), (force, 2.0)] {
-            // From the lowest point of the ball on.
+            // Each arrow begins at the lowest point of the ball.
             assert!((arrow.to.y + 0.5 + length).abs() < 1e-9, "{arrow:?}");
-            // Beside its axis, the ball ends a little higher.
+            // Beside the axis through its center, the surface of the ball is a little higher.
             assert!(arrow.from.length() > 0.5 - 1e-9 && arrow.from.length() < 0.5 + 1e-9, "{arrow:?}");
         }
     }
@@ -94,7 +93,7 @@ mod tests {
     fn arrows_that_point_elsewhere_or_are_short_stay_where_they_are() {
         let (crossed, ..) = arrows("[8, 0, 0]", 2.0);
         assert!(crossed[0].from.abs_diff_eq(DVec3::X * 0.5, 1e-9), "{:?}", crossed[0]);
-        // The other two are parallel; the velocity counts for nothing.
+        // The acceleration and the force are parallel, so they move apart. The velocity is perpendicular and has no effect on them.
         assert!((crossed[1].from.x + crossed[2].from.x).abs() < 1e-9);
         let (upward, ..) = arrows("[0, 8, 0]", 2.0);
         assert!(upward[0].from.abs_diff_eq(DVec3::Y * 0.5, 1e-9));

@@ -1,4 +1,4 @@
-//! The camera: as the scene gives it, or chosen to fit the motion.
+//! The camera of a run: given by the scene, or chosen to fit the motion.
 
 use glam::{DQuat, DVec3};
 
@@ -7,11 +7,11 @@ use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
 
-/// The distance of a camera from the body that it follows, in half-widths of the body: it fills an eighth of
-/// the picture.
+/// The default distance between a camera and the body that it follows, in half-widths of the body. The body then fills an eighth of the
+/// picture.
 const USUAL_DISTANCE: f64 = 22.0;
 
-/// A camera with a position, in metres.
+/// A camera at one moment, with its position, aim and projection. Lengths are in meters.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed {
     location: DVec3,
@@ -24,21 +24,21 @@ pub struct Placed {
 /// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
-    /// Distant things look smaller, as to the eye.
+    /// A perspective projection: distant things look smaller.
     Perspective {
         /// The horizontal field of view, degrees.
         angle: f64,
     },
-    /// Parallel rays, as in a technical drawing.
+    /// A projection by parallel rays, as in a technical drawing.
     Orthographic {
-        /// The width that is seen, m.
+        /// The width in view, m.
         width: f64,
     },
 }
 
 impl Placed {
-    /// The camera of a picture of the given size. If the scene gives no position, the camera looks at the
-    /// bounds from the direction `towards`.
+    /// Places a camera. If the scene gives no position, the camera looks at the bounds from the direction `towards`, at the distance that
+    /// shows all of the bounds.
     fn new(camera: &Camera, bounds: Bounds, towards: DVec3, output: Output) -> Placed {
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
@@ -57,7 +57,7 @@ impl Placed {
         Placed { location, look_at, lens, blur: camera.blur, output }
     }
 
-    /// The camera at a moment. The followed body was at `start` in the first frame and is `here` now.
+    /// The camera at a time (s). The followed body of the given half-width (m) was at `start` in the first frame, and is `here` now.
     fn moved(&self, camera: &Camera, size: f64, time: f64, [start, here]: [DVec3; 2]) -> Placed {
         let motion = &camera.motion;
         let mut location = motion.location.as_ref().map_or(self.location, |location| location.at(time));
@@ -72,7 +72,7 @@ impl Placed {
             let turn = DQuat::from_rotation_y(std::f64::consts::TAU * time / period);
             location = look_at + turn * (location - look_at);
         }
-        // At its own aim a camera has no direction. There it keeps its former one.
+        // A camera at the point that it looks at has no direction, so keep its initial direction.
         if location.distance(look_at) <= 1e-6 * self.location.distance(self.look_at) {
             look_at = location + (self.look_at - self.location);
         }
@@ -85,17 +85,17 @@ impl Placed {
         Placed { location, look_at, lens, blur: self.blur, output: self.output }
     }
 
-    /// The position of the camera, m.
+    /// The position of the camera in the world, m.
     pub fn location(&self) -> DVec3 {
         self.location
     }
 
-    /// The point in the middle of the picture, m.
+    /// The point that the camera looks at, m. It is in the middle of the picture.
     pub fn look_at(&self) -> DVec3 {
         self.look_at
     }
 
-    /// The direction from a point towards it, a unit vector.
+    /// The unit vector from a point towards the camera.
     pub(super) fn towards(&self, point: DVec3) -> DVec3 {
         let way = match self.lens {
             Lens::Perspective { .. } => self.location - point,
@@ -109,35 +109,35 @@ impl Placed {
         self.lens
     }
 
-    /// The depth-of-field blur, if there is any.
+    /// The depth-of-field blur. `None` if everything is in focus.
     pub fn blur(&self) -> Option<Blur> {
         self.blur
     }
 
-    /// The point that is sharp, m, if not everything is.
+    /// The point that is in focus, m. `None` if everything is in focus.
     pub fn focus(&self) -> Option<DVec3> {
         self.blur.map(|blur| blur.focus.unwrap_or(self.look_at))
     }
 
-    /// Whether it looks straight up or down. Then the picture's upper edge is the one away from the viewer.
+    /// True if the camera looks straight up or down. The upper edge of its picture then points away from the viewer.
     pub fn is_vertical(&self) -> bool {
         let sight = self.look_at - self.location;
         sight.x.abs().max(sight.z.abs()) < 1e-6 * sight.y.abs()
     }
 
-    /// The height of its pictures, as a multiple of their width.
+    /// The height of the camera's pictures, relative to their width.
     pub fn height_to_width(&self) -> f64 {
         f64::from(self.output.height) / f64::from(self.output.width)
     }
 
-    /// Whether its pictures are so wide that POV-Ray's own rounding errors make it report mistakes.
+    /// True if the pictures are more than 100 times as wide as high. POV-Ray then reports errors because of its own rounding.
     pub fn is_wide(&self) -> bool {
         const WIDE: u32 = 100;
         self.output.width > WIDE * self.output.height
     }
 
-    /// The width in view at the camera's aim, m. If the aim is before or behind the bounds, the bounds' distance counts
-    /// instead.
+    /// The width in view at the camera's aim, m. If the aim is in front of the bounds or behind them, the nearest point of the bounds is
+    /// used instead.
     pub(super) fn width_of_view(&self, bounds: Bounds) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => {
@@ -151,7 +151,7 @@ impl Placed {
         }
     }
 
-    /// The width in view at a distance, m.
+    /// The width in view at a distance from the camera, m.
     pub(crate) fn width_at(&self, distance: f64) -> f64 {
         match self.lens {
             Lens::Perspective { angle } => 2.0 * distance * Field::new(angle, self.output).horizontal,
@@ -159,7 +159,7 @@ impl Placed {
         }
     }
 
-    /// The image plane, on which texts stand.
+    /// The image plane of the camera, on which texts are placed.
     pub fn screen(&self) -> Screen {
         let (slope, width) = match self.lens {
             Lens::Perspective { angle } => (Some(libm::tan(angle.to_radians() / 2.0)), 0.0),
@@ -180,14 +180,14 @@ pub(super) struct Eye {
 #[derive(Clone, Debug)]
 struct Moving {
     camera: Camera,
-    /// The body that it follows: its number, its position at the start, and its size, m.
+    /// The followed body: its index, its position at the start (m) and its half-width (m).
     followed: Option<(usize, DVec3, f64)>,
-    /// The box within which it follows a body.
+    /// The box within which the camera follows a body. `None` if there is no limit.
     within: Option<Bounds>,
 }
 
 impl Eye {
-    /// A camera of a scene. Without a given position, it looks at the bounds from the direction `towards`.
+    /// Creates a camera of a scene. If the scene gives no position, the camera looks at the bounds from the direction `towards`.
     pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Eye {
         let followed = camera.motion.follow.map(|follow| {
             let body = &scene.bodies[follow.body];
@@ -197,7 +197,7 @@ impl Eye {
         Eye { placed: Placed::new(camera, bounds, towards, scene.output), moving }
     }
 
-    /// The same camera, which follows a body only within a box.
+    /// Limits the camera to follow its body only within a box.
     pub(super) fn within(self, bounds: Bounds) -> Eye {
         let moving = self.moving.map(|moving| Moving { within: Some(bounds), ..moving });
         Eye { moving, ..self }
@@ -208,12 +208,12 @@ impl Eye {
         &self.placed
     }
 
-    /// Whether it moves.
+    /// True if the camera moves.
     pub(super) fn moves(&self) -> bool {
         self.moving.is_some()
     }
 
-    /// The camera at a time (s) for a followed body at its initial position.
+    /// The camera at a time (s), if the followed body stays at its initial position.
     pub(super) fn early(&self, time: f64) -> Placed {
         let Some(Moving { camera, followed, .. }) = &self.moving else { return self.placed };
         let (_, start, size) = followed.unwrap_or((usize::MAX, DVec3::ZERO, 1.0));
@@ -237,14 +237,14 @@ impl Eye {
     }
 }
 
-/// Half the largest width of a body as drawn, along its own axes, m; none for a plane.
+/// Half of the largest width of a body along its own axes, in its drawn size, m. `None` for a plane.
 pub(super) fn half_width(body: &Body) -> Option<f64> {
     let drawn = body.drawn();
     let reach = |direction| drawn.support(DQuat::IDENTITY, direction);
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).reduce(f64::max)
 }
 
-/// The aim of a camera whose scene gives only its position: the middle of the motion, or straight ahead.
+/// The aim of a camera for which the scene gives only a position: the middle of the motion, or straight ahead if the camera is there.
 fn aim(location: DVec3, auto: Framing) -> DVec3 {
     let far = auto.location.distance(auto.look_at);
     if location.distance(auto.look_at) > 1e-6 * far { auto.look_at } else { location - DVec3::Z * far }

@@ -1,25 +1,23 @@
-//! The shape of a rope that hangs between two points: a catenary of its length.
+//! The curve of a rope that hangs between two points: a catenary with the length of the rope.
 //!
-//! Let y be the depth below the first end, x the horizontal distance from it, and τ a parameter that grows by
-//! 2u along the rope. Then x = a (τ − τ₀), y = a (cosh τ₀ − cosh τ), and the arc length is a (sinh τ − sinh
-//! τ₀). For a rope of length L whose ends are h apart horizontally and v vertically, h = 2 a u, tanh((τ₀ +
-//! τ₁)/2) = v/L and sinh(u)/u = √(L² − v²)/h. Source: E. H. Lockwood, *A Book of Curves* (1961), chapter 13.
+//! Let y be the depth below the first end, x the horizontal distance from it, and τ a parameter that grows by 2u along the rope. Then x =
+//! a (τ − τ₀), y = a (cosh τ₀ − cosh τ), and the arc length is a (sinh τ − sinh τ₀). For a rope of length L whose ends are h apart
+//! horizontally and v vertically, h = 2 a u, tanh((τ₀ + τ₁)/2) = v/L and sinh(u)/u = √(L² − v²)/h. Source: E. H. Lockwood, *A Book of
+//! Curves* (1961), chapter 13.
 
 use glam::DVec3;
 
-/// The number of straight pieces of a drawn curve. Each deviates from the curve by at most h u / 2304.
+/// The number of straight pieces of a drawn curve. Each piece deviates from the curve by at most h u / 2304.
 const PIECES: u32 = 24;
 
-/// If the horizontal distance of the ends is a smaller part of the rope's length, the rope hangs straight
-/// down.
+/// The horizontal distance of the ends, relative to the rope's length, below which the rope hangs straight down.
 const UPRIGHT: f64 = 1e-9;
 
-/// If the slack is a smaller part of the distance of the ends, the rope is straight.
+/// The slack, relative to the rope's length, up to which the rope counts as straight.
 const TAUT: f64 = 1e-12;
 
-/// The points of a rope without stiffness between two ends, m; two points if it is taut. `down` is the
-/// direction of gravity, a unit vector; without gravity the rope is a circular arc. A rope shorter than the
-/// distance of its ends is a straight line.
+/// The points of a hanging rope without stiffness, m. `down` is the direction of gravity, a unit vector; without gravity the rope is a
+/// circular arc. A rope that is no longer than the distance of its ends is a straight line with two points.
 pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec<DVec3> {
     let distance = ends[0].distance(ends[1]);
     if length - distance <= TAUT * length {
@@ -29,7 +27,7 @@ pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec
     match Catenary::new(ends, length, down) {
         Some(curve) => curve.points(),
         None => {
-            // Straight down and up again.
+            // The rope hangs straight down and goes straight up again.
             let [from, to] = ends;
             let depth = (length + (to - from).dot(down)) / 2.0;
             vec![from, from + down * depth, to]
@@ -45,12 +43,12 @@ struct Catenary {
     across: DVec3,
     /// Half of the range of the parameter τ.
     half_range: f64,
-    /// Its value at the first end.
+    /// The value of the parameter τ at the first end.
     first: f64,
 }
 
 impl Catenary {
-    /// The curve for a length larger than the distance of the ends; none if one end is below the other.
+    /// Computes the curve of a rope that is longer than the distance of its ends. `None` if one end is vertically below the other.
     fn new(ends: [DVec3; 2], length: f64, down: DVec3) -> Option<Catenary> {
         let way = ends[1] - ends[0];
         let rise = -way.dot(down);
@@ -59,22 +57,21 @@ impl Catenary {
         if width < UPRIGHT * length {
             return None;
         }
-        // (L² − v²)/h² − 1, without cancellation.
+        // Compute (L² − v²)/h² − 1 without cancellation.
         let distance = way.length();
         let excess = (length - distance) * (length + distance) / (width * width);
         let half_range = solve(0.5 * libm::log1p(excess));
-        // sinh((τ₀ + τ₁)/2) = v/√(L² − v²), which is more accurate than v/L if that is nearly 1.
+        // Use sinh((τ₀ + τ₁)/2) = v/√(L² − v²), which is more accurate than v/L if v/L is nearly 1.
         let first = libm::asinh(rise / (width * libm::sqrt(1.0 + excess))) - half_range;
         Some(Catenary { ends, down, across, half_range, first })
     }
 
-    /// The point at a fraction of the parameter's range. The same fraction of the horizontal distance lies
-    /// behind it.
+    /// The point at a fraction of the parameter's range, m. The horizontal distance from the first end is the same fraction of the whole.
     fn point(&self, part: f64) -> DVec3 {
         let Catenary { ends, down, across, half_range, first } = *self;
         let half = half_range * part;
         let scale = across.length() / half_range;
-        // cosh τ − cosh τ₀ = 2 sinh((τ + τ₀)/2) sinh((τ − τ₀)/2).
+        // Use cosh τ − cosh τ₀ = 2 sinh((τ + τ₀)/2) sinh((τ − τ₀)/2).
         let rise = scale * libm::sinh(first + half) * libm::sinh(half);
         ends[0] + across * part - down * rise
     }
@@ -85,10 +82,10 @@ impl Catenary {
     }
 }
 
-/// The positive u with ln(sinh(u)/u) = s. The left-hand side is convex and increasing, so Newton's method
-/// converges from every starting point; after the first step, from the right.
+/// Computes the positive u with ln(sinh(u)/u) = s. The left-hand side is convex and increasing, so Newton's method converges from every
+/// starting point; after the first step, it converges from the right.
 fn solve(s: f64) -> f64 {
-    // ln(sinh(u)/u) ≈ u²/6, and ≈ u − ln 2u.
+    // The starting point: ln(sinh(u)/u) is about u²/6 for small u, and about u − ln 2u for large u.
     let mut u = if s < 1.0 { libm::sqrt(6.0 * s) } else { s + libm::log(2.0 * s + 2.0) };
     for _ in 0..50 {
         let (value, slope) = log_sinh_ratio(u);
@@ -101,10 +98,10 @@ fn solve(s: f64) -> f64 {
     u
 }
 
-/// ln(sinh(u)/u) and its derivative for a positive u, without cancellation.
+/// Computes ln(sinh(u)/u) and its derivative for a positive u, without cancellation.
 fn log_sinh_ratio(u: f64) -> (f64, f64) {
     if u < 0.5 {
-        // sinh(u)/u − 1 = Σ u²ᵏ/(2k + 1)!, and its derivative.
+        // The series sinh(u)/u − 1 = Σ u²ᵏ/(2k + 1)!, and its derivative.
         let square = u * u;
         let (mut term, mut sum, mut derivative) = (1.0, 0.0, 0.0);
         for k in 1..10_u32 {
@@ -118,11 +115,12 @@ fn log_sinh_ratio(u: f64) -> (f64, f64) {
     (u + libm::log1p(-fall) - libm::log(2.0 * u), (1.0 + fall) / (1.0 - fall) - 1.0 / u)
 }
 
-/// A circular arc whose length exceeds the distance of its ends. It bulges downward.
+/// The points of a circular arc that is longer than the distance of its ends, m. The arc bulges downward.
 fn arc(ends: [DVec3; 2], length: f64) -> Vec<DVec3> {
     let [from, to] = ends;
     let chord = from.distance(to);
-    // Half the angle of the arc: sin(φ)/φ = chord/length, by bisection; the left-hand side grows from π to 0.
+    // Half the angle of the arc, φ, satisfies sin(φ)/φ = chord/length. The left-hand side decreases from φ = 0 to φ = π, so bisection
+    // finds it.
     let (mut low, mut high) = (0.0, std::f64::consts::PI);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -146,10 +144,10 @@ mod tests {
 
     const DOWN: DVec3 = DVec3::NEG_Y;
 
-    /// The length of the curve by the formula of its arc.
+    /// The length of the curve from the formula for its arc length.
     fn length(curve: &Catenary) -> f64 {
         let scale = curve.across.length() / (2.0 * curve.half_range);
-        // sinh τ₁ − sinh τ₀ = 2 cosh((τ₁ + τ₀)/2) sinh((τ₁ − τ₀)/2).
+        // Use sinh τ₁ − sinh τ₀ = 2 cosh((τ₁ + τ₀)/2) sinh((τ₁ − τ₀)/2).
         2.0 * scale * libm::cosh(curve.first + curve.half_range) * libm::sinh(curve.half_range)
     }
 
@@ -161,20 +159,20 @@ mod tests {
                 [DVec3::new(0.3, 2.0, -1.0), DVec3::new(0.3, 2.0, -1.0) + DVec3::new(to[0], to[1], 0.0)];
             for slack in slacks {
                 let asked = ends[0].distance(ends[1]) * (1.0 + slack);
-                // An end that hangs nearly below the other.
+                // Only ends that hang nearly one below the other have no catenary.
                 let Some(curve) = Catenary::new(ends, asked, DOWN) else {
                     assert!(to[0] < 2.0 * UPRIGHT * asked);
                     continue;
                 };
                 assert!((length(&curve) / asked - 1.0).abs() < 1e-9, "{to:?} {slack}: {}", length(&curve));
-                // The last point follows from the curve, too.
+                // The curve must also reach the second end.
                 let missing = curve.point(1.0).distance(ends[1]);
                 assert!(missing < 1e-9 * asked, "{to:?} {slack}: {missing}");
             }
         }
     }
 
-    /// y = cosh x, between x = -1 and 1, and between 0 and 2: lengths are differences of sinh x.
+    /// The curve y = cosh x between x = -1 and 1, and between x = 0 and 2. Its length is a difference of sinh x.
     #[test]
     fn a_rope_is_a_catenary() {
         let curve = Catenary::new([DVec3::NEG_X, DVec3::X], 2.350_402_387_287_602_9, DOWN).unwrap();
@@ -215,7 +213,7 @@ mod tests {
             assert_eq!(hanging(ends, length, Some(DOWN)), ends);
             assert_eq!(hanging(ends, length, None), ends);
         }
-        // 3 m between ends that are 1 m apart, one below the other: 1 m below the lower one.
+        // A rope of 3 m, whose ends are 1 m apart vertically, hangs to 1 m below the lower end.
         let upright = hanging([DVec3::Y, DVec3::ZERO], 3.0, Some(DOWN));
         assert_eq!(upright, [DVec3::Y, DVec3::NEG_Y, DVec3::ZERO]);
         let loose = hanging([DVec3::ZERO; 2], 3.0, Some(DOWN));

@@ -1,16 +1,15 @@
-//! Colors derived from others.
+//! Colors derived from other colors.
 
 use crate::scene::{Color, Look, Scene};
 
-/// The color of a body's ghost: closer to the background, which is `dark` or light.
+/// The color of a body's ghost: the body's color, mixed with the color of a `dark` or light background.
 pub fn pale(color: Color, dark: bool) -> Color {
     const PALER: f64 = 0.5;
     let towards = if dark { 0.12 } else { 0.93 };
     Color(color.0.map(|part| part + PALER * (towards - part)))
 }
 
-/// A color that stands out from the background, which is `dark` or light: dark colors become lighter before a
-/// dark one.
+/// Adjusts a color so that it stands out from a `dark` or light background. Dark colors become lighter on a dark background.
 pub(super) fn seen(color: Color, dark: bool) -> Color {
     const BRIGHT_ENOUGH: f64 = 0.12;
     let [red, green, blue] = color.linear();
@@ -19,7 +18,7 @@ pub(super) fn seen(color: Color, dark: bool) -> Color {
     Color(color.0.map(|part| part + white * (1.0 - part)))
 }
 
-/// The single color of a look, if it has one.
+/// The color of a look that has a single color. `None` for patterns and textures.
 pub fn of_look(look: &Look) -> Option<Color> {
     match look {
         Look::Plain { color, .. } => Some(*color),
@@ -28,7 +27,7 @@ pub fn of_look(look: &Look) -> Option<Color> {
     }
 }
 
-/// The usual color of text.
+/// The default color of text in a scene.
 pub(super) fn ink(scene: &Scene) -> Color {
     if scene.environment.is_dark() { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
 }

@@ -1,22 +1,22 @@
-//! The default position of the camera.
+//! Chooses the position of a camera for which the scene gives none.
 
 use glam::DVec3;
 
 use crate::scene::Output;
 use crate::simulate::Bounds;
 
-/// Far to the front, a little to the side, a little above.
+/// The direction from the motion to the camera: mainly to the front, a little to the side, and a little above.
 const FRONT: f64 = 1.0;
 const ASIDE: f64 = 0.16;
 const ABOVE: f64 = 0.11;
-/// Higher, so that numbers on the ground can be read.
+/// The upward component of the direction to the camera if the ground has numbers, which are read from above.
 const ABOVE_GRID: f64 = 0.36;
-/// Much higher, so that a circle on the ground is seen as an ellipse and not edge-on.
+/// The upward component of the direction to the camera for flat motion: a circle on the ground is seen as an ellipse, and not edge-on.
 const HIGH_ABOVE: f64 = 0.7;
 
-/// The direction from the middle of the motion towards a camera without a given position. It faces the plane
-/// of the motion: from the front as a rule, along x for motion in y and z, from above for motion in x and z,
-/// and from a little above if the ground has numbers.
+/// Chooses the direction from the middle of the motion towards a camera without a given position. The camera faces the plane of the
+/// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. If the ground has numbers, the camera
+/// is somewhat higher.
 pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     let extent = moving.max - moving.min;
     let from_the_side = extent.z > 2.0 * extent.x;
@@ -30,17 +30,17 @@ pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
 }
 
-/// The largest part of the picture's width and height that the motion may fill.
+/// The largest fraction of the picture's width and height that the motion may fill.
 const FILL: f64 = 0.86;
 
-/// The position of a camera and the point that it looks at.
+/// The position of a camera and the point that it looks at, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Framing {
     pub(super) location: DVec3,
     pub(super) look_at: DVec3,
 }
 
-/// The field of view: the tangents of half its angles.
+/// The field of view: the tangents of half of its horizontal and vertical angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Field {
     pub(super) horizontal: f64,
@@ -48,7 +48,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// The field of a camera with a horizontal angle in degrees.
+    /// Creates the field of view of a camera with a horizontal angle in degrees.
     pub(super) fn new(angle: f64, output: Output) -> Field {
         // An angle may reach 180°, for which no distance is large enough.
         let horizontal = libm::tan(angle.min(160.0).to_radians() / 2.0);
@@ -56,29 +56,28 @@ impl Field {
     }
 }
 
-/// Places the camera so that the bounds fill the picture. With `look_at` given, only the distance is chosen.
+/// Places a perspective camera in the direction `towards` so that the bounds fill the picture. If the scene gives the aim `look_at`, only
+/// the distance is chosen.
 pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, towards: DVec3) -> Framing {
     let (right, up, back) = axes(towards);
     let corners = corners(bounds);
     let mut aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
     let mut distance = distance(&corners, aim, (right, up, back), field);
     if look_at.is_none() {
-        // Nearer things look larger, so the middle of the box is not the middle of its picture. Shift the aim
-        // until it is. Each iteration removes most of the error.
+        // Near things look larger, so the center of the box is not in the middle of the picture. Shift the aim until the picture is
+        // centered. Each iteration removes most of the error.
         for _ in 0..6 {
             let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
             aim += (right * x + up * y) * distance;
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
-    // A given aim may lie so far behind everything that every distance will do. The camera still stands in
-    // front of it.
+    // If a given aim lies far behind the bounds, even a distance of 0 would show all of the bounds. Keep the camera in front of its aim.
     let size = (bounds.max - bounds.min).length();
     rounded(aim, back, if distance > 1e-3 * size { distance } else { size })
 }
 
-/// Places an orthographic camera in the direction `towards` from its aim. Also returns the width that it has
-/// to see, m.
+/// Places an orthographic camera in the direction `towards` from its aim. Also returns the width in view that shows all of the bounds, m.
 pub(super) fn orthographic(
     bounds: Bounds,
     output: Output,
@@ -93,20 +92,20 @@ pub(super) fn orthographic(
         offset.dot(right).abs().max(offset.dot(up).abs() * aspect)
     };
     let width = 2.0 * corners(bounds).into_iter().map(half).fold(0.0, f64::max) / FILL;
-    // Any distance in front of everything gives the same picture.
+    // With parallel rays, the picture is the same from any distance in front of all bodies.
     let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));
     (rounded(aim, back, distance), width)
 }
 
-/// The right, up and back vectors of a camera, from the direction towards it.
+/// The unit vectors of a camera to the right, up and back, from the direction towards the camera.
 fn axes(towards_camera: DVec3) -> (DVec3, DVec3, DVec3) {
     let back = towards_camera.normalize();
-    // For a camera that looks straight down, up points away from the viewer.
+    // For a camera that looks straight down, the picture's upper edge points away from the viewer.
     let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
     (right, back.cross(right), back)
 }
 
-/// A position and an aim rounded to visible digits.
+/// Rounds the position and the aim of a camera to about three digits of its distance.
 fn rounded(aim: DVec3, back: DVec3, distance: f64) -> Framing {
     let step = decimal_step(distance) / 100.0;
     let round = |point: DVec3| (point / step).round() * step;
@@ -124,7 +123,7 @@ fn corners(bounds: Bounds) -> [DVec3; 8] {
     })
 }
 
-/// The least distance from the aim at which the field contains all corners.
+/// The smallest distance from the aim at which all corners are in view, m.
 fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field: Field) -> f64 {
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
@@ -136,7 +135,7 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     corners.iter().map(needed).fold(0.0, f64::max)
 }
 
-/// The middle of the corners' picture, as slopes from the line of sight.
+/// The middle of the corners in the picture: the tangents of its horizontal and vertical angles from the line of sight.
 fn middle_of_picture(
     corners: &[DVec3; 8],
     aim: DVec3,
@@ -156,16 +155,15 @@ fn middle_of_picture(
     (middle(|s| s.0), middle(|s| s.1))
 }
 
-/// Bounds rounded outward to two digits of their largest edge, so that small edits of a scene do not move its
-/// camera.
+/// Rounds bounds outward to two digits of their largest edge, so that small edits of a scene do not move its camera.
 pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
     let step = decimal_step((bounds.max - bounds.min).max_element()) / 10.0;
-    // A value on a mark, up to rounding, stays there.
+    // A coordinate that is a multiple of the step, except for rounding errors, is kept.
     let slack = DVec3::splat(1e-6);
     Bounds { min: (bounds.min / step + slack).floor() * step, max: (bounds.max / step - slack).ceil() * step }
 }
 
-/// The largest power of ten that is not larger than a positive number.
+/// The largest power of ten that does not exceed a positive number.
 pub(crate) fn decimal_step(number: f64) -> f64 {
     let exponent = libm::floor(libm::log10(number) + 1e-12);
     libm::pow(10.0, exponent)
@@ -201,7 +199,7 @@ mod tests {
                 let y = offset.dot(up).abs() / depth / field.vertical;
                 fullest = fullest.max(x).max(y);
             }
-            // The camera's place is rounded to a hundredth of its distance at most.
+            // The position of the camera is rounded to at most a hundredth of its distance.
             assert!((fullest - FILL).abs() < 0.03, "{bounds:?} fills {fullest}");
         }
     }

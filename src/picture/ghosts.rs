@@ -1,22 +1,22 @@
-//! Ghosts: earlier copies of the bodies.
+//! Ghosts: copies of bodies at earlier times.
 
 use crate::scene::{Body, Scene};
 use crate::simulate::{Frame, Ghost};
 
-/// A ghost nearer to its body than this is not drawn, m: POV-Ray mixes surfaces that coincide.
+/// The smallest distance between a body and a visible ghost of it, m. Nearer ghosts are omitted, since POV-Ray mixes coinciding surfaces.
 pub(super) fn near(body: &Body) -> f64 {
     0.02 * body.drawn().half_thickness().unwrap_or(0.0)
 }
 
-/// Whether two orientations, given by the product of their quaternions, look different.
+/// True if two orientations look different, given the dot product of their quaternions.
 pub(super) fn is_turned(product: f64) -> bool {
     product.abs() < 1.0 - 1e-4
 }
 
-/// The ghosts of a scene.
+/// The bodies of a scene that have ghosts.
 #[derive(Clone, Debug)]
 pub(super) struct Ghosts {
-    /// The bodies with ghosts, in the order of their numbers, and how near a ghost may be to its body, m.
+    /// The index of each body with ghosts, in increasing order, and the smallest distance of a visible ghost from the body, m.
     bodies: Vec<(usize, f64)>,
 }
 
@@ -26,8 +26,7 @@ impl Ghosts {
         Ghosts { bodies: bodies.map(|(number, body)| (number, near(body))).collect() }
     }
 
-    /// The visible ghosts of a frame: those that are not at their bodies. Ghosts of bodies that are gone
-    /// stay.
+    /// The visible ghosts of a frame: those with another pose than their body. Ghosts of absent bodies stay visible.
     pub(super) fn drawn<'a>(&self, frame: &'a Frame) -> impl Iterator<Item = &'a Ghost> {
         frame.past.ghosts.iter().map(AsRef::as_ref).filter(|ghost| self.is_drawn(ghost, frame))
     }

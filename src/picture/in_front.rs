@@ -1,5 +1,5 @@
-//! Moves arrows towards the camera if the ground, a spring or a joint would hide them. Their picture stays
-//! the same.
+//! Moves arrows towards the camera if the ground, a spring or a joint would hide them. Their position and size in the picture stay the
+//! same.
 
 use glam::DVec3;
 
@@ -10,13 +10,13 @@ use super::stage::Stage;
 use crate::dynamics::{BodySnapshot, Shape};
 use crate::scene::{Body, Quantity, Scene};
 
-/// No arrow is moved nearer to the camera than this part of its distance.
+/// The smallest fraction of its distance from the camera to which an arrow is moved.
 const NEAREST: f64 = 0.02;
 
-/// The planes that may hide arrows in all frames: the ground and plane bodies.
+/// The planes that may hide arrows: the ground and plane bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Planes {
-    /// A point of each, m, and its normal.
+    /// A point (m) and the unit normal of each plane.
     planes: Vec<(DVec3, DVec3)>,
 }
 
@@ -35,7 +35,7 @@ impl Planes {
         for (point, normal) in &self.planes {
             let above = |place: DVec3| (place - *point).dot(*normal);
             let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
-            // How much the shaft and the head lack to lie above the plane.
+            // The additional height that the shaft and the head need to be completely above the plane.
             let lacking = (HEAD * shaft - above(arrow.to)).max(shaft - above(arrow.from));
             let eye = above(camera.location());
             if lacking > 0.0 && eye > 0.0 {
@@ -53,13 +53,13 @@ impl Planes {
     }
 }
 
-/// Moves an arrow in front of a spring or a joint that contains it.
+/// Moves an arrow in front of a spring or joint if the arrow is inside.
 pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;
     let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;
     let Some([begin, end]) = link.lines().find(is_hidden) else { return };
     let middle = (arrow.from + arrow.to) / 2.0;
-    // For a line seen end-on, the way out would be long.
+    // If the line is seen end-on, the sideways distance would be very long, so limit it.
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
     *arrow = match camera.lens() {
@@ -68,8 +68,8 @@ pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed
     };
 }
 
-/// Moves an arrow for a load in front of its body. Friction is in front of the normal force, and that in
-/// front of the weight.
+/// Moves an arrow for a weight or contact force in front of its body. Friction is drawn in front of the normal force, and the normal force
+/// in front of the weight.
 pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, camera: &Placed) {
     let middle = (arrow.from + arrow.to) / 2.0;
     let towards = camera.towards(middle);
@@ -87,7 +87,7 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
     }
 }
 
-/// The arrow moved to a fraction of its distance from the camera, which sees no difference.
+/// Moves an arrow to a fraction of its distance from the camera, and scales it by the same fraction. Its picture stays the same.
 fn nearer(arrow: &Arrow, camera: &Placed, part: f64) -> Arrow {
     let eye = camera.location();
     let part = part.clamp(NEAREST, 1.0);
@@ -99,7 +99,7 @@ fn shifted(arrow: &Arrow, way: DVec3) -> Arrow {
     Arrow { from: arrow.from + way, to: arrow.to + way, ..*arrow }
 }
 
-/// The distance between two segments.
+/// The smallest distance between two line segments.
 ///
 /// Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.9.
 fn distance([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {

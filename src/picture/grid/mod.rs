@@ -1,4 +1,4 @@
-//! The grid: lines with numbers, to read lengths from.
+//! The grid: lines with numbers, to read positions from.
 
 mod numbers;
 
@@ -14,57 +14,57 @@ use crate::simulate::{Bounds, anchors};
 
 pub(super) use self::numbers::Ruled;
 
-/// The height of the numbers at grid lines, as part of the picture's height.
+/// The height of the numbers at grid lines, relative to the height of the picture.
 pub(super) const SIZE: f64 = 0.045;
-/// The least height of these numbers, pixels.
+/// The smallest height of the numbers at grid lines, pixels.
 pub(super) const LEAST_PIXELS: f64 = 11.0;
-/// The most lines of the grid in each direction.
+/// The largest number of grid lines in each direction.
 const MOST_LINES: f64 = 400.0;
-/// The radius of a line, in strokes.
+/// The radius of a grid line, in strokes. A stroke is the width of a clearly visible line.
 const RADIUS: f64 = 0.22;
-/// The least radius of a line, pixels: thinner lines look broken.
+/// The smallest radius of a grid line, pixels: thinner lines look broken.
 const LEAST_RADIUS: f64 = 0.6;
-/// How far a grid reaches in each direction from the aim of a moving camera, in widths of the picture.
+/// The extent of a grid in each direction from the aim of a moving camera, in widths of the picture.
 const WINDOW: f64 = 1.5;
 
 /// The lines of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// The lines, first those that cross the axis to the right.
+    /// The grid lines: first those at different x, then those in the other direction.
     pub lines: Vec<Line>,
-    /// Their color.
+    /// The color of the lines.
     pub color: Color,
 }
 
-/// A line of a grid: a cylinder.
+/// A line of a grid, drawn as a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
-    /// Its start, m.
+    /// The start of the line, m.
     pub from: DVec3,
-    /// Its end, m.
+    /// The end of the line, m.
     pub to: DVec3,
-    /// Half its width, m.
+    /// Half the width of the line, m.
     pub radius: f64,
 }
 
-/// A grid before it is laid out for a camera: its plane and its extent.
+/// The plane, the spacing and the extent of a grid. [`Ruled`] is the grid laid out for a camera.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     plane: GridPlane,
-    /// The distance between lines, m.
+    /// The distance between two lines, m.
     spacing: f64,
-    /// The spacing that the scene gives, m, if it would make too many lines.
+    /// The spacing that the scene gives, m, if the drawn spacing is larger because there would be too many lines.
     too_fine: Option<f64>,
-    /// The numbers of the first and the last lines along x, y and z, counted from the origin.
+    /// The numbers of the first and the last lines along x, y and z: multiples of the spacing, from the origin.
     low: DVec3,
     high: DVec3,
     /// The height of the ground, m.
     ground: f64,
-    /// The height below which the ground hides an upright grid, m.
+    /// The height below which the ground hides an upright grid, m. −∞ if it hides nothing.
     floor: f64,
-    /// The height of a line of text on the screen.
+    /// The height of a line of text in the image plane.
     height: f64,
-    /// The width of the image, pixels, and its height as part of its width.
+    /// The width of the image, pixels, and its height relative to its width.
     pixels: f64,
     aspect: f64,
     color: Color,
@@ -72,7 +72,7 @@ pub(super) struct Ruler {
 }
 
 impl Ruler {
-    /// The grid of a scene. `part` is the width in view of a moving camera, m.
+    /// Plans the grid of a scene. `part` is the width in view of a moving camera, m; `None` for a fixed camera.
     pub(super) fn new(
         scene: &Scene,
         grid: scene::Grid,
@@ -112,7 +112,8 @@ impl Ruler {
         }
     }
 
-    /// The spacing that the scene gives and the drawn one, m, if the first would make too many lines.
+    /// The spacing that the scene gives and the drawn spacing, m. `None` if they are equal; the drawn one is larger if there would be too
+    /// many lines.
     pub(super) fn too_fine(&self) -> Option<(f64, f64)> {
         self.too_fine.map(|given| (given, self.spacing))
     }
@@ -126,7 +127,7 @@ impl Ruler {
         Bounds { min, max }
     }
 
-    /// Lifts a point of an upright grid to the ground.
+    /// Lifts a point of an upright grid to the ground if the ground would hide it.
     fn above_floor(&self, point: DVec3) -> DVec3 {
         match self.plane {
             GridPlane::Ground => point,
@@ -134,7 +135,7 @@ impl Ruler {
         }
     }
 
-    /// The axes that span the plane, and a point of it, slightly off the ground so that both are seen.
+    /// The unit vectors along the grid's lines, and a point in the plane of the grid, m.
     fn axes(&self) -> (DVec3, DVec3, DVec3) {
         match self.plane {
             GridPlane::Ground => (DVec3::X, DVec3::Z, DVec3::Y * self.ground),
@@ -142,20 +143,19 @@ impl Ruler {
         }
     }
 
-    /// The whole grid with its numbers, for a stroke width and a width in view, m.
+    /// Lays out the whole grid with its numbers, for a stroke width (m) and a width in view (m).
     pub(super) fn whole(&self, stroke: f64, view: f64) -> Ruled {
         self.rule(self.low, self.high, stroke, view)
     }
 
-    /// The part of the grid around the view of a moving camera. Its lines leave the picture on all sides.
+    /// Lays out the part of the grid around the view of a moving camera. Its lines extend beyond all edges of the picture.
     pub(super) fn seen_by(&self, camera: &Placed, stroke: f64, view: f64) -> Ruled {
         let (first, second, place) = self.axes();
         let (look_at, normal) = (camera.look_at(), first.cross(second));
         let screen = camera.screen();
         let window = DVec3::splat(WINDOW * view);
         let far = 2.0 * window.x + camera.location().distance(look_at);
-        // The points of the plane in the corners of the picture, or distant ones where the plane is out of
-        // sight.
+        // The points of the grid's plane that are seen in the corners of the picture. Where the plane is out of sight, use distant points.
         let corners = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]].map(|[x, y]| {
             let (origin, direction) = screen.ray(x, y * self.aspect);
             let away = (place - origin).dot(normal) / direction.dot(normal);
@@ -178,12 +178,12 @@ impl Ruler {
         let (a0, a1) = (low.dot(first), high.dot(first));
         let (b0, b1) = (low.dot(second), high.dot(second));
         let is_hidden = |b: f64| self.plane == GridPlane::Wall && b * spacing < self.floor;
-        // Numbers stand at the near end of lines on the ground, and at the lower end on a wall.
+        // The numbers of lines on the ground are at their near ends; those of lines on a wall are at their lower or left ends.
         let (near, far) = if self.plane == GridPlane::Ground { (b1, b0) } else { (b0, b1) };
         let across = marks(a0, a1).map(|a| (a, [corner(a, near), corner(a, far)]));
         let along = marks(b0, b1).filter(|b| !is_hidden(*b)).map(|b| (b, [corner(a0, b), corner(a1, b)]));
         let (across, along): (Vec<_>, Vec<_>) = (across.collect(), along.collect());
-        // The lines through 0 are the axes.
+        // The coordinate axes are lines through 0. They are wider.
         let width = |number: f64| if number == 0.0 { 2.2 * radius } else { radius };
         let lines = across.iter().chain(&along).filter(|(_, [from, to])| from != to);
         let lines = lines.map(|(number, [from, to])| Line { from: *from, to: *to, radius: width(*number) });
@@ -192,7 +192,7 @@ impl Ruler {
             let number = |&(line, ends): &(f64, _)| Number { line, says: value(line * spacing / unit), ends };
             lines.iter().map(number).collect::<Vec<_>>()
         };
-        // In the order of the labels: the last line along the ground is the far one.
+        // The last number carries the axis name, so lines on the ground are listed from near to far.
         let (beside, name, along) = match self.plane {
             GridPlane::Ground => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
             GridPlane::Wall => (Beside::Left, "y", along.clone()),
@@ -212,13 +212,13 @@ impl Ruler {
     }
 }
 
-/// The first and the last line of a grid that covers the whole motion.
+/// The numbers of the first and the last line of a grid that covers the whole motion.
 fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DVec3) {
-    // Bodies may reach out a little. The grid includes 0 if it is near.
+    // Bodies may extend a little beyond the grid. A nearby origin is included.
     let (low, high) = ((bounds.min / spacing + 0.3).floor(), (bounds.max / spacing - 0.3).ceil());
     let mut low = DVec3::select(low.cmpgt(DVec3::ZERO) & low.cmple(0.3 * high), DVec3::ZERO, low);
     let mut high = high.max(low + 1.0);
-    // Motion along a line gets a plane at least 0.4 times as wide as long.
+    // For motion along a line, the grid is widened to at least 0.4 times its length.
     let widen = |low: &mut f64, high: &mut f64, least: f64| {
         let lacking = (least - (*high - *low)).max(0.0);
         *low -= (lacking / 2.0).ceil();
@@ -235,14 +235,14 @@ fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DV
     (low, high)
 }
 
-/// The whole numbers from `low` to `high`, by a counter: far from 0, adding 1 to a number may not change it.
+/// The whole numbers from `low` to `high`. A counter is used because far from 0, adding 1 to a number may not change it.
 fn marks(low: f64, high: f64) -> impl Iterator<Item = f64> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what is too large is cut")]
     let last = (high - low).min(MOST_LINES) as u32;
     (0..=last).map(move |number| low + f64::from(number)).filter(move |mark| *mark <= high)
 }
 
-/// The color of the lines of a grid: just visible.
+/// The color of grid lines: just visible against the background.
 fn line_color(scene: &Scene) -> Color {
     match scene.environment.preset {
         _ if scene.environment.is_dark() => Color([0.34, 0.38, 0.43]),

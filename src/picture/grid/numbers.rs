@@ -8,20 +8,20 @@ use super::super::text::{MARGIN, Text, Vertical, width};
 use super::Grid;
 use crate::scene::Color;
 
-/// Every line has a number, or every second, every fifth and so on, as there is room.
+/// The possible distances between two numbered lines, in grid lines. The smallest one that leaves enough room is used.
 const STEPS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
-/// The number of points at which a line with an end outside the picture is searched for one inside.
+/// If the end of a line is outside the picture, this many points of the line are tested to find one inside.
 const POINTS: u32 = 48;
 
-/// A grid with its numbers.
+/// A grid laid out for a camera, with its numbers.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Ruled {
     pub(super) grid: Grid,
-    /// The numbers of both axes.
+    /// The numbers along both axes of the grid.
     pub(super) axes: [Axis; 2],
-    /// The height of a line of text on the screen.
+    /// The height of a line of text in the image plane.
     pub(super) height: f64,
-    /// The height of the picture, as part of its width.
+    /// The height of the picture, relative to its width.
     pub(super) aspect: f64,
     pub(super) ink: Color,
 }
@@ -29,42 +29,43 @@ pub(in super::super) struct Ruled {
 /// The numbers along one edge of a grid.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
-    /// On which side of their points they stand.
+    /// The side of the line ends on which the numbers are written.
     pub(super) beside: Beside,
-    /// One for each line that begins at the edge, in order.
+    /// The numbers of the lines that begin at this edge, in order.
     pub(super) numbers: Vec<Number>,
-    /// The name of the axis.
+    /// The name of the axis, with its unit.
     pub(super) title: String,
 }
 
-/// The number of a line.
+/// The number that is written at a grid line.
 #[derive(Clone, Debug)]
 pub(super) struct Number {
-    /// Which line it is, counted from the origin.
+    /// The number of the line, counted in spacings from the origin.
     pub(super) line: f64,
     pub(super) says: String,
-    /// The ends of the line, m. The number stands at the first.
+    /// The two ends of the line, m. The text is at the first end.
     pub(super) ends: [DVec3; 2],
 }
 
 /// The position of numbers relative to the ends of their lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Beside {
-    /// Below; the axis name is to the right of the last number.
+    /// Below the line ends. The axis name is to the right of the last number.
     Below,
-    /// To the left; the axis name is above the last number.
+    /// To the left of the line ends. The axis name is above the last number.
     Left,
-    /// To the left; the axis name replaces the last number.
+    /// To the left of the line ends. The axis name replaces the last number.
     LeftOnGround,
 }
 
-/// The texts at a grid.
+/// The texts of a grid: the names of its axes, and its numbers.
 pub(in super::super) struct Written {
     pub(in super::super) titles: Vec<Text<'static>>,
     pub(in super::super) numbers: Vec<Text<'static>>,
 }
 
-/// A text with a position but no color: its base line begins at x.
+/// A text with a position in the image plane, but without a color. `align` is the part of the text at `x`; `middle` and `half` are its
+/// horizontal center and half-width.
 struct Placed {
     line: f64,
     says: String,
@@ -76,13 +77,13 @@ struct Placed {
 }
 
 impl Ruled {
-    /// The lines.
+    /// The lines of the grid.
     pub(in super::super) fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The numbers and names in the image plane, where there is room. They keep off coils, except for a name
-    /// with no other free position.
+    /// Places the numbers and axis names in the image plane, where there is room. They avoid the coils of springs, except for an axis name
+    /// without another free position.
     pub(in super::super) fn written(&self, screen: &Screen, room: &Room, coils: &Room) -> Written {
         let lines = self.axes.each_ref().map(|axis| self.in_picture(axis, screen));
         let mut titles: Vec<Placed> = Vec::new();
@@ -110,12 +111,12 @@ impl Ruled {
         Written { titles: texts(titles), numbers: texts(placed) }
     }
 
-    /// The visible numbers of an axis.
+    /// Places the numbers of an axis that are in the picture.
     fn in_picture(&self, axis: &Axis, screen: &Screen) -> Vec<Placed> {
         axis.numbers.iter().filter_map(|number| self.place(number, axis.beside, screen)).collect()
     }
 
-    /// The position of a number: the end of its line, or the point where the line enters the picture.
+    /// Places a number at the end of its line, or where the line enters the picture. `None` if the line is out of the picture.
     fn place(&self, number: &Number, beside: Beside, screen: &Screen) -> Option<Placed> {
         let [begin, end] = number.ends;
         let at = |part: f64| self.at(number, begin.lerp(end, part), beside, screen);
@@ -130,7 +131,7 @@ impl Ruled {
             let middle = (outside + inside) / 2.0;
             if is_in(middle).is_some() { inside = middle } else { outside = middle }
         }
-        // Numbers enter over their own edge only, or both axes would stand at one edge.
+        // A line may enter the picture only over its axis's own edge. Otherwise the numbers of both axes would be mixed at one edge.
         let over = at(outside);
         let own = over.is_none_or(|text| match beside {
             Beside::Below => text.y <= self.lowest(),
@@ -154,8 +155,8 @@ impl Ruled {
         Placed { line, says, x, y, align, middle: x + (1.0 - 2.0 * align) * half, half }
     }
 
-    /// The name of an axis: next to its last number or, if there is no room, in the place of one as near to
-    /// the last as possible, and off coils if possible.
+    /// Places the name of an axis next to its last number. If there is no room, the name replaces a number as near to the last one as
+    /// possible. Positions on coils are used only as a last resort.
     fn title(
         &self,
         axis: &Axis,
@@ -173,7 +174,7 @@ impl Ruled {
             Beside::Left => Some(title((last.x + 0.4 * height, last.y + height), 0.5)),
             Beside::LeftOnGround => None,
         };
-        // Replacing the only number would leave none.
+        // The only number of an axis must not be replaced, so the name is written behind it.
         let behind = title((last.middle + last.half + 0.6 * height, last.y), 0.0);
         let behind = (numbers.len() == 1 && axis.beside != Beside::Below).then_some(behind);
         let instead = numbers.iter().skip(1).rev().map(|number| match axis.beside {
@@ -183,7 +184,7 @@ impl Ruled {
         let is_free = |text: &Placed| {
             room.is_free(self.area(text)) && !others.iter().any(|other| self.collide(other, text))
         };
-        // At the edge, the name would cover the number that it follows.
+        // At the edge of the picture, the name would be moved back onto the last number.
         let beyond = beyond.filter(|text| !self.collide(text, last));
         let mut free = beyond.into_iter().chain(behind).chain(instead).filter(is_free);
         let off_coils = |text: &Placed| coils.is_free(self.area(text));
@@ -191,7 +192,7 @@ impl Ruled {
         if off_coils(&first) { Some(first) } else { free.find(off_coils).or(Some(first)) }
     }
 
-    /// A name that would leave the picture, moved to its edge.
+    /// Moves an axis name to the edge of the picture if it would extend beyond this edge.
     fn kept_inside(&self, text: Placed) -> Placed {
         let room = (1.0 - MARGIN / 2.0 - text.half).max(0.0);
         let high = self.aspect - self.height;
@@ -200,12 +201,12 @@ impl Ruled {
         Placed { x: text.x + middle - text.middle, middle, y, ..text }
     }
 
-    /// The lowest base line in the picture.
+    /// The lowest vertical position of a base line inside the picture.
     fn lowest(&self) -> f64 {
         0.3 * self.height - self.aspect
     }
 
-    /// The left limit for numbers.
+    /// The smallest horizontal position of a number inside the picture.
     fn leftmost(&self) -> f64 {
         0.2 * self.height - 1.0
     }
