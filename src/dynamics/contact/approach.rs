@@ -1,9 +1,9 @@
 //! Finds the time at which two bodies first touch within a step.
 //!
-//! The rate at which their gap shrinks is bounded by the velocity and the rotation along the normal n, and by the
-//! curvature of the paths. Steps that are safe by this bound lead to the touch at any speed. Near it, each place has a
-//! bound of its own: one corner can leave the floor while another comes down. Source: B. V. Mirtich, *Impulse-based
-//! dynamic simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
+//! The rate at which their gap closes is bounded by the velocity and the rotation along the normal n, and by the curvature of the paths.
+//! Time steps that are safe by this bound lead to the first touch at any speed. When the bodies are close, each pair of nearby points has
+//! a bound of its own: one corner can leave the floor while another comes down. Source: B. V. Mirtich, *Impulse-based dynamic simulation
+//! of rigid body systems* (1996), chapter 2 (conservative advancement).
 
 use glam::DVec3;
 
@@ -12,36 +12,37 @@ use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
 use super::touch::touches;
 
-/// Bodies touch if their gap is below this part of the coordinates, a few roundings. Lower bounces are ignored.
+/// Bodies touch if their gap is below this fraction of their coordinates, a few rounding errors. Lower bounces are ignored.
 pub(super) const TOUCH: f64 = 4e-15;
 
-/// Bodies nearer than this part of the smaller one are examined place by place.
+/// If the gap of two bodies is below this fraction of the smaller one's size, all pairs of nearby points are examined.
 const CLOSE: f64 = 0.01;
 
-/// Rounding beyond an edge can make a place's gap too small by this part of the smaller body.
+/// The tolerance for the gap of a pair of points, as a fraction of the smaller body's size. Rounding beyond an edge can make this gap too
+/// small.
 const SLACK: f64 = 1e-8;
 
-/// The largest number of safe steps. The rest is covered in steps of this part of the whole.
+/// The largest number of safe time steps in one search. After them, each step covers at least the fraction `PART` of the whole interval.
 const STEPS: usize = 2_000;
 const PART: f64 = 1.0 / 64.0;
 
-/// Two bodies on their paths through a step.
+/// The search for the first touch of two bodies on their paths through a step.
 pub(super) struct Approach<'a> {
     pub(super) solids: [&'a Solid; 2],
     pub(super) paths: [&'a Path; 2],
-    /// Below this rate a gap does not shrink, m/s.
+    /// Gaps that close at less than this rate do not count as approaching, m/s.
     pub(super) slight: f64,
-    /// At this gap they touch, m.
+    /// The bodies touch if their gap is at most this, m.
     pub(super) touch: f64,
 }
 
-/// The place where two bodies are nearest, and all other places where they are nearer than `within`, m.
+/// Returns the closest points of two bodies, `near`, and all other pairs of points that are closer than `within`, m.
 pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, within: f64) -> Vec<Nearest> {
     let mut all = vec![near];
     let [a, b] = solids;
     let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
     if !has_one(a, b) && !has_one(b, a) {
-        // No place is nearer than the nearest one. One that seems so lies on the far side of an edge.
+        // No pair of points is closer than the closest points. A pair that seems to be lies on the far side of an edge.
         let slack = SLACK * a.size().min(b.size());
         let others = touches(a, poses[0], b, poses[1], within);
         let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
@@ -50,18 +51,20 @@ pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, with
     all
 }
 
-/// Whether both are convex. If neither rotates, a plane between them at the nearest place bounds their gap everywhere.
+/// Returns true if both bodies are single convex solids. If neither rotates, a plane between their closest points bounds their gap
+/// everywhere.
 pub(super) fn are_convex(solids: [&Solid; 2]) -> bool {
     solids.iter().all(|solid| solid.parts().len() == 1 && !solid.is_surface())
 }
 
-/// Bodies nearer than this are examined place by place, m.
+/// Returns the gap, m, below which all pairs of nearby points of two bodies are examined.
 pub(super) fn close(solids: [&Solid; 2]) -> f64 {
     CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
 }
 
 impl Approach<'_> {
-    /// The first time before `end` at which they touch and approach, s after the beginning.
+    /// Returns the first time before `end` at which the bodies touch and approach, in seconds after the beginning of the step. `None` if
+    /// they do not.
     pub(super) fn first(&self, end: f64) -> Option<f64> {
         let close = close(self.solids);
         let turns = self.paths.map(|path| path.turning != DVec3::ZERO || path.first_turning != DVec3::ZERO);
@@ -87,7 +90,7 @@ impl Approach<'_> {
                     is_stuck |= is_touched && rate <= self.slight;
                 }
             }
-            // Touching without approach, and endless approach, are passed in small steps.
+            // Bodies that touch without approaching, or approach endlessly, are passed in small steps.
             time += if is_stuck { safe.max(PART * end) } else { safe };
             if time.is_nan() || time >= end {
                 return None;
@@ -96,7 +99,7 @@ impl Approach<'_> {
         None
     }
 
-    /// The rate of a gap, m/s.
+    /// Computes the rate of the gap at one pair of points, m/s. It is negative while the bodies approach.
     fn rate(&self, place: &Nearest, moving: &[Moving; 2], time: f64) -> f64 {
         let at = |i: usize| {
             let arm = place.on[i] - moving[i].pose.location;
@@ -107,7 +110,7 @@ impl Approach<'_> {
         place.normal.dot(at(1) - at(0))
     }
 
-    /// The largest rate at which the gap of any two places can shrink, m/s, and a bound of its second derivative, m/s².
+    /// Computes the largest rate at which the gap of any pair of points can close, m/s, and a bound of the gap's second derivative, m/s².
     fn bounds(&self, near: &Nearest, moving: &[Moving; 2]) -> (f64, f64) {
         let velocity = moving[1].velocity - moving[0].velocity;
         let mut shrink = -near.normal.dot(velocity);
@@ -115,7 +118,7 @@ impl Approach<'_> {
         for (i, body) in moving.iter().enumerate() {
             let turning = self.paths[i].turning;
             if turning.length_squared() > 0.0 {
-                // An infinite body rotates about a place that can be far away.
+                // A body of infinite size can touch far from its center, so the contact point bounds its reach.
                 let reach = self.solids[i].reach();
                 let reach = if reach.is_finite() {
                     reach
@@ -123,21 +126,22 @@ impl Approach<'_> {
                     2.0 * (near.on[i] - body.pose.location).length() + self.solids[1 - i].reach()
                 };
                 shrink += turning.cross(near.normal).length() * reach;
-                // The normal rotates as well.
+                // The contact normal rotates with the body as well.
                 bend += turning.length_squared() * reach + 2.0 * turning.length() * velocity.length();
             }
         }
         (shrink, bend)
     }
 
-    /// A lower bound of the time in which a gap closes, s.
+    /// Computes a lower bound of the time after which a gap can be closed, s. `shrink` is its closing rate, m/s, and `bend` bounds its
+    /// second derivative, m/s².
     fn until(&self, gap: f64, shrink: f64, bend: f64) -> f64 {
         if gap <= self.touch {
-            // Touching without approach: free until the paths bend together again.
+            // The bodies touch without approaching: they cannot overlap until their paths bend together again.
             return if bend > 0.0 { 2.0 * (-shrink).max(0.0) / bend } else { f64::INFINITY };
         }
         let root = (shrink * shrink + 2.0 * bend * gap).sqrt();
-        // The smallest positive root of gap − shrink t − ½ bend t², without cancellation.
+        // The smallest positive root of gap − shrink t − ½ bend t², in a form without cancellation.
         if shrink > 0.0 {
             2.0 * gap / (shrink + root)
         } else if bend > 0.0 {

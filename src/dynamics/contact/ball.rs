@@ -1,4 +1,4 @@
-//! A small ball against the parts of a solid.
+//! Closest points of a small ball, such as a particle, and the parts of a solid.
 
 use glam::{DQuat, DVec3};
 
@@ -7,7 +7,7 @@ use super::patch::Patch;
 use super::solid::{Pose, Solid};
 use crate::dynamics::shape::Shape;
 
-/// A ball without rotation.
+/// A small ball that does not rotate, such as a particle with collisions.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Ball {
     solid: Solid,
@@ -15,7 +15,7 @@ pub(in crate::dynamics) struct Ball {
 }
 
 impl Ball {
-    /// A ball of a radius, m. `None` if it has no finite size.
+    /// Creates a ball of this radius, m. `None` if the radius gives no solid.
     pub(in crate::dynamics) fn new(radius: f64) -> Option<Ball> {
         Some(Ball { solid: Solid::of(&Shape::Sphere { radius })?, radius })
     }
@@ -24,8 +24,8 @@ impl Ball {
         self.radius
     }
 
-    /// The nearest places of the ball and a convex part of a solid. The normal points out of the solid; the place is on
-    /// the solid.
+    /// Computes the contact of the ball with one convex part of a solid. Returns the gap, m; the unit normal out of the solid; and the
+    /// closest point on the solid, m.
     pub(in crate::dynamics) fn nearest(
         &self,
         centre: DVec3,
@@ -38,10 +38,10 @@ impl Ball {
         (gap, -normal, on[1])
     }
 
-    /// The distance from a triangle of a mesh to the ball, m, and its direction; none for other parts.
+    /// Computes the gap between the ball and a triangle of a mesh, m, and the unit direction from the triangle to the ball. `None` for
+    /// parts that are not triangles.
     ///
-    /// [`nearest`](Ball::nearest) gives an infinite gap if a neighbor of the triangle is nearer. This method gives the
-    /// gap.
+    /// [`nearest`](Ball::nearest) gives an infinite gap if a neighbor of the triangle is nearer; this method gives the true gap.
     pub(in crate::dynamics) fn apart(
         &self,
         centre: DVec3,
@@ -66,7 +66,7 @@ impl Ball {
     }
 }
 
-/// The point of a triangle nearest to a place. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+/// Returns the point of a triangle that is nearest to a given point. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 fn nearest_on_triangle(place: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let along = |corner: DVec3| [ab.dot(place - corner), ac.dot(place - corner)];
@@ -90,33 +90,34 @@ fn nearest_on_triangle(place: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
 }
 
 impl Solid {
-    /// The number of convex parts.
+    /// Returns the number of convex parts of the solid.
     pub(in crate::dynamics) fn count(&self) -> usize {
         self.parts().len()
     }
 
-    /// Whether a part is a half-space.
+    /// Returns true if this part is a half-space.
     pub(in crate::dynamics) fn is_endless(&self, part: usize) -> bool {
         self.parts()[part].is_ground()
     }
 
-    /// Whether it has a tree of boxes to search its parts, as a mesh has.
+    /// Returns true if the solid has a tree of bounding boxes for its parts, as meshes have.
     pub(in crate::dynamics) fn has_tree(&self) -> bool {
         self.tree().is_some()
     }
 
-    /// The bounding box of a part along the axes of the world: its lowest and its highest corner.
+    /// Returns the bounding box of a part along the world axes: its lowest and its highest corner, m.
     pub(in crate::dynamics) fn box_of(&self, part: usize, pose: &Pose) -> [DVec3; 2] {
         self.parts()[part].box_in(pose, &Pose::IDENTITY)
     }
 
-    /// The largest distance of a part from the origin of the body, m.
+    /// Returns an upper bound of the distance of a part's points from the origin of the body, m.
     pub(in crate::dynamics) fn reach_of(&self, part: usize) -> f64 {
         let part = &self.parts()[part];
         part.centre.length() + part.bound
     }
 
-    /// The parts of a mesh that may be within a distance of a place, in the axes of the body.
+    /// Returns the indices of the parts that may be within a distance of a point, m. The point is given in body axes. Without a tree of
+    /// boxes, these are all parts.
     pub(in crate::dynamics) fn parts_near(&self, place: DVec3, within: f64) -> Vec<usize> {
         match self.tree() {
             Some(tree) => tree.near([place; 2], within, self.parts().len()),

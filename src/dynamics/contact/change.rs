@@ -1,4 +1,4 @@
-//! The rates of a contact's place and normal as it moves over two bodies.
+//! The rates of a contact point and of its normal, as the contact moves over two bodies.
 
 use glam::{DQuat, DVec3};
 
@@ -7,19 +7,19 @@ use super::nearest::Nearest;
 use super::patch::{Patch, meet};
 use super::solid::Pose;
 
-/// Without a formula, places are differentiated numerically along the motion. The bodies rotate by about this angle, or
-/// move by this part of their size.
+/// The step of numerical differentiation, for contacts without a formula: the bodies rotate by about this angle, rad, or move by this
+/// fraction of their size.
 const DIFFERENCE: f64 = 1e-4;
 
-/// The rates of a meeting for given velocities.
+/// The rates at which the point and the normal of a contact change, for given velocities of the bodies.
 pub(super) struct Change {
-    /// The rate of the normal, 1/s.
+    /// The rate of the unit normal, 1/s.
     pub(super) normal: DVec3,
-    /// The velocity of the place, m/s. The place is no material point of a body.
+    /// The velocity of the contact point, m/s. The contact point moves over the surfaces; it is no material point of a body.
     pub(super) place: DVec3,
 }
 
-/// A point of a body, or a direction, and its rate.
+/// A vector (a point of a body, or a direction) and its time derivative.
 #[derive(Clone, Copy)]
 struct Rated {
     value: DVec3,
@@ -41,7 +41,7 @@ impl Rated {
         Rated { value: self.value - other.value, rate: self.rate - other.rate }
     }
 
-    /// Its component perpendicular to a unit direction.
+    /// Returns the component perpendicular to a unit direction, with its rate.
     fn across(self, unit: Rated) -> Rated {
         let along = self.value.dot(unit.value);
         let along_rate = self.rate.dot(unit.value) + self.value.dot(unit.rate);
@@ -62,7 +62,7 @@ impl Rated {
 }
 
 impl Change {
-    /// The rates of the meeting of two patches. `size` is a typical length of the smaller body, m.
+    /// Computes the rates of the contact between two patches. `size` is a typical length of the smaller body, m.
     pub(super) fn of(patches: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
         Change::exact(patches, members)
             .or_else(|| {
@@ -73,7 +73,7 @@ impl Change {
             .unwrap_or_else(|| Change::numeric(patches, members, size))
     }
 
-    /// By formulas, if there are any.
+    /// Computes the rates in closed form. `None` if there is no formula for these two patches in this order.
     fn exact([a, b]: [&Patch; 2], [first, second]: [&Member; 2]) -> Option<Change> {
         match (a, b) {
             (Patch::Plane { normal, .. }, Patch::Point { at, radius }) => {
@@ -84,7 +84,7 @@ impl Change {
             (Patch::Plane { normal, .. }, Patch::Circle { centre, axis, radius }) => {
                 let normal = Rated::direction(first, *normal);
                 let axis = Rated::direction(second, *axis);
-                // The lowest place of the rim lies against the normal, across the axis.
+                // The lowest point of the rim is opposite to the normal's component across the axis.
                 let up = normal.across(axis).normalized()?;
                 let centre = Rated::point(second, *centre);
                 Some(Change { normal: normal.rate, place: centre.rate - *radius * up.rate })
@@ -104,7 +104,7 @@ impl Change {
         }
     }
 
-    /// By central differences along the current motion.
+    /// Computes the rates by central differences along the current motion of the bodies.
     fn numeric([a, b]: [&Patch; 2], members: [&Member; 2], size: f64) -> Change {
         let fastest = members.iter().fold(0.0_f64, |most, member| {
             most.max(member.velocity.length() / size).max(member.angular_velocity.length())
@@ -126,7 +126,7 @@ impl Change {
     }
 }
 
-/// The pose of a body after a time at its current velocities.
+/// Returns the pose of a body after `time` seconds at its current velocities.
 fn advanced(member: &Member, time: f64) -> Pose {
     let turn = DQuat::from_scaled_axis(time * member.angular_velocity);
     Pose {

@@ -1,4 +1,4 @@
-//! Two bodies in lasting contact at one place: a constraint that pushes and never pulls, with friction.
+//! A lasting contact between two bodies at one point: a constraint that pushes and never pulls, with friction.
 
 use std::collections::BTreeSet;
 
@@ -12,29 +12,28 @@ use super::solid::Pose;
 use super::touch::Touch;
 use super::{ContactSnapshot, Meeting, nearest::Nearest};
 
-/// A place of lasting contact between two bodies.
+/// A lasting contact between two bodies at one point.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Closed {
-    /// The bodies, the one with the smaller number first.
+    /// The indices of the two bodies, in ascending order.
     pub(in crate::dynamics) bodies: [usize; 2],
-    /// The touching features.
+    /// The features of the two bodies (corners, edges, faces) that touch, and their closest points.
     pub(in crate::dynamics) touch: Touch,
-    /// The behavior of their surfaces.
+    /// The restitution and the friction of the two surfaces.
     pub(in crate::dynamics) law: Meeting,
-    /// A typical length of the smaller body, m.
+    /// A typical length of the smaller body, m. Tolerances are relative to it.
     pub(in crate::dynamics) size: f64,
-    /// Bodies that separate more slowly than this are at rest, m/s.
+    /// The bodies count as at rest at this contact if they separate more slowly than this, m/s.
     pub(in crate::dynamics) still: f64,
-    /// The world axis that gives the first tangent its direction. It is fixed because tangents must not jump during a
-    /// contact.
+    /// The world axis from which the first tangent is derived. It is fixed because tangents must not jump during a contact.
     pub(in crate::dynamics) heading: DVec3,
 }
 
-/// Tangents are chosen anew when the normal approaches the axis that defines them: the limits for the cosine of their
-/// angle, first the strict one, then the one used at any other event.
+/// Limits for the absolute cosine of the angle between the normal and the axis `heading`. Beyond the first limit, the step ends and the
+/// tangents are chosen again. At events with another cause, this happens beyond the second.
 const TURNED: [f64; 2] = [0.95, 0.9];
 
-/// The world axis farthest from a normal.
+/// Returns the world axis that is most nearly perpendicular to a contact normal.
 pub(super) fn heading(normal: DVec3) -> DVec3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let nearness = |axis: &DVec3| axis.dot(normal).abs();
@@ -42,28 +41,30 @@ pub(super) fn heading(normal: DVec3) -> DVec3 {
 }
 
 impl Closed {
-    /// Whether one of some bodies touches there.
+    /// Returns true if one of the contact's bodies is in this set.
     pub(in crate::dynamics) fn is_of(&self, bodies: &BTreeSet<usize>) -> bool {
         self.bodies.iter().any(|body| bodies.contains(body))
     }
 
-    /// The pairs of rows for friction and for rolling friction, if any.
+    /// Returns whether the contact has friction, and whether it has rolling friction. Each adds a pair of rows.
     fn pairs(&self) -> [bool; 2] {
         [self.law.friction > 0.0, self.law.rolling_friction > 0.0]
     }
 
-    /// Whether a newly found contact is at the same place.
+    /// Returns true if a newly found contact is the same as this one: the same features of the same bodies touch, and the tangents remain
+    /// valid.
     pub(in crate::dynamics) fn is(&self, new: &Closed) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
         is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
     }
 
-    /// The margin of the normal from the tangents' axis; if negative, tangents must be chosen anew.
+    /// Returns how far the normal is from the limit at which the tangents become invalid, as a difference of cosines. If negative, they
+    /// must be chosen again.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
         TURNED[0] - self.heading.dot(self.meet(poses).normal).abs()
     }
 
-    /// Two unit vectors across the normal. They depend on it smoothly.
+    /// Returns two unit tangents, perpendicular to the normal and to each other. They depend on the normal smoothly.
     fn tangents(&self, normal: DVec3) -> [DVec3; 2] {
         let first = self.heading.reject_from_normalized(normal).normalize();
         [first, normal.cross(first)]
@@ -74,12 +75,12 @@ impl Closed {
     }
 }
 
-/// The current pose of a body.
+/// Returns the current pose of a constrained body.
 fn pose(member: &Member) -> Pose {
     Pose { location: member.location, orientation: member.orientation }
 }
 
-/// The velocity of the second body relative to the first at the contact.
+/// Computes the velocity of the second body relative to the first at the contact point, m/s.
 fn slip(meeting: &Nearest, members: [&Member; 2]) -> DVec3 {
     let at = |member: &Member, place: DVec3| {
         member.velocity + member.angular_velocity.cross(place - member.location)
@@ -104,7 +105,7 @@ impl Constraint for Closed {
         }
     }
 
-    /// c = the gap ≥ 0; then the slip along two tangents; then the rolling about them.
+    /// Writes the equations of the contact: the gap c ≥ 0 along the normal; then the slip along two tangents; then the rolling about them.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let both = [&members[0], &members[1]];
         let meeting = self.meet(both.map(pose));
@@ -113,7 +114,7 @@ impl Constraint for Closed {
         let [a, b] = &self.touch.patches;
         let change = Change::of([a, b], both, self.size);
         let slipping = slip(&meeting, both);
-        // The rate of the slip apart from accelerations: the arms change as the place moves over both bodies.
+        // The part of the slip's rate that does not depend on accelerations: the arms change as the contact point moves over both bodies.
         let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);
         let drift = turning(1) - turning(0);
         let size = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
@@ -125,7 +126,7 @@ impl Constraint for Closed {
         write(0, gap, normal.dot(drift) + change.normal.dot(slipping), normal);
         let [u, w] = self.tangents(normal);
         let [slides, rolls] = self.pairs();
-        // For methods that aim at the end of the step: the distance slipped, by the trapezoidal rule.
+        // For methods that correct initial velocities (SHAKE): the distance slipped since the start of the step, by the trapezoidal rule.
         let slipped = members.aimed().map_or(DVec3::ZERO, |origin| {
             let before = self.meet([&origin[0], &origin[1]].map(pose));
             0.5 * members.elapsed() * (slip(&before, [&origin[0], &origin[1]]) + slipping)
@@ -150,7 +151,8 @@ impl Constraint for Closed {
 }
 
 impl Closed {
-    /// The contact's observable data. The closure adds the force of one of its rows on the second body.
+    /// Returns the contact as frames show it: its place, normal, normal force and friction. The closure adds the force of one of its rows
+    /// on the second body.
     pub(in crate::dynamics) fn seen(
         &self,
         members: [&Member; 2],

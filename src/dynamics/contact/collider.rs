@@ -1,4 +1,4 @@
-//! Finds contacts between bodies and handles them.
+//! The collider: it finds contacts between bodies, and events such as the first touch of two bodies.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,55 +17,55 @@ use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
 use super::{Contacts, Impact, Meeting};
 
-/// At an event, bodies touch if their gap is below this part of the coordinates.
+/// At an event, bodies touch if their gap is below this fraction of their coordinates.
 pub(super) const NEAR: f64 = 1e-10;
 
-/// For bodies at rest, further places touch if their gap is below this part of the coordinates. Otherwise a body that
-/// stands on three of four corners would never come to rest.
+/// For bodies at rest, further points touch if their gap is below this fraction of the coordinates. Otherwise a body that stands on three
+/// of four corners would never come to rest.
 const SNUG: f64 = 1e-8;
 
-/// Further places of touching bodies may overlap by this part of the coordinates.
+/// Further points of touching bodies may overlap by this fraction of the coordinates before an event ends the step.
 const PASSED: f64 = 1e-12;
 
-/// Bodies may overlap by this part of the coordinates when contacts begin.
+/// A body that appears may overlap others by this fraction of the coordinates.
 const OVERLAP: f64 = 1e-9;
 
-/// Approaches below this part of the fastest one are rounding.
+/// A closing speed below this fraction of the largest one so far counts as a rounding error.
 pub(super) const SLIGHT: f64 = 1e-10;
 
-/// The colliding bodies and their contacts.
+/// The colliding bodies, their contacts and impacts, and the search for them.
 #[derive(Clone)]
 pub(in crate::dynamics) struct Collider {
     pub(super) contacts: Contacts,
     pub(super) solids: Vec<Option<Solid>>,
     pub(super) pairs: Pairs,
     pub(super) paths: Vec<Path>,
-    /// Whether each body was present when contacts were last begun.
+    /// For each body, whether it was present when contacts were last started. Only bodies that were absent are checked for overlaps.
     is_known: Vec<bool>,
-    /// The fastest approach so far, m/s. Much slower ones are rounding.
+    /// The largest closing speed of two bodies so far, m/s. Much smaller speeds count as rounding errors.
     pub(super) fastest: f64,
     /// The impacts since the last call of `take_impacts`.
     pub(super) impacts: Vec<Impact>,
-    /// The number of impacts of each pair of bodies in the current step.
+    /// For each pair of bodies, the number of impacts in the current step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,
-    /// The bodies with too many events in the current step to follow one by one.
+    /// The bodies advanced by time-stepping, because they have too many events in the current step.
     pub(super) crowd: Crowd,
-    /// The group being advanced, if not all bodies are.
+    /// The group of bodies that is being advanced; `None` while all bodies are advanced together.
     pub(super) focus: Option<Focus>,
 }
 
-/// All places at which two bodies touch.
+/// Two touching bodies with all their contact points.
 #[derive(Clone, Debug)]
 pub(super) struct Touching {
     pub(super) bodies: [usize; 2],
     pub(super) law: Meeting,
     pub(super) touches: Vec<Touch>,
-    /// Further places so near that they count as touching while the bodies do not move there.
+    /// Points with gaps so small that they count as touching while the bodies do not move there.
     pub(super) snug: Vec<Touch>,
 }
 
 impl Collider {
-    /// A collider for given contacts.
+    /// Creates a collider for bodies with these contact properties.
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
         let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
@@ -73,44 +73,44 @@ impl Collider {
         Collider { contacts, solids, pairs, paths, is_known, fastest: 0.0, impacts, hits, crowd, focus: None }
     }
 
-    /// Called at the beginning of a step.
+    /// Resets the counts of impacts at the beginning of a step.
     pub(in crate::dynamics) fn set_out(&mut self) {
         self.hits.clear();
     }
 
-    /// The fastest approach so far, m/s.
+    /// Returns the largest closing speed of two bodies so far, m/s.
     pub(in crate::dynamics) fn fastest(&self) -> f64 {
         self.fastest
     }
 
-    /// The largest surface speed of a body from its rotation, m/s.
+    /// Returns an upper bound of the surface speed that a body has from its rotation, m/s.
     pub(in crate::dynamics) fn spin(&self, body: usize, model: &Model, state: &State) -> f64 {
         let turning = model.angular_velocity(body, state).length();
-        // The whole solid counts, since the reach of a ball's core is 0.
+        // The reach of a ball's core is 0, so the size of the solid is added.
         let solid = self.solids.get(body).and_then(Option::as_ref);
         let reach = solid.map_or(0.0, |solid| solid.reach() + solid.size());
         if turning == 0.0 { 0.0 } else { turning * reach }
     }
 
-    /// The bodies held at rest that a moving body touches.
+    /// Returns the bodies held at rest that a moving body touches, by index.
     pub(in crate::dynamics) fn touched_at_rest(&mut self, model: &Model, state: &State) -> Vec<usize> {
         let is_held = |body: &usize| model.inverse_mass()[*body] == 0.0 && model.can_move(*body);
         let touching = self.touching_all(model, state);
         touching.iter().flat_map(|pair| pair.bodies).filter(is_held).collect()
     }
 
-    /// Whether some bodies are advanced by time-stepping.
+    /// Returns true if any bodies are advanced by time-stepping.
     pub(in crate::dynamics) fn is_crowded(&self) -> bool {
         !self.crowd.is_empty()
     }
 
-    /// Called when bodies have changed.
+    /// Discards the list of nearby pairs and which bodies were present. Must be called when bodies have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.pairs.forget();
         self.is_known.clear();
     }
 
-    /// Called when some bodies appear or disappear.
+    /// Discards what is known about these bodies. Must be called when they appear or disappear.
     pub(in crate::dynamics) fn forget_bodies(&mut self, bodies: &[usize]) {
         self.pairs.forget();
         self.crowd.lose(bodies);
@@ -121,12 +121,12 @@ impl Collider {
             .for_each(|(_, is_known)| *is_known = false);
     }
 
-    /// The impacts since the last call.
+    /// Returns the impacts since the last call, and forgets them.
     pub(in crate::dynamics) fn take_impacts(&mut self) -> Vec<Impact> {
         std::mem::take(&mut self.impacts)
     }
 
-    /// Makes the solids of bodies added since the last call.
+    /// Creates the solids of all bodies that were added since the last call.
     fn meet_bodies(&mut self, model: &Model) {
         for i in self.solids.len()..model.len() {
             let collides = self.contacts.surfaces.get(i).is_some_and(Option::is_some);
@@ -135,7 +135,7 @@ impl Collider {
         }
     }
 
-    /// Records the paths of the bodies within a step, and the pairs that can meet.
+    /// Records the paths of the bodies within a step, and updates the list of pairs that can touch.
     pub(super) fn follow(&mut self, model: &Model, (before, after): (&State, &State), duration: f64) {
         self.meet_bodies(model);
         let Collider { contacts, solids, pairs, paths, focus, .. } = self;
@@ -150,7 +150,8 @@ impl Collider {
         }
     }
 
-    /// The first time within a step at which bodies touch and approach, s after its beginning.
+    /// Returns the first time within a step at which two bodies touch and approach, in seconds after its beginning, and these bodies.
+    /// Pairs that are already in contact do not count.
     pub(in crate::dynamics) fn first_touch(
         &mut self,
         model: &Model,
@@ -192,8 +193,8 @@ impl Collider {
         first
     }
 
-    /// The gap of two bodies, m, and its rate, m/s. The gap is 0 if they touch to within rounding, and negative if they
-    /// overlap.
+    /// Returns the gap of two bodies, m, and its rate, m/s. The gap is 0 if the bodies touch to within rounding errors, and negative if
+    /// they overlap. `None` if a body has no solid.
     pub(in crate::dynamics) fn gap(
         &self,
         model: &Model,
@@ -213,13 +214,13 @@ impl Collider {
         let found = places([x, y], [&poses[0], &poses[1]], near, close([x, y])).into_iter();
         let found = found.map(|place| (gap(&place), rate(&place, bodies, (model, state))));
         let nearest = (gap(&near), rate(&near, bodies, (model, state)));
-        // Of the approaching places, the first to touch.
+        // Of the approaching pairs of points, the one that will touch first counts.
         let coming = found.filter(|(_, rate)| *rate < 0.0);
         Some(coming.min_by(|a, b| (a.0 / -a.1).total_cmp(&(b.0 / -b.1))).unwrap_or(nearest))
     }
 
-    /// How far touching bodies are from touching at further places or leaving the edge or face on which they touch, in
-    /// units of the tolerance. Negative once either has happened.
+    /// Returns how far touching bodies are from the next change of their contact points, in units of the tolerance: they touch at a
+    /// further point, or leave the edge or face on which they touch. Negative after this change.
     pub(in crate::dynamics) fn margin(&self, model: &Model, state: &State, closed: &[Arc<Closed>]) -> f64 {
         let mut margin = f64::INFINITY;
         let mut last = None;
@@ -240,7 +241,7 @@ impl Collider {
                 };
                 closed.iter().any(|other| same(&other))
             };
-            // An overlap by rounding that opens again is ignored.
+            // A point that overlaps by a rounding error but separates is ignored.
             let comes = |touch: &&Touch| rate(&touch.meeting, contact.bodies, (model, state)) < 0.0;
             for touch in touches(x, &p, y, &q, 0.0).iter().filter(|touch| !is_closed(touch)).filter(comes) {
                 margin = margin.min(touch.meeting.gap / tolerated);
@@ -249,7 +250,7 @@ impl Collider {
         margin
     }
 
-    /// All places at which bodies touch, in the order of the bodies.
+    /// Returns all contact points of touching bodies at a state, in the order of the bodies.
     pub(super) fn touching(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         self.meet_bodies(model);
         let Collider { solids, crowd, pairs, .. } = self;
@@ -277,7 +278,8 @@ impl Collider {
         all
     }
 
-    /// Finds the pairs where contacts begin, and the first two bodies that overlap, if one has just appeared.
+    /// Prepares the search for contacts at a state, and records which bodies are present. Returns a breakdown if a body that has just
+    /// appeared overlaps another one.
     pub(in crate::dynamics) fn start(
         &mut self,
         model: &Model,
@@ -312,7 +314,7 @@ impl Collider {
         None
     }
 
-    /// Whether joints hold a body.
+    /// Returns true if a joint acts on this body.
     pub(super) fn is_jointed(model: &Model, body: usize) -> bool {
         let concerns =
             |constraint: &Arc<dyn Constraint>| constraint.bodies().iter().any(|other| other.index() == body);
@@ -320,12 +322,12 @@ impl Collider {
     }
 }
 
-/// Whether no load moves either of two bodies.
+/// Returns true if no load can move either of two bodies.
 pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
     bodies.iter().all(|&body| model.inverse_mass()[body] == 0.0)
 }
 
-/// The rate of the gap of two bodies, m/s.
+/// Computes the rate of the gap at a pair of points of two bodies, m/s.
 fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
     let at = |i: usize| {
         let arm = meeting.on[i] - state.location[bodies[i]];
@@ -334,7 +336,7 @@ fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State))
     meeting.normal.dot(at(1) - at(0))
 }
 
-/// The size of the coordinates of two bodies, m.
+/// Returns the magnitude of the coordinates of two bodies, m, to which rounding errors are proportional.
 pub(super) fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f64 {
     let size = |i: usize| {
         let reach = solids[i].reach() + solids[i].size();

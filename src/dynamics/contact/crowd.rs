@@ -1,7 +1,7 @@
-//! The crowd: bodies with too many events in a step, which time-stepping advances.
+//! The crowd: bodies that have too many contact events in a step, so time-stepping advances them.
 //!
-//! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap
-//! that settles. Time-stepping advances them to the end of the step; if this happens repeatedly, for some more steps.
+//! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap that settles.
+//! Time-stepping advances them to the end of the step. If this happens repeatedly, they stay in the crowd for some more steps.
 
 mod course;
 mod heap;
@@ -17,47 +17,48 @@ use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
-/// The most further steps of a body in the crowd. Without them, a settling heap would collect thousands of events in
-/// each step before it joins again.
+/// The largest number of further steps for which a body stays in the crowd. Without further steps, a settling heap would collect thousands
+/// of events in each step before it joins the crowd again.
 const AGAIN: u32 = 16;
 
-/// The bodies under time-stepping.
+/// The set of bodies that time-stepping advances, with their contacts and computed motion.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
     solver: Solver,
-    /// Its motion until the end of the step, once computed.
+    /// The motion of the crowd until the end of the step; `None` until it is computed.
     course: Option<Course>,
-    /// The places at which its bodies touched at the end of the last step.
+    /// The contacts of the crowd's bodies at the end of the last step.
     places: Vec<Arc<Closed>>,
-    /// The rebounds in the latest substep.
+    /// The impacts in the last substep.
     impacts: Vec<Impact>,
-    /// The pairs in contact in the latest substep.
+    /// The pairs of bodies with contact forces between them in the last substep.
     pushing: BTreeSet<[usize; 2]>,
-    /// The bodies that rejoin the crowd in the coming steps.
+    /// For each body that joined the crowd recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
-    /// The bodies that joined the crowd as part of a heap.
+    /// The bodies that have been in the crowd as part of a heap.
     heaps: BTreeSet<usize>,
 }
 
 /// How long a body stays in the crowd.
 #[derive(Clone, Copy, Default)]
 struct Again {
-    /// The number of further steps.
+    /// The remaining number of further steps in the crowd.
     left: u32,
-    /// The number of further steps at its latest joining. It doubles if the body has to join again right after them.
+    /// The number of further steps that the body got when it last joined. It doubles if the body has to join again right after these
+    /// steps.
     span: u32,
-    /// Whether these steps have just ended.
+    /// True in the step right after the further steps have ended.
     is_over: bool,
 }
 
 impl Crowd {
-    /// Whether the crowd is empty.
+    /// Returns true if no bodies are in the crowd.
     pub(in crate::dynamics) fn is_empty(&self) -> bool {
         self.bodies.is_empty()
     }
 
-    /// The same bodies for the same time, without their computed motion.
+    /// Returns a copy of the crowd without its computed motion.
     pub(super) fn without_course(&self) -> Crowd {
         Crowd { course: None, ..self.clone() }
     }
@@ -66,7 +67,7 @@ impl Crowd {
         self.bodies.iter()
     }
 
-    /// Removes some bodies.
+    /// Removes these bodies from the crowd.
     pub(super) fn lose(&mut self, bodies: &[usize]) {
         for body in bodies {
             self.bodies.remove(body);
@@ -76,7 +77,7 @@ impl Crowd {
         self.course = None;
     }
 
-    /// From now on, only some bodies are advanced, in rising order. Returns the other bodies of the crowd.
+    /// Restricts the crowd to the given bodies, whose indices are in ascending order. Returns the bodies that are set aside.
     pub(super) fn focus(&mut self, bodies: &[usize]) -> BTreeSet<usize> {
         let is_here = |body: &usize| bodies.binary_search(body).is_ok();
         let (here, others) = std::mem::take(&mut self.bodies).into_iter().partition(is_here);
@@ -85,13 +86,14 @@ impl Crowd {
         others
     }
 
-    /// Takes the other bodies back.
+    /// Ends the restriction by `focus`: adds the bodies that were set aside to the crowd again.
     pub(super) fn unfocus(&mut self, others: BTreeSet<usize>) {
         self.bodies.extend(others);
         self.course = None;
     }
 
-    /// Whether the crowd handles the contacts of two bodies.
+    /// Returns true if time-stepping handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
+    /// immovable.
     pub(super) fn holds(&self, bodies: [usize; 2], model: &Model) -> bool {
         if self.bodies.is_empty() {
             return false;
@@ -103,23 +105,23 @@ impl Crowd {
 }
 
 impl Collider {
-    /// The bodies of the crowd.
+    /// Returns the indices of the bodies in the crowd.
     pub(in crate::dynamics) fn crowded(&self) -> &BTreeSet<usize> {
         &self.crowd.bodies
     }
 
-    /// Whether one of two bodies is in the crowd.
+    /// Returns true if at least one of two bodies is in the crowd.
     pub(in crate::dynamics) fn is_in_crowd(&self, bodies: [usize; 2]) -> bool {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Whether the whole crowd, which touches at some places, stays for the next step.
+    /// Returns true if all bodies of the crowd stay in it for the next step. `places` are the contacts of the crowd.
     pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
-    /// The places at which the crowd's bodies touched at the end of the last step, with the forces from time-stepping.
+    /// Returns the contacts of the crowd's bodies at the end of the last step, with the forces that time-stepping found.
     pub(in crate::dynamics) fn crowd_contacts(
         &self,
         model: &Model,
@@ -131,7 +133,7 @@ impl Collider {
         self.crowd.solver.last_forces(places, model, t, state)
     }
 
-    /// The forces at places where bodies rest on each other. `loads` are the other forces on them.
+    /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
         places: &[Arc<Closed>],
@@ -142,18 +144,18 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Whether a body is in the crowd, has just left it, or was in it as part of a heap.
+    /// Returns true if a body is in the crowd, has just left it, or has been in it as part of a heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
-    /// Empties the crowd.
+    /// Removes all bodies from the crowd. The number of further steps of each body is kept.
     pub(in crate::dynamics) fn dissolve(&mut self) {
         self.crowd.bodies.clear();
     }
 
-    /// Adds bodies to the crowd for this step and some more, with everything that touches them or is joined to them.
-    /// Returns whether the crowd has grown.
+    /// Adds bodies to the crowd for this step and some further steps, with all bodies that touch them or are joined to them. Returns true
+    /// if the crowd has grown.
     pub(in crate::dynamics) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
@@ -161,7 +163,8 @@ impl Collider {
         has_grown
     }
 
-    /// Sets the number of further steps for the bodies not in the crowd `before`: the longest of them.
+    /// Sets the number of further steps for the bodies that have joined the crowd since it was `before`. All of them get the largest
+    /// number among them.
     fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
@@ -176,8 +179,7 @@ impl Collider {
         }
     }
 
-    /// Adds bodies to the crowd, with everything that touches them or is joined to them. Returns whether the crowd has
-    /// grown.
+    /// Adds the bodies `seeds` to the crowd, with all bodies that touch them or are joined to them. Returns true if the crowd has grown.
     pub(in crate::dynamics) fn gather(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut links: Vec<Vec<usize>> =
@@ -200,8 +202,9 @@ impl Collider {
         has_grown
     }
 
-    /// Begins a step of `dt`, s: counts down the further steps of the advanced bodies, and gathers everything that
-    /// touches them or may hit them. Returns whether the crowd has grown.
+    /// Updates the crowd at the beginning of a step of `dt` seconds. Counts down the further steps of the bodies being advanced, drops
+    /// bodies in free flight, and adds bodies that touch the remaining ones or may hit them. Returns true if the crowd has more bodies
+    /// than remained.
     pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
@@ -216,7 +219,7 @@ impl Collider {
         }
         let mut held = self.leaning(model, state);
         held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
-        // Bodies in free flight rebound from what they hit.
+        // Bodies in free flight leave the crowd, so that they rebound from the bodies that they hit.
         let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
@@ -230,12 +233,12 @@ impl Collider {
         self.crowd.bodies.len() > seeds.len()
     }
 
-    /// Empties the crowd, further steps included.
+    /// Forgets for how many further steps bodies stay in the crowd.
     pub(in crate::dynamics) fn release(&mut self) {
         self.crowd.again.clear();
     }
 
-    /// All touching places, with those of the crowd.
+    /// Returns all contact points of touching bodies, including those within the crowd.
     pub(super) fn touching_all(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         let bodies = std::mem::take(&mut self.crowd.bodies);
         let touching = self.touching(model, state);

@@ -1,61 +1,61 @@
-//! The corners, edges and faces of a convex part, and the borders of each.
+//! The features of a convex part (its corners, edges, faces and rims), with the borders and the normals of each.
 
 use glam::DVec3;
 
 use super::patch::{Patch, meet_placed};
 use super::solid::{Part, Pose};
 
-/// A corner, an edge, a face, a rim or a round side. All is in the axes of the body.
+/// A feature of a convex part: a corner, an edge, a face, a rim or a round side. All coordinates are in body axes.
 #[derive(Clone, Debug)]
 pub(super) struct Feature {
     pub(super) patch: Patch,
     pub(super) outline: Outline,
     pub(super) normals: Normals,
-    /// Whether it is an edge or a corner without convexity between triangles. A face is always nearer, so nothing
-    /// touches it.
+    /// True for an edge or a corner between the triangles of a mesh that is flat or concave. A face is always nearer there, so such a
+    /// feature makes no contact.
     pub(super) is_seam: bool,
 }
 
-/// The part of its patch that a feature covers.
+/// The part of its patch that a feature covers: the borders of the feature.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
-    /// The whole patch.
+    /// The feature covers its whole patch.
     All,
-    /// At most `half` from the middle `at`, measured along the unit direction `along`.
+    /// A line segment: points at most `half` from the middle `at`, measured along the unit vector `along`.
     Length { at: DVec3, along: DVec3, half: f64 },
-    /// Inside all of these edges. Each is a point on the edge and the unit direction from there into the face.
+    /// A polygon: points inside all of these edges. Each edge is a point on it and the unit vector from there into the face.
     Edges(Vec<[DVec3; 2]>),
-    /// Within a disc.
+    /// A disc: points within `radius` of `centre`.
     Disc { centre: DVec3, radius: f64 },
 }
 
-/// The directions in which the body can be touched at a feature.
+/// The directions of the contact normals that are possible at a feature.
 #[derive(Clone, Debug)]
 pub(super) enum Normals {
-    /// All normals of the patch.
+    /// All normals of the patch are possible.
     All,
-    /// The normals that make at least a right angle with all of these unit directions, which lie in the surface.
+    /// The normals at an edge or a corner: the angle to each of these unit vectors, which lie in the surface, is at least 90°.
     Away(Vec<DVec3>),
-    /// The normals at a rim. They point away from the axis, and at least at a right angle to the side. `side` is the unit
-    /// direction of the side: its component out from the axis, and that along the axis.
+    /// The normals at a rim. They point away from the axis, at an angle of at least 90° to the side. `side` is the unit vector along the
+    /// side: its radial component and its component along the axis.
     Rim { centre: DVec3, axis: DVec3, side: [f64; 2] },
-    /// The normals at the tip of a cone. `axis` points from the base to the tip; `half_angle` is the cosine and the sine of
-    /// half the opening angle.
+    /// The normals at the tip of a cone. `axis` points from the base to the tip. `half_angle` holds the cosine and the sine of half the
+    /// opening angle.
     Tip { axis: DVec3, half_angle: [f64; 2] },
 }
 
 impl Feature {
-    /// A feature that is no seam.
+    /// Creates a feature that can make contacts (not a seam of a mesh).
     pub(super) fn new(patch: Patch, outline: Outline, normals: Normals) -> Feature {
         Feature { patch, outline, normals, is_seam: false }
     }
 
-    /// A feature that covers its whole patch.
+    /// Creates a feature that covers its whole patch, with all normals.
     pub(super) fn all(patch: Patch) -> Feature {
         Feature::new(patch, Outline::All, Normals::All)
     }
 
-    /// The distance of a place on the patch from the borders of the feature, m; negative outside.
+    /// Returns the distance of a point on the patch from the borders of the feature, m. It is negative outside of the feature.
     pub(super) fn margin(&self, place: DVec3) -> f64 {
         match &self.outline {
             Outline::All => f64::INFINITY,
@@ -67,7 +67,7 @@ impl Feature {
         }
     }
 
-    /// The straight edges of a face.
+    /// Returns the straight edges of a face: for each, a point on the edge and the unit vector into the face. Empty for other features.
     pub(super) fn edges(&self) -> &[[DVec3; 2]] {
         match &self.outline {
             Outline::Edges(edges) => edges,
@@ -75,19 +75,19 @@ impl Feature {
         }
     }
 
-    /// Whether a place of the core is below the feature by the rounding `radius` of the part, within `tolerance`.
+    /// Returns true if a point of the part's core lies below the feature by the rounding `radius` of the part, within `tolerance`, m.
     pub(super) fn is_near(&self, place: DVec3, radius: f64, tolerance: f64) -> bool {
         let point = Patch::Point { at: place, radius: 0.0 };
         let found = meet_placed(&point, &self.patch);
         (found.gap + radius).abs() <= tolerance && self.margin(found.on[1]) >= -tolerance
     }
 
-    /// Whether a place is on the feature, within `tolerance`.
+    /// Returns true if a point lies on the feature, within `tolerance`, m.
     pub(super) fn holds(&self, place: DVec3, tolerance: f64) -> bool {
         self.is_near(place, 0.0, tolerance)
     }
 
-    /// An upper bound of the feature's extent along a unit direction. `part` is the part that has it.
+    /// Returns an upper bound of the feature's extent along a unit vector, m. `part` is the convex part that the feature belongs to.
     pub(super) fn highest(&self, direction: DVec3, part: &Part) -> f64 {
         match self.patch {
             Patch::Point { at, radius } => at.dot(direction) + radius,
@@ -97,7 +97,8 @@ impl Feature {
             Patch::Circle { centre, axis, radius } => {
                 centre.dot(direction) + radius * axis.cross(direction).length()
             }
-            // A face extends as far as its part. For a face that looks down, corners and rims extend farther.
+            // The bound assumes that a face is as large as its part. For a face turned away from the direction, corners and rims extend
+            // farther.
             Patch::Plane { at, normal } => {
                 let tilt = normal.cross(direction).length();
                 if normal.dot(direction) > 0.0 {
@@ -110,8 +111,8 @@ impl Feature {
         }
     }
 
-    /// The sine of the angle between a unit direction and the nearest border of the normals at a place of the feature;
-    /// negative for a direction outside the normals.
+    /// Returns the sine of the angle between a unit vector and the nearest border of the feature's normals at a point. It is negative if
+    /// the vector is not among the normals.
     pub(super) fn slack(&self, place: DVec3, normal: DVec3) -> f64 {
         match &self.normals {
             Normals::All => f64::INFINITY,
@@ -207,7 +208,7 @@ pub(super) fn features_of_box(pose: &Pose, half: DVec3, radius: f64) -> Vec<Feat
 pub(super) fn features_of_frustum(ends: [DVec3; 2], axis: DVec3, radii: [f64; 2]) -> Vec<Feature> {
     let height = ends[0].distance(ends[1]);
     let slant = libm::hypot(height, radii[1] - radii[0]);
-    // The unit direction of the side from the first end to the second: its component out from the axis, and that along it.
+    // The unit vector along the side from the first end to the second: its radial component and its component along the axis.
     let side = [(radii[1] - radii[0]) / slant, height / slant];
     let at = 0.5 * (ends[0] + ends[1]);
     let middle = 0.5 * (radii[0] + radii[1]);

@@ -1,5 +1,5 @@
-//! All that is used of the crate parry: its GJK. It says to about eight digits where two convex parts are nearest, which is a first
-//! guess only.
+//! The use of GJK (the distance algorithm of Gilbert, Johnson and Keerthi) from the crate parry. It finds the closest points of two convex
+//! parts to about eight digits, which serves as a first guess.
 
 use glam::DVec3;
 use parry3d_f64::query::contact::contact_support_map_support_map;
@@ -8,7 +8,7 @@ use parry3d_f64::shape::SupportMap;
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// The core of a part, moved to the origin and scaled to about 1, since parry's tolerances are absolute.
+/// The core of a part as parry sees it: moved to the origin and scaled to a size of about 1, since parry's tolerances are absolute.
 struct Placed<'a> {
     part: &'a Part,
     pose: Pose,
@@ -23,7 +23,7 @@ impl SupportMap for Placed<'_> {
     }
 }
 
-/// Where the cores of two parts are nearest, by GJK. `None` where it fails.
+/// Computes the closest points of the cores of two parts by GJK. `None` if the algorithm fails or a part is infinite.
 pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let origin = pa.point(a.centre);
     let unit = a.bound.max(b.bound);

@@ -1,4 +1,4 @@
-//! Groups of bodies that cannot meet within a step. Each can be advanced on its own.
+//! Groups of bodies that cannot meet within a step, so each group can be advanced separately.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,59 +13,59 @@ use super::nearest::nearest;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
-/// Two bodies are in one group if they could meet by moving this many times their free distance: impacts make bodies
-/// faster.
+/// Two bodies belong to the same group if they could meet by moving this many times their free distance. The margin is needed because
+/// impacts can make bodies faster.
 const GENEROUS: f64 = 2.0;
 
-/// Bodies that can meet each other within a step, but no other movable body.
+/// A group of bodies that may meet each other within a step, but no movable body of another group.
 pub(in crate::dynamics) struct Group {
-    /// Their numbers, in rising order.
+    /// The indices of the group's bodies, in ascending order.
     pub(in crate::dynamics) bodies: Vec<usize>,
-    /// Whether bodies of the group touch, now or within the step.
+    /// True if bodies of the group touch, now or within the step.
     pub(in crate::dynamics) is_busy: bool,
     pairs: Vec<Pair>,
 }
 
-/// All bodies, divided into groups.
+/// The division of all movable bodies into groups for one step, with the data that is needed to repeat the step.
 pub(in crate::dynamics) struct Parting {
     pub(in crate::dynamics) groups: Vec<Group>,
-    /// The pairs with bodies of two groups.
+    /// The pairs whose two bodies belong to different groups.
     between: Vec<Pair>,
-    /// The distance that each body moves in the step without impacts, and the distance it has moved, m.
+    /// The distance that each body moves in the step without impacts, m. `taken` is the distance that each body has really moved, m.
     free: Vec<f64>,
     taken: Vec<f64>,
-    /// The number of impacts before, and the crowd before.
+    /// The number of impacts before the step. `crowd` is the crowd before the step.
     impacts: usize,
     crowd: Crowd,
 }
 
-/// The bodies being advanced, if they are one group.
+/// The group of bodies that is being advanced, while the other groups wait.
 #[derive(Clone, Default)]
 pub(super) struct Focus {
     pub(super) bodies: Vec<usize>,
-    /// The distance that each of them has moved, m.
+    /// The distance that each body of the group has moved in this step, m.
     taken: Vec<f64>,
-    /// The bodies of other groups under time-stepping.
+    /// The bodies of other groups that are in the crowd. They are set aside meanwhile.
     others: BTreeSet<usize>,
 }
 
 impl Sets {
-    /// Unites the sets of two bodies, if both can move.
+    /// Merges the sets of two bodies, if both bodies can move.
     fn unite_moving(&mut self, [a, b]: [usize; 2], model: &Model) {
         if model.can_move(a) && model.can_move(b) {
             self.unite(a, b);
         }
     }
 
-    /// Whether uniting the sets of two bodies would change nothing.
+    /// Returns true if two movable bodies are already in the same set, or if one of the two cannot move.
     fn are_one(&mut self, [a, b]: [usize; 2], model: &Model) -> bool {
         !(model.can_move(a) && model.can_move(b)) || self.first(a) == self.first(b)
     }
 }
 
 impl Collider {
-    /// The groups of bodies within a step of `duration` seconds. `after` is its end without any impacts, `held` are
-    /// bodies that are held at rest together, and pairs in `met` share a group in any case.
+    /// Divides the bodies into groups for a step of `duration` seconds. `after` is the end of the step without any impacts. `held` are
+    /// sets of bodies that are held at rest together. The pairs in `met` share a group in any case.
     pub(in crate::dynamics) fn part<'a>(
         &mut self,
         model: &Model,
@@ -142,7 +142,7 @@ impl Collider {
         Parting { groups, between, taken: free.clone(), free, impacts, crowd }
     }
 
-    /// From now on, only one group is advanced.
+    /// Restricts the collider to one group, which is advanced next.
     pub(in crate::dynamics) fn focus(&mut self, group: &mut Group) {
         self.pairs.list = std::mem::take(&mut group.pairs);
         let (bodies, taken) = (group.bodies.clone(), vec![0.0; group.bodies.len()]);
@@ -150,7 +150,7 @@ impl Collider {
         self.focus = Some(Focus { bodies, taken, others });
     }
 
-    /// Called at the end of a piece of `duration` seconds: records how far the bodies of the group have moved.
+    /// Records how far the bodies of the group have moved in a piece of `duration` seconds.
     pub(in crate::dynamics) fn note_ways(
         &mut self,
         model: &Model,
@@ -166,7 +166,8 @@ impl Collider {
         }
     }
 
-    /// The group has been advanced.
+    /// Ends the restriction to a group, after this group has been advanced. Stores the distances that its bodies have moved in
+    /// `parting_ways`, m.
     pub(in crate::dynamics) fn unfocus(&mut self, group: &mut Group, parting_ways: &mut [f64]) {
         let Some(Focus { bodies, taken, others }) = self.focus.take() else { return };
         self.crowd.unfocus(others);
@@ -174,8 +175,12 @@ impl Collider {
         bodies.iter().zip(taken).for_each(|(&i, taken)| parting_ways[i] = taken);
     }
 
-    /// Ends the advance of all groups. If a group may have met another one, restores everything so that the step can be
-    /// repeated, and returns the pairs that may have met, as far as known.
+    /// Combines the groups after all of them have been advanced.
+    ///
+    /// # Errors
+    ///
+    /// If bodies of two groups may have met, restores the collider so that the step can be repeated. Returns the pairs that may have met,
+    /// as far as they are known.
     pub(in crate::dynamics) fn unite(
         &mut self,
         model: &Model,
@@ -210,7 +215,7 @@ impl Collider {
 }
 
 impl Parting {
-    /// The groups in which something happens, and the distances of their bodies.
+    /// Returns the groups with contacts in this step, and the distance that each body has moved, m.
     pub(in crate::dynamics) fn busy(&mut self) -> (impl Iterator<Item = &mut Group>, &mut [f64]) {
         (self.groups.iter_mut().filter(|group| group.is_busy), &mut self.taken)
     }

@@ -1,18 +1,19 @@
-//! The impulses of one impact: Newton's restitution and Coulomb's friction at all places where two bodies hit each other.
+//! The impulses of one impact between two bodies: Newton's restitution and Coulomb's friction at all contact points.
 //!
-//! With W = J M⁻¹ Jᵀ, J the Jacobian of the places along their normals and tangents, u⁺ = u⁻ + W Λ. Where Λₙ > 0, uₙ⁺ = −e uₙ⁻, and
-//! |Λₜ| ≤ μ Λₙ against the slip that remains. Source: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996),
-//! chapter 8; the sweeps: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988), section 13.
+//! With W = J M⁻¹ Jᵀ, where J is the Jacobian of the contact points along their normals and tangents, the velocities after the impact are
+//! u⁺ = u⁻ + W Λ. Where Λₙ > 0, uₙ⁺ = −e uₙ⁻, and |Λₜ| ≤ μ Λₙ against the remaining slip. Sources: F. Pfeiffer & C. Glocker, *Multibody
+//! Dynamics with Unilateral Contacts* (1996), chapter 8; for the sweeps, J. J. Moreau, *Unilateral contact and dry friction in finite
+//! freedom dynamics* (1988), section 13.
 
 use glam::{DVec2, DVec3};
 
-/// The largest number of sweeps for the impulses of coupled places.
+/// The largest number of sweeps for the impulses at coupled contact points.
 const SWEEPS: usize = 2_000;
 
-/// Sweeps end when they change impulses by less than this part.
+/// The sweeps end when they change impulses by less than this fraction of the largest impulse.
 const SETTLED: f64 = 1e-14;
 
-/// The behavior of one place of an impact.
+/// The restitution and the friction at one contact point of an impact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounce {
     /// The coefficient of restitution.
@@ -21,8 +22,8 @@ pub(super) struct Bounce {
     pub(super) friction: f64,
 }
 
-/// The impulses that bodies exchange: for each place, along its normal and its two tangents. `rates` is u⁻, and `response` is W,
-/// row by row.
+/// Computes the impulses between two bodies: for each contact point, the components along its normal and its two tangents, N s. `rates`
+/// holds u⁻ of each point, and `response` holds W, row by row.
 pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) -> Vec<DVec3> {
     let goals: Vec<f64> = bounces.iter().zip(rates).map(|(bounce, rate)| goal(bounce, rate.x)).collect();
     if let ([bounce], [rate], [goal]) = (bounces, rates, &goals[..]) {
@@ -58,13 +59,13 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     impulses
 }
 
-/// The normal velocity after the impulse. It is negative for a place that separates before the impact but is pushed by
-/// others: otherwise the impact would add energy.
+/// Returns the normal velocity after the impact. It is negative for a point that separates before the impact but is pushed by other
+/// points. Otherwise the impact would add energy.
 fn goal(bounce: &Bounce, rate: f64) -> f64 {
     -bounce.restitution * rate
 }
 
-/// The impulse at a single place.
+/// Computes the impulse of an impact at a single contact point.
 fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
     let w = glam::DMat3::from_cols_slice(response.get(..9).unwrap_or(&[0.0; 9]));
     let needed = goal - rate.x;
@@ -75,7 +76,7 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
     if stick.x >= 0.0 && stick.yz().length() <= bounce.friction * stick.x {
         return stick;
     }
-    // It slides: the impulse is along (1, −μ d), with d the direction of the slip that remains.
+    // The point slides: the impulse is along (1, −μ d), where d is the direction of the remaining slip.
     let slip = DVec2::new(rate.y, rate.z);
     let mut direction = if slip == DVec2::ZERO { -stick.yz() } else { slip }.normalize_or_zero();
     let mut impulse = DVec3::new(needed / w.x_axis.x, 0.0, 0.0);
@@ -87,7 +88,7 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
         }
         impulse = needed / pushed.x * along;
         let left = (rate + w * impulse).yz();
-        // If the slip would reverse, the place sticks. Its initial direction counts.
+        // If the slip would reverse its direction, the point sticks, and the direction before the impact counts.
         if left.dot(direction) <= 0.0 {
             break;
         }
@@ -100,7 +101,7 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
     impulse
 }
 
-/// The tangential part.
+/// Access to the tangential components (y and z) of a contact vector.
 trait Tangential {
     fn yz(self) -> DVec2;
 }
@@ -115,7 +116,7 @@ impl Tangential for DVec3 {
 mod tests {
     use super::*;
 
-    /// A solid ball of mass 1 and radius 1: W is diagonal, 1 along the normal and 7/2 along the tangents.
+    /// W of a solid ball of mass 1 kg and radius 1 m: diagonal, 1 along the normal and 7/2 along the tangents.
     const BALL: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 3.5, 0.0, 0.0, 0.0, 3.5];
 
     #[test]
@@ -129,7 +130,8 @@ mod tests {
         assert_eq!(impulses(&[bounce(0.0)], &[rate], &BALL)[0], DVec3::new(3.0, 0.0, 0.0));
     }
 
-    /// Four places bear a flat box alike: W of a unit square plate that only moves along the normal and turns about two axes.
+    /// A unit square plate moves along its normal and tilts about two axes. Its four corners hit the ground alike, so each gets a quarter
+    /// of the impulse.
     #[test]
     fn places_that_imply_each_other_share_the_impulse() {
         let corners = [(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)];

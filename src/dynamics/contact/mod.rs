@@ -40,43 +40,43 @@ pub(super) use solid::{Pose, Solid};
 pub use surface::{Meeting, Surface};
 pub(super) use tree::Tree;
 
-/// Which bodies touch, and how.
+/// The contact properties of the bodies: their surfaces, and the pairs that pass through each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contacts {
-    /// The surfaces of the bodies, in the order in which the bodies were added; none for a body that others pass through.
+    /// The surface of each body, in the order in which the bodies were added; `None` for a body that other bodies pass through.
     pub surfaces: Vec<Option<Surface>>,
-    /// Pairs of bodies that pass through each other, the smaller number first.
+    /// Pairs of bodies that pass through each other, by index, the smaller index first.
     pub apart: BTreeSet<(usize, usize)>,
 }
 
-/// One impact.
+/// One impact of two bodies, as frames and labels report it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// When it was, s.
+    /// The time of the impact, s.
     pub time: f64,
-    /// The numbers of the two bodies, the smaller one first.
+    /// The indices of the two bodies, the smaller one first.
     pub bodies: [usize; 2],
-    /// Where they touched, m.
+    /// The point at which the bodies hit each other, world axes, m.
     pub place: DVec3,
-    /// The unit normal from the first body to the second.
+    /// The unit contact normal, from the first body to the second, world axes.
     pub normal: DVec3,
-    /// The impulse on the second body, N s.
+    /// The impulse on the second body, world axes, N s.
     pub impulse: DVec3,
-    /// The kinetic energy that was lost, J; not negative.
+    /// The kinetic energy that the impact dissipated, J. It is not negative.
     pub energy: f64,
 }
 
-/// A place where two bodies touch at one moment.
+/// A contact point of two bodies at one moment, with its forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactSnapshot {
-    /// The numbers of the two bodies, the smaller one first.
+    /// The indices of the two bodies, the smaller one first.
     pub bodies: [usize; 2],
-    /// Where they touch, m.
+    /// The point at which the bodies touch, world axes, m.
     pub place: DVec3,
-    /// The unit normal from the first body to the second.
+    /// The unit contact normal, from the first body to the second, world axes.
     pub normal: DVec3,
-    /// The normal force on the second body, N.
+    /// The normal force on the second body, world axes, N.
     pub force: DVec3,
-    /// The force of friction on the second body, N.
+    /// The friction force on the second body, world axes, N.
     pub friction: DVec3,
 }

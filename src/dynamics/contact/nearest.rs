@@ -1,4 +1,4 @@
-//! The nearest places of two solids.
+//! The closest points and the gap of two solids.
 
 use glam::DVec3;
 
@@ -7,44 +7,46 @@ use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A feature is near a guessed place if it is closer than this part of the size. GJK's guesses are better, except for
-/// overlapping round parts.
+/// A feature is near a guessed point if their distance is below this fraction of the part's size. GJK's guesses are better than this,
+/// except for overlapping round parts.
 const NEAR: f64 = 1e-3;
-/// A place up to this part of the size outside a feature counts as on it. The gap changes only by the square of this.
+/// A point outside a feature by up to this fraction of the part's size counts as on the feature. The gap changes only by the square of
+/// this.
 pub(super) const EDGE: f64 = 1e-9;
-/// The same for a triangle. The next triangle may be at a slight angle, which leaves a crack.
+/// A point outside a triangle by up to this fraction of its size counts as on the triangle, if the other body is round. Adjacent triangles
+/// at a slight angle would otherwise leave a crack.
 const SEAM: f64 = 1e-7;
-/// The search among triangles begins within this part of the size.
+/// The search among the triangles of a mesh begins within this fraction of the smaller body's size.
 const START: f64 = 0.25;
-/// Two parts with at most this many pairs of features are compared pair by pair, without a guess.
+/// Two parts with at most this many pairs of features are compared without a guess by GJK.
 const FEW: usize = 16;
 
-/// The nearest places of two solids.
+/// The closest points of two solids, with their gap and normal. For overlapping solids, the points of the smallest separating motion.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Nearest {
-    /// The distance, m; for overlapping solids, minus the depth.
+    /// The gap, m. For overlapping solids, it is minus the penetration depth.
     pub gap: f64,
-    /// The unit normal there, from the first to the second.
+    /// The unit normal at the closest points, from the first solid to the second, world axes.
     pub normal: DVec3,
-    /// The nearest place of the first and of the second, m.
+    /// The closest point on the first solid and on the second, world axes, m.
     pub on: [DVec3; 2],
 }
 
 impl Nearest {
-    /// The same with the second solid first.
+    /// Returns the same closest points with the two solids swapped.
     pub(super) fn flipped(self) -> Nearest {
         Nearest { gap: self.gap, normal: -self.normal, on: [self.on[1], self.on[0]] }
     }
 
-    /// The same at another place.
+    /// Returns the same closest points, translated by a vector.
     pub(super) fn moved(self, by: DVec3) -> Nearest {
         Nearest { on: self.on.map(|place| place + by), ..self }
     }
 }
 
-/// The nearest places of two solids. `None` if they are farther apart than `beyond`, m.
+/// Computes the closest points of two solids. `None` if their gap exceeds `beyond`, m.
 ///
-/// A small gap is exact to rounding. No gap is larger than the true one.
+/// A small gap is exact to rounding errors. No returned gap is larger than the true one.
 pub(in crate::dynamics) fn nearest(
     a: &Solid,
     pa: &Pose,
@@ -64,7 +66,7 @@ pub(in crate::dynamics) fn nearest(
                 }
             }
         });
-        // Triangles outside this range are farther away.
+        // Triangles outside this range are farther away than the best pair found.
         if best.is_some_and(|best| best.gap <= within) || within >= beyond || !within.is_finite() {
             return best.filter(|best| best.gap.is_finite());
         }
@@ -72,7 +74,7 @@ pub(in crate::dynamics) fn nearest(
     }
 }
 
-/// Calls `look` with the indices of all pairs of parts that may be nearer than `within`, in rising order.
+/// Calls `look` with the indices of all pairs of parts whose gap may be below `within`, m, in ascending order.
 pub(super) fn for_pairs(
     a: &Solid,
     pa: &Pose,
@@ -105,7 +107,7 @@ pub(super) fn for_pairs(
     }
 }
 
-/// A lower bound of the distance of two parts, m: that of their bounding balls.
+/// Returns a lower bound of the gap of two parts, m: the gap of their bounding balls.
 pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
     match (&a.core, &b.core) {
         (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
@@ -119,7 +121,7 @@ fn above(pose: &Pose, at: DVec3, normal: DVec3, place: DVec3) -> f64 {
     (place - pose.point(at)).dot(pose.orientation * normal)
 }
 
-/// The nearest places of two convex parts.
+/// Computes the closest points of two convex parts.
 pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     match (&a.core, &b.core) {
         (Core::Ground { at, normal }, _) => on_ground(pa, *at, *normal, b, pb),
@@ -133,10 +135,10 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
-/// The nearest places of the ground and a part. The ground comes first.
+/// Computes the closest points of the ground, which comes first, and a part.
 fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
     let normal = ground.orientation * normal;
-    // Relative to the ground, to keep digits far from the world's origin.
+    // Coordinates are relative to the ground, to keep precision far from the origin.
     let shift = pose.location - ground.location;
     let lowest = pose.orientation * part.support(-(pose.orientation.conjugate() * normal));
     let gap = (shift + lowest - ground.orientation * at).dot(normal);
@@ -144,26 +146,26 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
     Nearest { gap, normal, on: [place - gap * normal, place] }
 }
 
-/// The distance outside a feature at which a place still counts as on it, m. `round` tells whether the other body is
-/// round there.
+/// Returns the distance outside a feature at which a point still counts as on the feature, m. `round` is true if the other body is round
+/// there.
 pub(super) fn edge(part: &Part, round: bool) -> f64 {
     part.bound * if round && part.surface.is_some() { SEAM } else { EDGE }
 }
 
-/// The nearest places of a ball and a convex part, and the index of the part's feature.
+/// Computes the closest points of a ball and a convex part, and the index of the part's feature at its closest point.
 pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
     let patch = &ball.features[0].patch;
-    // In the axes of the part, so that its features need no rotation.
+    // The ball is moved into the body axes of the part, so the features of the part need no rotation.
     let centre = at.local(pose.point(ball.centre));
     let local = Patch::Point { at: centre, radius: ball.radius };
-    // Two triangles may meet at a slight angle.
+    // Adjacent triangles can meet at a slight angle, which leaves a crack for a ball.
     let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
     let mut best: Option<(f64, f64, usize)> = None;
     for (i, feature) in part.features.iter().enumerate().filter(|(_, feature)| !feature.is_seam) {
         let found = meet_placed(&local, &feature.patch);
         let slack = part.bound * feature.slack(found.on[1], -found.normal);
         let inside = feature.margin(found.on[1]).min(slack).clamp(edge, 0.0);
-        // At the border of two features, rounding may put the place outside both. Then take the nearer one.
+        // At the border of two features, rounding may place the point outside both. Then the nearer feature counts.
         let better = best.is_none_or(|(other, gap, _)| {
             let (is_in, was_in) = (inside > edge, other > edge);
             is_in && !was_in || is_in == was_in && if is_in { found.gap > gap } else { inside > other }
@@ -171,31 +173,31 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
         if better {
             best = Some((inside, found.gap, i));
         }
-        // If the centre is outside a convex part, there is only one such feature.
+        // If the center of the ball is outside of a convex part, only one feature contains the closest point.
         if inside == 0.0 && found.gap + ball.radius > 0.0 && part.surface.is_none() {
             break;
         }
     }
     let (inside, i) = best.map_or((edge, 0), |(inside, _, i)| (inside, i));
     let found = meet(patch, pose, &part.features[i].patch, at);
-    // Outside of a triangle, another triangle is nearer.
+    // If the closest point is outside of this triangle, another triangle is nearer.
     let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
     (Nearest { gap, ..found }, i)
 }
 
-/// How far a meeting is inside a feature, m: the distance of its place from the border, or, if smaller, `size` times
-/// that of its normal from the limits of the feature's normals. The normal points out of the body.
+/// Returns how far a contact is inside a feature, m: the distance of its point from the border. If smaller, the angular distance of its
+/// normal from the limits of the feature's normals, times `size`, counts. The normal points out of the body.
 pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
     let place = pose.local(place);
     let normal = pose.orientation.conjugate() * normal;
     feature.margin(place).min(size * feature.slack(place, normal))
 }
 
-/// The nearest places of two convex parts.
+/// Computes the closest points of two convex parts.
 ///
-/// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the
-/// right n is the normal of some pair of features. So the largest separation along the normals of all pairs is the gap, exact to
-/// rounding, and with its sign. Where GJK has a guess, only the features near it are tried first.
+/// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the right n is
+/// the normal of some pair of features. The largest separation along the normals of all pairs is therefore the gap, exact to rounding
+/// errors, with its sign. If GJK gives a guess, only the features near the guess are tried first.
 fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     if let Some(found) = faces(a, pa, b, pb) {
         return found;
@@ -221,12 +223,12 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     search.pairs(&all(a), &all(b));
     match search.best {
         Some((along, found)) => Nearest { gap: along, ..found },
-        // A value is not a number.
+        // A coordinate is NaN.
         None => Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
     }
 }
 
-/// The patch of a feature. The edges of a triangle can be touched from all sides, since it has no inside.
+/// Returns the patch of a feature. The edges of a triangle can be touched from all sides, since a triangle has no inside.
 fn side(part: &Part, feature: &Feature) -> Patch {
     match feature.patch {
         Patch::Line { at, along, half, radius, .. } if part.surface.is_some() => {
@@ -236,7 +238,7 @@ fn side(part: &Part, feature: &Feature) -> Patch {
     }
 }
 
-/// The nearest places of two boxes with parallel edges. `None` unless two faces are nearest.
+/// Computes the closest points of two boxes with parallel edges. `None` unless the boxes are nearest at two faces.
 fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let (of_a, of_b) = (a.half?, b.half?);
     if pa.orientation != pb.orientation {
@@ -249,7 +251,7 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
         return None;
     }
     let sign = if apart[axis] < 0.0 { -1.0 } else { 1.0 };
-    // The middle of the area shared by the two faces.
+    // The center of the overlap of the two faces.
     let mut place = 0.5 * ((-of_a).max(apart - of_b) + of_a.min(apart + of_b));
     place[axis] = sign * of_a[axis];
     let mut normal = DVec3::ZERO;
@@ -259,13 +261,13 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     Some(Nearest { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
 }
 
-/// The search for the normal with the largest separation.
+/// The search for the normal along which two parts have the largest separation.
 struct Search<'a> {
     a: &'a Part,
     pa: &'a Pose,
     b: &'a Part,
     pb: &'a Pose,
-    /// The largest separation so far, m, and the meeting whose normal has it.
+    /// The largest separation so far, m, and the closest points whose normal gives it.
     best: Option<(f64, Nearest)>,
 }
 
@@ -284,9 +286,9 @@ impl Search<'_> {
         }
     }
 
-    /// Whether the parts are nearest at a pair of a corner with a corner, an edge or a rim: its places and its normal
-    /// belong to the two features. Its gap is then exact. Its normal is less so: the smaller the gap, the larger its
-    /// rounding error, so the separation along it would be too small.
+    /// Returns true if the parts are nearest at a corner and another corner, an edge or a rim: the points and the normal belong to the two
+    /// features. The gap is then exact. The normal is less accurate: its rounding error grows as the gap shrinks, so the separation along
+    /// it would be too small.
     fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
         let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
@@ -304,7 +306,7 @@ impl Search<'_> {
 
     fn best_of(&mut self, along: f64, found: Nearest) {
         let digits = self.digits();
-        // Of meetings with the same separation, take the one with the closest gap.
+        // Of several candidates with the same separation, the one whose gap is closest to it counts.
         let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
                 || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits
@@ -314,7 +316,7 @@ impl Search<'_> {
         }
     }
 
-    /// The best meeting, if it is certain: its places are on the parts, and its gap is the separation along its normal.
+    /// Returns the best candidate if it is certain: its points are on the parts, and its gap is the separation along its normal.
     fn answer(&self) -> Option<Nearest> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
@@ -322,19 +324,19 @@ impl Search<'_> {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
         };
-        // The places of overlapping parts need not be on the parts.
+        // The closest points of overlapping parts may lie outside of the features.
         let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
         (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
     }
 
-    /// The rounding error of a distance, m.
+    /// Returns a bound of the rounding error of a distance between the parts, m.
     fn digits(&self) -> f64 {
         1e-14 * (self.a.bound + self.b.bound + (self.pb.location - self.pa.location).length())
     }
 }
 
-/// The separation of two parts along a unit vector from the first to the second, m.
+/// Computes the separation of two parts along a unit vector from the first to the second, m. It is negative if their projections overlap.
 fn separation(a: &Part, pa: &Pose, b: &Part, pb: &Pose, normal: DVec3) -> f64 {
     let (local_a, local_b) = (pa.orientation.conjugate() * normal, -(pb.orientation.conjugate() * normal));
     let (high_a, high_b) = (a.core.support(local_a).dot(local_a), b.core.support(local_b).dot(local_b));

@@ -1,9 +1,10 @@
-//! No first guess, without the feature `time-stepping`: all pairs of features are compared, which is as exact, but slower.
+//! The replacement of GJK without the feature `time-stepping`: there is no first guess, so all pairs of features are compared. The result
+//! is as exact, but slower.
 
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// Always `None`: there is no first guess at the points where the cores of two parts are nearest.
+/// Always returns `None`: without GJK, there is no first guess for the closest points of two parts.
 pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<Nearest> {
     None
 }

@@ -1,8 +1,8 @@
-//! Lists the pairs of bodies that can touch soon.
+//! The list of body pairs that can touch soon.
 //!
-//! A list holds the pairs of nearby boxes until a body has moved farther than the margin of its box. Each pair has a
-//! lower bound of its gap, reduced by the distances that both move. Only when it is used up, the pair is examined
-//! again. Source for the list: L. Verlet, Phys. Rev. 159 (1967) 98.
+//! The list holds all pairs whose boxes, enlarged by margins, overlap. It remains valid until a body has moved farther than its margin.
+//! Each pair has a lower bound of its gap, which shrinks by the distances that both bodies move. The pair is examined again only when this
+//! bound reaches zero. Source for the list: L. Verlet, Phys. Rev. 159 (1967) 98.
 
 use glam::DVec3;
 
@@ -11,57 +11,59 @@ use super::path::{Path, pose};
 use super::solid::Solid;
 use super::{Contacts, Meeting};
 
-/// The margin of boxes, in distances moved per step.
+/// The margin around the box of a body, as a multiple of the distance that the body moves in a step.
 const WAYS: f64 = 8.0;
 
-/// Two bodies that may touch.
+/// Two bodies that may touch soon.
 #[derive(Clone, Debug)]
 pub(super) struct Pair {
-    /// Their numbers, the smaller one first.
+    /// The indices of the two bodies, the smaller one first.
     pub(super) bodies: [usize; 2],
-    /// The behavior of their surfaces.
+    /// The restitution and the friction of the two surfaces.
     pub(super) law: Meeting,
-    /// A lower bound of their gap, m.
+    /// A lower bound of the gap of the two bodies, m.
     pub(super) free: f64,
 }
 
-/// The nearby pairs.
+/// The list of body pairs that can touch soon, and how long it remains valid.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pairs {
-    /// In the order of the numbers of their bodies.
+    /// The pairs, in the order of their bodies' indices.
     pub(super) list: Vec<Pair>,
-    /// The distance that each body may still move before the list is rebuilt, m.
+    /// The distance that each body may still move before the list must be rebuilt, m.
     left: Vec<f64>,
-    /// The distances that bodies moved in the repeated step, if the list was too short for it, m.
+    /// If the list was not valid for a whole step: the distances that the bodies moved in this step, m, which the next list must allow
+    /// for.
     expected: Vec<f64>,
     is_known: bool,
 }
 
 impl Pairs {
-    /// Called when bodies have changed: the list must be rebuilt.
+    /// Marks the list as invalid. Must be called when bodies have changed.
     pub(super) fn forget(&mut self) {
         self.is_known = false;
     }
 
-    /// The list, if it contains all pairs whose boxes overlap after adding a margin to each.
+    /// Returns the list if it contains all pairs whose boxes overlap when enlarged by these margins, m.
     pub(super) fn within(&self, margins: &[f64]) -> Option<&[Pair]> {
         let is_long = self.is_known && margins.iter().zip(&self.left).all(|(margin, left)| margin <= left);
         is_long.then_some(&self.list[..])
     }
 
-    /// The list was too short for these distances, m: it must be rebuilt.
+    /// Marks the list as invalid, because it does not cover these distances of the bodies, m. The next list will cover them.
     pub(super) fn expect(&mut self, ways: Vec<f64>) {
         self.expected = ways;
         self.is_known = false;
     }
 
-    /// The contact law of two bodies of the list.
+    /// Returns the restitution and friction of two bodies; `None` if the pair is not in the list.
     pub(super) fn law(&self, bodies: [usize; 2]) -> Option<Meeting> {
         let at = self.list.binary_search_by_key(&bodies, |pair| pair.bodies).ok()?;
         Some(self.list[at].law)
     }
 
-    /// Subtracts the distances of a step, and rebuilds the list if it is too short for it.
+    /// Subtracts the distances moved in a step from the gaps and margins. Rebuilds the list first if its margins are too small for this
+    /// step.
     pub(super) fn follow(
         &mut self,
         contacts: &Contacts,
@@ -90,7 +92,7 @@ impl Pairs {
         self.take_ways_off(solids, paths);
     }
 
-    /// Subtracts the distances of a step from the gaps.
+    /// Subtracts the distances that the bodies move in a step from the lower bounds of the gaps.
     pub(super) fn take_ways_off(&mut self, solids: &[Option<Solid>], paths: &[Path]) {
         let way = |i: usize| way(solids[i].as_ref(), &paths[i]);
         for pair in &mut self.list {
@@ -99,20 +101,20 @@ impl Pairs {
         }
     }
 
-    /// Adds to the expected distances of bodies, m. Returns whether the list is still long enough.
+    /// Subtracts further distances of the bodies from the margins, m. Returns true if the list is still valid.
     pub(super) fn go_farther(&mut self, more: &[f64]) -> bool {
         self.left.iter_mut().zip(more).for_each(|(left, more)| *left -= more.max(0.0));
         self.left.iter().all(|left| *left >= 0.0)
     }
 }
 
-/// The longest path of a point of a body's core within a step, m.
+/// Returns an upper bound of the distance that any point of a body's core moves within a step, m.
 pub(super) fn way(solid: Option<&Solid>, path: &Path) -> f64 {
     let reach = solid.map_or(0.0, Solid::reach);
     path.reach + if path.turn > 0.0 { path.turn * reach } else { 0.0 }
 }
 
-/// All pairs whose boxes overlap after adding a margin to each.
+/// Returns all pairs of bodies whose boxes overlap when enlarged by a margin for each body, m.
 pub(super) fn near(
     contacts: &Contacts,
     solids: &[Option<Solid>],
@@ -125,7 +127,7 @@ pub(super) fn near(
         let [low, high] = solid.bounds(&pose(i, model, state));
         boxes.push((i, [low - margins[i], high + margins[i]]));
     }
-    // Swept along the axis of their largest spread.
+    // The boxes are swept along the axis on which they are spread the most.
     let spread = |axis: usize| {
         let ends = boxes.iter().map(|(_, [low, _])| low[axis]).filter(|low| low.is_finite());
         let (least, most) = ends.fold((f64::MAX, f64::MIN), |(least, most), x| (least.min(x), most.max(x)));
@@ -151,7 +153,7 @@ pub(super) fn near(
     pairs
 }
 
-/// The contact law of two bodies; none if they do not collide or if forces move neither.
+/// Returns the restitution and friction of two bodies. `None` if they pass through each other or if neither can move.
 fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<Meeting> {
     let [a, b] = bodies;
     let is_moved = |i: usize| model.can_move(i);

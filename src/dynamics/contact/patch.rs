@@ -1,4 +1,4 @@
-//! The surface of a body around a touched place, and the nearest places of two such surfaces.
+//! Patches: simple surfaces that describe a body around a contact point. Finds the closest points of two patches.
 
 mod rim;
 
@@ -7,68 +7,68 @@ use glam::{DQuat, DVec3};
 use super::nearest::Nearest;
 use super::solid::Pose;
 
-/// Two directions are parallel if the sine of their angle is smaller.
+/// Two directions count as parallel if the sine of the angle between them is below this.
 const PARALLEL: f64 = 1e-9;
 
-/// The surface of a body around a touched place, in the body's own axes.
+/// The surface of a body around a contact point, in body axes.
 ///
-/// A patch extends beyond the borders of its edge or face, so that the places of a meeting are smooth functions of the
-/// poses. [`inside`](super::touch::inside) gives the distance from the borders.
+/// A patch extends beyond the borders of its edge or face, so the closest points of two patches are smooth functions of the poses.
+/// [`inside`](super::touch::inside) gives the distance from the borders.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Patch {
-    /// A corner, a ball, the end of a capsule, the corner of a rounded box.
+    /// A corner, or a ball: a sphere, the end of a capsule, or the corner of a rounded box.
     Point {
-        /// The corner, or the centre of the ball.
+        /// The corner, or the center of the ball, body axes, m.
         at: DVec3,
         /// The radius of the ball, m; 0 for a corner.
         radius: f64,
     },
-    /// An edge, or the side of a capsule or cylinder.
+    /// An edge, or the round side of a capsule or cylinder.
     Line {
-        /// The middle of the edge, or of the axis.
+        /// The middle of the edge or of the axis, body axes, m.
         at: DVec3,
-        /// Its unit direction.
+        /// The unit direction of the edge or of the axis.
         along: DVec3,
-        /// Half its length, m.
+        /// Half the length of the edge or of the axis, m.
         half: f64,
-        /// The distance of the surface from it, m; 0 for a sharp edge.
+        /// The distance of the surface from the line, m; 0 for a sharp edge.
         radius: f64,
-        /// The direction out of the body at an edge. Zero for a capsule or a cylinder, which are round about the line.
+        /// For an edge, a vector that points out of the body. Zero for a capsule or a cylinder, which are round about the line.
         outward: DVec3,
     },
-    /// A face.
+    /// A flat face.
     Plane {
-        /// A point of it.
+        /// A point of the face, body axes, m.
         at: DVec3,
-        /// Its unit normal, out of the body.
+        /// The unit normal of the face, out of the body.
         normal: DVec3,
     },
-    /// The rim of the flat end of a cylinder or a cone.
+    /// The circular rim of the flat end of a cylinder or a cone.
     Circle {
-        /// Its centre.
+        /// The center of the rim, body axes, m.
         centre: DVec3,
         /// The unit normal of the flat end, out of the body.
         axis: DVec3,
-        /// Its radius, m.
+        /// The radius of the rim, m.
         radius: f64,
     },
-    /// The side of a cone: the envelope of balls around the points of its axis.
+    /// The side of a cone, as the envelope of balls around the points of its axis.
     Side {
-        /// The middle of the axis.
+        /// The middle of the cone's axis, body axes, m.
         at: DVec3,
-        /// The unit direction of the axis.
+        /// The unit direction of the cone's axis.
         along: DVec3,
-        /// Half the height, m.
+        /// Half the height of the cone, m.
         half: f64,
-        /// The radius of the ball around `at`, m.
+        /// The radius of the ball around the middle `at`, m.
         radius: f64,
-        /// The growth of the balls' radius along the axis, m/m. For a cone that narrows along it, this is minus the
-        /// sine of half the opening angle.
+        /// The change of the balls' radius per length along the axis, m/m. For a cone that narrows along the axis, this is minus the sine
+        /// of half the opening angle.
         taper: f64,
     },
 }
 
-/// A line of balls, whose envelope is the surface. A point is a line without a direction.
+/// A line segment of balls whose envelope is a round surface. A single ball is a segment without a direction.
 #[derive(Clone, Copy, Debug)]
 struct Spine {
     at: DVec3,
@@ -80,7 +80,7 @@ struct Spine {
 }
 
 impl Patch {
-    /// The same patch in other axes.
+    /// Returns the patch in the axes into which a pose transforms body axes.
     pub(super) fn placed(&self, at_pose: &Pose) -> Patch {
         let (point, turn) = (|p: DVec3| at_pose.point(p), at_pose.orientation);
         match *self {
@@ -98,7 +98,7 @@ impl Patch {
         }
     }
 
-    /// Whether the surface has no unique normal there: a corner, an edge, or a rim.
+    /// Returns true if the surface has no unique normal: for a corner, a sharp edge, or a rim.
     pub(super) fn is_sharp(&self) -> bool {
         match *self {
             Patch::Point { radius, .. } | Patch::Line { radius, .. } => radius == 0.0,
@@ -107,18 +107,18 @@ impl Patch {
         }
     }
 
-    /// Whether it is the rim of a flat end.
+    /// Returns true if the patch is the rim of a flat end.
     pub(super) fn is_rim(&self) -> bool {
         matches!(self, Patch::Circle { .. })
     }
 
-    /// Whether the meeting has no unique normal: neither patch has one, and they are not two crossing edges.
+    /// Returns true if the contact of two patches has no unique normal: neither patch has one, and one of the patches is a corner.
     pub(super) fn has_no_normal_with(&self, other: &Patch) -> bool {
         let corner = |patch: &Patch| matches!(patch, Patch::Point { .. });
         self.is_sharp() && other.is_sharp() && (corner(self) || corner(other))
     }
 
-    /// The line of balls whose envelope is the patch. `None` for planes and rims.
+    /// Returns the segment of balls whose envelope is the patch. `None` for planes and rims.
     fn spine(&self) -> Option<Spine> {
         let zero = DVec3::ZERO;
         match *self {
@@ -136,18 +136,18 @@ impl Patch {
     }
 }
 
-/// The nearest places of two patches.
+/// Computes the closest points of two patches.
 ///
-/// A gap between a corner and a corner, an edge or a rim is never negative, because the normal is not unique there.
+/// The gap between a corner and a corner, an edge or a rim is never negative, because the normal is not unique there.
 pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> Nearest {
-    // Near the first body, to keep digits far from the origin.
+    // Coordinates are relative to the first body, to keep precision far from the origin.
     let origin = pa.location;
     let a = a.placed(&Pose { location: DVec3::ZERO, orientation: pa.orientation });
     let b = b.placed(&Pose { location: pb.location - origin, orientation: pb.orientation });
     meet_placed(&a, &b).moved(origin)
 }
 
-/// The same for patches in common axes.
+/// Computes the closest points of two patches in common axes.
 pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
     match (*a, *b) {
         (Patch::Plane { at, normal }, _) => on_plane(at, normal, b),
@@ -161,19 +161,19 @@ pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
         }
         _ => match (a.spine(), b.spine()) {
             (Some(a), Some(b)) => spines(&a, &b),
-            // Planes and rims are handled above.
+            // All pairs with a plane or a rim are handled above.
             _ => Nearest { gap: f64::INFINITY, normal: DVec3::X, on: [DVec3::ZERO; 2] },
         },
     }
 }
 
-/// The nearest places of a plane and a patch. For a line, this is its nearer end.
+/// Computes the closest points of a plane and a patch. The closest point of a line is its nearer end.
 fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
     let lowest = match *other {
         Patch::Plane { at, .. } => at,
         Patch::Circle { centre, axis, radius } => {
             let across = normal - normal.dot(axis) * axis;
-            // A rim that lies flat has no lowest place; any place will do.
+            // If the rim is parallel to the plane, all its points are equally low, so any point will do.
             centre - radius * across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
         }
         _ => match other.spine() {
@@ -185,7 +185,7 @@ fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
     Nearest { gap, normal, on: [lowest - gap * normal, lowest] }
 }
 
-/// The nearest places of a rim and a point, a line, or the side of a cone.
+/// Computes the closest points of a rim and a point, a line, or the side of a cone.
 fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
     match other.spine() {
         Some(spine) => rim::rim_and_spine(rim, &spine),
@@ -194,7 +194,7 @@ fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
 }
 
 impl Spine {
-    /// The farthest place of the surface against a direction.
+    /// Returns the point of the surface that is farthest in the direction opposite to the unit vector `normal`.
     fn lowest(&self, normal: DVec3) -> DVec3 {
         let end = |s: f64| self.at + s * self.along - (self.radius + self.taper * s) * normal;
         let ends = [end(self.half), end(-self.half)];
@@ -206,11 +206,11 @@ impl Spine {
     }
 }
 
-/// The nearest places of two envelopes of balls.
+/// Computes the closest points of two envelopes of balls.
 ///
-/// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. Let the lines be nearest at (s₀, t₀), at the
-/// distance h. With x = (s, t) − (s₀, t₀) and the matrix G of the scalar products of the directions, the gap is
-/// √(h² + xᵀ G x) − k·x − …, whose minimum is at x = G⁻¹ k h / √(1 − kᵀ G⁻¹ k).
+/// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. Let the lines be nearest at (s₀, t₀), at the distance h.
+/// With x = (s, t) − (s₀, t₀) and the matrix G of the dot products of the directions, the gap is √(h² + xᵀ G x) − k·x − …, whose minimum
+/// is at x = G⁻¹ k h / √(1 − kᵀ G⁻¹ k).
 fn spines(a: &Spine, b: &Spine) -> Nearest {
     let w = b.at - a.at;
     if a.is_point() && b.is_point() {
@@ -223,7 +223,7 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let cross = u.cross(v);
     let sine = cross.length();
     if b.is_point() || sine < PARALLEL {
-        // Parallel lines meet in the middle of the length that they share, or at their nearer ends.
+        // Parallel lines are in contact at the middle of the length that they share, or at their nearer ends.
         let t = if b.is_point() { 0.0 } else { common_middle(a, b, w) };
         let from = w + t * v;
         let s0 = from.dot(u);
@@ -245,10 +245,10 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let [s0, t0] = inverse(w.dot(u), -w.dot(v));
     let k = [a.taper, b.taper];
     let steepest = inverse(k[0], k[1]);
-    // The outward directions of the two bodies give the sign of the normal, even if the bodies overlap.
+    // The outward directions of the two bodies determine the sign of the normal, even if the bodies overlap.
     let out = unit.dot(a.outward - b.outward);
     let sign = if out == 0.0 { 1.0_f64.copysign(h) } else { out.signum() };
-    // With its sign, the gap is smooth even at a crossing of the lines.
+    // Since the gap has a sign, it is smooth even when the lines cross each other.
     let below = (1.0 - k[0] * steepest[0] - k[1] * steepest[1]).max(0.0).sqrt();
     if below < PARALLEL {
         return nowhere(a.at + s0 * u, b.at + t0 * v, sign * unit);
@@ -264,13 +264,13 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     }
 }
 
-/// No meeting. The gap shrinks steadily along the lines of steep cones, so they are nearest at an end, which is a
+/// Returns an infinite gap. The gap of steep cones decreases steadily along the lines, so the cones are nearest at an end, which is a
 /// separate patch.
 fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> Nearest {
     Nearest { gap: f64::INFINITY, normal, on: [a, b] }
 }
 
-/// The middle of the common part of two parallel lines, from the middle of the second, m.
+/// Returns the middle of the length that two parallel lines share, as a distance from the middle of the second line, m.
 fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
     let start = w.dot(b.along);
     let low = (-b.half).max(-start - a.half);
@@ -278,7 +278,7 @@ fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
     (0.5 * (low + high)).clamp(-b.half, b.half)
 }
 
-/// The nearest places of two balls. `away` is the normal for concentric balls.
+/// Computes the closest points of two balls with centers `a` and `b` and radii `ra` and `rb`. `away` is the normal for concentric balls.
 fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
     let between = b - a;
     let normal = between.try_normalize().or(away.try_normalize()).unwrap_or(DVec3::X);
@@ -286,17 +286,17 @@ fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
 }
 
 impl Pose {
-    /// A place of the body in the world.
+    /// Transforms a point from body axes to world axes.
     pub(in crate::dynamics) fn point(&self, point: DVec3) -> DVec3 {
         self.location + self.orientation * point
     }
 
-    /// A place of the world in the axes of the body.
+    /// Transforms a point from world axes to body axes.
     pub(in crate::dynamics) fn local(&self, place: DVec3) -> DVec3 {
         self.orientation.conjugate() * (place - self.location)
     }
 
-    /// Neither moved nor rotated.
+    /// The pose of a body at the origin, with its axes parallel to the world axes.
     pub(in crate::dynamics) const IDENTITY: Pose =
         Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
 }

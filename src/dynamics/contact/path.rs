@@ -1,31 +1,31 @@
-//! The motion of a body within a step, for the search of contacts.
+//! The path of a body within a step, which the search for contacts uses.
 
 use glam::{DQuat, DVec3};
 
 use super::super::{Model, State};
 use super::solid::Pose;
 
-/// Values below this part of the coordinates are rounding.
+/// Deviations below this fraction of the coordinates count as rounding errors.
 const ROUNDING: f64 = 2e-15;
 
-/// The motion of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a
-/// steady rotation. It need not be more accurate, since a touch found on it is then located by steps of the integrator.
+/// The path of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a uniform rotation. This
+/// accuracy is sufficient, because steps of the integrator locate each touch that is found on the path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     start: Pose,
     duration: f64,
     velocity: DVec3,
-    /// x'' at both ends; it is linear in time.
+    /// The acceleration at the beginning and at the end of the step, m/s². It is linear in time.
     acceleration: [DVec3; 2],
-    /// The mean angular velocity, and the initial one, rad/s.
+    /// The mean angular velocity in the step; `first_turning` is that at its beginning. World axes, rad/s.
     pub(super) turning: DVec3,
     pub(super) first_turning: DVec3,
-    /// The largest distance that it can cover, m; and the largest angle, rad.
+    /// Upper bounds of the motion in the step: the distance of the center of mass, m, and the angle of rotation (`turn`), rad.
     pub(super) reach: f64,
     pub(super) turn: f64,
 }
 
-/// A body at a moment of its path.
+/// The pose and the velocity of a body at one moment of its path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
     pub(super) pose: Pose,
@@ -33,12 +33,12 @@ pub(super) struct Moving {
 }
 
 impl Path {
-    /// The path of body `i`.
+    /// Computes the path of body `i` from the states at both ends of the step. `duration` is the length of the step, s.
     pub(super) fn of(i: usize, model: &Model, before: &State, after: &State, duration: f64) -> Path {
         let way = after.location[i] - before.location[i];
         let (v, w) = (before.velocity[i], after.velocity[i]);
         let h = duration;
-        // The deviation from steady acceleration. In short steps, rounding would look like large accelerations.
+        // The deviation from constant acceleration. In short steps, a rounding error would look like a large acceleration.
         let rest = way - 0.5 * h * (v + w);
         let rounding = ROUNDING * after.location[i].abs().max(before.location[i].abs()).max_element();
         let rest = if rest.abs().max_element() <= rounding { DVec3::ZERO } else { rest };
@@ -58,7 +58,7 @@ impl Path {
         }
     }
 
-    /// The body at a time after the beginning, s.
+    /// Returns the pose and velocity of the body `time` seconds after the beginning of the step.
     pub(super) fn at(&self, time: f64) -> Moving {
         let [a, b] = self.acceleration;
         let bend = (b - a) / self.duration;
@@ -72,20 +72,19 @@ impl Path {
         Moving { pose: Pose { location, orientation }, velocity }
     }
 
-    /// The largest acceleration of another body relative to this one.
+    /// Returns the largest acceleration of another body relative to this one, m/s².
     pub(super) fn bend(&self, other: &Path) -> f64 {
         let apart = |end: usize| (other.acceleration[end] - self.acceleration[end]).length();
         apart(0).max(apart(1))
     }
 }
 
-/// The pose of body `i`.
+/// Returns the pose of body `i` in a state.
 pub(super) fn pose(i: usize, model: &Model, state: &State) -> Pose {
     Pose { location: state.location[i], orientation: model.world_from_body(i, state) }
 }
 
-/// The rotation vector of a body, rad. Of the rotations that lead to the end, it is the one that fits the angular
-/// velocity.
+/// Returns the rotation vector of a body in a step, world axes, rad. Full turns are chosen to fit the angular velocity.
 fn turned(i: usize, model: &Model, before: &State, after: &State, duration: f64) -> DVec3 {
     if before.orientation[i] == after.orientation[i] && before.angular_momentum[i] == DVec3::ZERO {
         return DVec3::ZERO;
@@ -100,7 +99,7 @@ fn turned(i: usize, model: &Model, before: &State, after: &State, duration: f64)
 }
 
 impl Path {
-    /// The same for a body that does not move.
+    /// Turns this path into that of a body at rest.
     pub(super) fn stop(&mut self) {
         self.velocity = DVec3::ZERO;
         self.acceleration = [DVec3::ZERO; 2];

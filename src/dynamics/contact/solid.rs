@@ -1,4 +1,4 @@
-//! The surface of a body: its shape as convex parts, each with its corners, edges and faces.
+//! The surface of a body for contacts: its shape as convex parts, each with its corners, edges and faces.
 
 use std::sync::Arc;
 
@@ -12,68 +12,68 @@ use super::tree::Tree;
 use super::triangles::triangles;
 use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
 
-/// Where a body is and how it is turned. Its axes are those of its shape, not its principal axes.
+/// The position and the orientation of a body. The body axes are those of its shape, not its principal axes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Pose {
-    /// Its centre of mass, m.
+    /// The position of the body's center of mass, world axes, m.
     pub location: DVec3,
-    /// `world_from_body`.
+    /// The rotation from body axes to world axes.
     pub orientation: DQuat,
 }
 
-/// The surface of a body, as a list of convex parts.
+/// The surface of a body for contacts, as a list of convex parts.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Solid {
     reach: f64,
     size: f64,
     parts: Arc<[Part]>,
-    /// The boxes of the parts, of a mesh only.
+    /// The tree of the parts' bounding boxes; `None` for all but meshes.
     tree: Option<Arc<Tree>>,
     is_surface: bool,
 }
 
-/// A convex part: its core, rounded by `radius`. All places are in the axes of the body.
+/// A convex part of a body: its core, enlarged on all sides by the rounding `radius`, m. All points are in body axes.
 #[derive(Debug)]
 pub(super) struct Part {
     pub(super) core: Core,
     pub(super) radius: f64,
-    /// Half the size of a box along the axes of the body, m. `None` for all other parts.
+    /// For a box parallel to the body axes, its half extents, m. `None` for all other parts.
     pub(super) half: Option<DVec3>,
-    /// The centre of a ball around the part.
+    /// The center of a bounding ball of the part, body axes, m.
     pub(super) centre: DVec3,
-    /// The radius of that ball, m.
+    /// The radius of the bounding ball, m; infinite for the ground.
     pub(super) bound: f64,
-    /// Its corners, edges and faces.
+    /// The corners, edges, faces and rims of the part.
     pub(super) features: Vec<Feature>,
-    /// For a triangle, the size of its mesh, m. `None` for a solid part.
+    /// For a triangle of a mesh, the size of the whole mesh, m. `None` for a solid part.
     pub(super) surface: Option<f64>,
 }
 
-/// A part without its rounding.
+/// The geometry of a part without its rounding.
 #[derive(Debug)]
 pub(super) enum Core {
-    /// The convex hull of points.
+    /// The convex hull of points. A single point becomes a ball by rounding, two points a capsule.
     Hull(Vec<DVec3>),
-    /// A cylinder or a cone, which may have a flat top: the convex hull of two discs about one axis.
+    /// A cylinder, a cone, or a truncated cone: the convex hull of two discs about one axis.
     Frustum {
-        /// The centres of the discs.
+        /// The centers of the two discs, body axes, m.
         ends: [DVec3; 2],
-        /// The unit direction from the first to the second.
+        /// The unit direction of the axis, from the first disc to the second.
         axis: DVec3,
-        /// Their radii, m.
+        /// The radii of the two discs, m; 0 for the tip of a cone.
         radii: [f64; 2],
     },
-    /// A half-space: everything below a plane.
+    /// The ground: the half-space below a plane.
     Ground {
-        /// A place on the plane.
+        /// A point on the plane, body axes, m.
         at: DVec3,
-        /// Its unit normal, out of the ground.
+        /// The unit normal of the plane, out of the ground.
         normal: DVec3,
     },
 }
 
 impl Solid {
-    /// The surface of a shape. `None` for a torus, for axes, and for compounds that hold one of them.
+    /// Creates the surface of a shape. `None` for a torus, for axes, and for compounds that contain one of these.
     pub(in crate::dynamics) fn of(shape: &Shape) -> Option<Solid> {
         let mut parts = Vec::new();
         add(shape, &Pose::IDENTITY, &mut parts)?;
@@ -86,18 +86,18 @@ impl Solid {
         Some(Solid { parts: parts.into(), tree, is_surface, reach, size })
     }
 
-    /// The largest distance of the cores from the centre of mass, m. Turning at ω moves no core faster than ω times this.
-    /// 0 for a ball around its centre; infinite for a plane.
+    /// Returns the largest distance of the cores from the center of mass, m. At the angular speed ω, no point of a core moves faster than
+    /// ω times this. 0 for a ball around its center; infinite for a plane.
     pub(in crate::dynamics) fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// A typical size, m: the smallest thickness of a part. 1 for a plane.
+    /// Returns a typical size of the body, m: the smallest thickness of its parts. 1 for a plane.
     pub(in crate::dynamics) fn size(&self) -> f64 {
         self.size
     }
 
-    /// The bounding box of the body along the axes of the world: its lowest and its highest corner. Infinite for a plane.
+    /// Returns the bounding box of the body along the world axes: its lowest and its highest corner, m. Infinite for a plane.
     pub(in crate::dynamics) fn bounds(&self, pose: &Pose) -> [DVec3; 2] {
         let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         for part in &*self.parts {
@@ -110,17 +110,17 @@ impl Solid {
         bounds
     }
 
-    /// The tree of the parts' boxes. `None` for all but meshes.
+    /// Returns the tree of the parts' bounding boxes. `None` for all but meshes.
     pub(super) fn tree(&self) -> Option<&Tree> {
         self.tree.as_deref()
     }
 
-    /// Whether this is a single ball, which touches anything convex at one place.
+    /// Returns true if the body is a single ball. It touches a convex solid at only one point.
     pub(super) fn is_ball(&self) -> bool {
         matches!(&*self.parts, [part] if part.ball().is_some())
     }
 
-    /// Whether triangles are among the parts.
+    /// Returns true if triangles of a mesh are among the parts.
     pub(super) fn is_surface(&self) -> bool {
         self.is_surface
     }
@@ -146,13 +146,13 @@ impl Part {
         Part { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
     }
 
-    /// The point of the part that is farthest along a direction of any length.
+    /// Returns the point of the part that is farthest along a vector of any length, body axes, m.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         let core = self.core.support(direction);
         if self.radius > 0.0 { core + self.radius * direction.normalize_or_zero() } else { core }
     }
 
-    /// The bounding box of the part along the axes of another body: its lowest and its highest corner.
+    /// Returns the bounding box of the part along the axes of another body: its lowest and its highest corner, m.
     pub(super) fn box_in(&self, pose: &Pose, other: &Pose) -> [DVec3; 2] {
         if self.is_ground() {
             return [DVec3::NEG_INFINITY, DVec3::INFINITY];
@@ -172,7 +172,7 @@ impl Part {
         matches!(self.core, Core::Ground { .. })
     }
 
-    /// The centre of a ball. `None` for all other parts.
+    /// Returns the center of the part if it is a ball, body axes, m. `None` for all other parts.
     pub(super) fn ball(&self) -> Option<DVec3> {
         match &self.core {
             Core::Hull(corners) if corners.len() == 1 => Some(corners[0]),
@@ -199,7 +199,7 @@ impl Part {
             return size;
         }
         let core = match &self.core {
-            // The smallest width along the normal of a face.
+            // The smallest width of the hull along the normal of a face.
             Core::Hull(corners) if corners.len() > 2 => {
                 let width = |feature: &Feature| match feature.patch {
                     Patch::Plane { at, normal } => {
@@ -218,7 +218,7 @@ impl Part {
 }
 
 impl Core {
-    /// The point of the core that is farthest along a direction of any length.
+    /// Returns the point of the core that is farthest along a vector of any length, body axes, m.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         match self {
             Core::Hull(corners) => {
@@ -242,7 +242,7 @@ impl Core {
     }
 }
 
-/// Adds the parts of a shape. `pose` is that of the shape in the axes of the body.
+/// Appends the convex parts of a shape. `pose` is the pose of the shape in body axes. `None` if the shape has no surface for contacts.
 fn add(shape: &Shape, pose: &Pose, parts: &mut Vec<Part>) -> Option<()> {
     let up = pose.orientation * DVec3::Y;
     let along = |y: f64| pose.location + y * up;

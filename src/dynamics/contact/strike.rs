@@ -1,8 +1,8 @@
-//! Impacts of bodies: one pair after another, the fastest approach first.
+//! Impacts between touching bodies: one pair after another, the fastest approach first.
 //!
-//! Places that touch at the same instant take part as zero gaps: the impulse of one pair can make another approach,
-//! which is then struck. Among equal approaches, the order of the bodies counts. Impacts of one pair at several places
-//! are simultaneous, and joints act together with each impact.
+//! Bodies that touch at the same instant take part with a gap of zero: the impulse of one pair can make another pair approach, which then
+//! has an impact as well. Among equal approaches, the order of the bodies decides. Impacts of one pair at several points are simultaneous,
+//! and joints react at the same instant as each impact.
 
 use std::sync::Arc;
 
@@ -17,51 +17,52 @@ use super::impulse::{Bounce, impulses};
 use super::nearest::Nearest;
 use super::touch::Touch;
 
-/// A rebound below this part of the fastest approach is suppressed: it would be invisible.
+/// A rebound speed below this fraction of the largest closing speed is suppressed, because it would be invisible.
 const REST: f64 = 1e-8;
 
-/// Places that separate below this part of the fastest approach may stay closed.
+/// Contact points that separate at less than this fraction of the largest closing speed may stay closed.
 const STILL: f64 = 1e-9;
 
-/// If two bodies have hit each other this often within a step, beyond what their restitution explains, slow impacts count
-/// as rest. Bodies pressed together by others would otherwise bounce endlessly.
+/// If two bodies hit each other this many times more within a step than their restitution explains, slow impacts count as rest. Bodies
+/// pressed together by others would otherwise bounce endlessly.
 const OFTEN: f64 = 10.0;
 
-/// With this many more impacts, the speed limit of rest doubles, up to this factor.
+/// With each further `MORE` impacts, the speed below which bodies count as at rest doubles. `MOST` is the largest factor.
 const MORE: f64 = 5.0;
 const MOST: f64 = 1000.0;
 
-/// After this many impacts of a pair, or this many of all pairs, events are no longer followed one by one.
+/// After this many impacts of one pair within a step, or `TOGETHER` impacts of all pairs, time-stepping replaces the search for single
+/// events.
 const TOO_OFTEN: f64 = 40.0;
 const TOGETHER: u32 = 1_000;
 
-/// Rates are equal if they differ by less than this part.
+/// Velocities count as equal if they differ by less than this fraction.
 const ALIKE: f64 = 1e-13;
 
-/// The most impacts in an instant per touching pair.
+/// The largest number of impacts in one instant, per touching pair.
 const ROUNDS: usize = 2_000;
 
-/// The same if every impact loses energy. Wedged bodies have many impacts that each lose little. After this many
-/// rounds, the rest of the approach is lost at once.
+/// The largest number of impacts in one instant per touching pair, if every impact dissipates energy. Wedged bodies have many impacts that
+/// each dissipate little. After this number, the remaining approach is stopped at once.
 const ROUNDS_WITH_LOSSES: usize = 100;
 
-/// The place of an impact: its position, and the directions of its normal and its tangents.
+/// A contact point of an impact: the unit vectors of its normal and its two tangents, and its position.
 #[derive(Clone, Copy)]
 struct Place {
     axes: [DVec3; 3],
-    /// The vectors to it from both centres of mass, m.
+    /// The vectors from both centers of mass to the contact point, world axes, m.
     arms: [DVec3; 2],
 }
 
-/// The result of impacts between touching bodies.
+/// The result of the impacts between touching bodies at one instant.
 pub(in crate::dynamics) struct Strike {
-    /// The places at which bodies may stay in touch.
+    /// The contacts at which bodies may stay in touch.
     pub(in crate::dynamics) closed: Vec<Arc<Closed>>,
-    /// The bodies that were struck.
+    /// The indices of the bodies that had an impact. A body may occur several times.
     pub(in crate::dynamics) struck: Vec<usize>,
 }
 
-/// The velocity and the angular velocity of a body.
+/// The velocity of a body, m/s, and its angular velocity, rad/s, world axes.
 type Motion = (DVec3, DVec3);
 
 impl Place {
@@ -71,7 +72,7 @@ impl Place {
         Place { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
     }
 
-    /// The velocity of the second body relative to the first, along the axes.
+    /// Computes the velocity of the second body relative to the first at the contact point, along the normal and the two tangents, m/s.
     fn rate(&self, [a, b]: [Motion; 2]) -> DVec3 {
         let apart = b.0 + b.1.cross(self.arms[1]) - a.0 - a.1.cross(self.arms[0]);
         DVec3::from_array(self.axes.map(|axis| axis.dot(apart)))
@@ -79,7 +80,11 @@ impl Place {
 }
 
 impl Collider {
-    /// Strikes touching bodies that approach, until none do.
+    /// Applies the impacts of touching bodies that approach each other, until none approach.
+    ///
+    /// # Errors
+    ///
+    /// Returns a breakdown if elastic impacts at one instant do not end.
     pub(in crate::dynamics) fn strike(
         &mut self,
         model: &Model,
@@ -107,7 +112,8 @@ impl Collider {
         };
         for (pair, places) in touching.iter().zip(&places) {
             let motions = pair.bodies.map(|body| motion(body, model, state));
-            // Pure rolling leaves only rounding in the rates. The speeds set the scale for slight ones.
+            // In pure rolling, the relative velocities are only rounding errors. The speeds of the bodies therefore set the scale for
+            // negligible velocities.
             let speeds = places.iter().map(|place| place.rate(motions).length());
             let speeds = speeds.chain(motions.map(|(velocity, _)| velocity.length()));
             self.fastest = speeds.fold(self.fastest, f64::max);
@@ -128,7 +134,7 @@ impl Collider {
                 if is_elastic && speeds[i] > STILL * self.fastest {
                     return Err(Breakdown::Jammed { bodies: touching[i].bodies.map(BodyId::new), time });
                 }
-                // The remaining approach is removed at all places at once.
+                // The decision of modes afterwards stops the remaining approach at all contact points at once.
                 break;
             }
             let joints = if jointed[i] { Some(&mut *solver) } else { None };
@@ -159,7 +165,7 @@ impl Collider {
         Ok(Strike { closed, struck })
     }
 
-    /// The factor on the speed at which two bodies count as at rest, after repeated impacts.
+    /// Returns the factor on the speed below which two bodies count as at rest. It grows with repeated impacts.
     fn haste(&self, pair: &Touching) -> f64 {
         let hits = self.hits.get(&pair.bodies).copied().unwrap_or(0);
         if pair.law.restitution == 1.0 {
@@ -169,7 +175,8 @@ impl Collider {
         libm::exp2(more.max(0.0)).min(MOST)
     }
 
-    /// Whether two bodies have hit each other too often in the current step, beyond what restitution explains.
+    /// Returns true if two bodies have hit each other too often in the current step, beyond what their restitution explains, or if all
+    /// bodies together have.
     pub(in crate::dynamics) fn hits_too_often(&self, bodies: [usize; 2]) -> bool {
         let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
         let hits = self.hits.get(&bodies).copied().unwrap_or(0);
@@ -177,13 +184,13 @@ impl Collider {
         f64::from(hits) - bounces(law.restitution) > TOO_OFTEN || all > TOGETHER
     }
 
-    /// A typical length of the smaller of two bodies, m.
+    /// Returns a typical length of the smaller of two bodies, m.
     pub(super) fn size(&self, bodies: [usize; 2]) -> f64 {
         let size = |body: usize| self.solids[body].as_ref().map_or(f64::INFINITY, super::solid::Solid::size);
         size(bodies[0]).min(size(bodies[1])).min(f64::MAX)
     }
 
-    /// The impact of two bodies that approach each other at `speed`, m/s.
+    /// Applies the impact of two bodies that approach each other at `speed`, m/s, and records it.
     fn strike_pair(
         &mut self,
         pair: &Touching,
@@ -222,7 +229,7 @@ impl Collider {
                     state.velocity[body] += inverse_mass * push;
                     state.angular_momentum[body] += turn;
                 } else {
-                    // The drive of the body takes the impulse on it, and its work.
+                    // The guide of a body with a given motion absorbs the impulse on this body, and its work.
                     let turning = turn.dot(model.angular_velocity(body, state));
                     state.accounts.work -= push.dot(state.velocity[body]) + turning;
                 }
@@ -251,13 +258,13 @@ impl Collider {
     }
 }
 
-/// The number of bounces from the fastest one to rest.
+/// Returns the number of bounces in which a coefficient of restitution reduces the fastest approach to rest.
 fn bounces(restitution: f64) -> f64 {
     libm::log(REST) / libm::log(restitution)
 }
 
-/// Replaces an impact at several places that causes no rotation by one in their middle: that place, its rate before,
-/// and its impulse. None if it causes rotation, so that the places behave differently.
+/// Replaces an impact at several points by one at their middle, if the impact causes no rotation. Returns the contact point, its velocity
+/// before the impact, and its impulse. `None` if the impact causes rotation, so that the points behave differently.
 fn middle(
     bodies: [usize; 2],
     places: &[Place],
@@ -291,7 +298,7 @@ fn motion(body: usize, model: &Model, state: &State) -> Motion {
     (state.velocity[body], model.angular_velocity(body, state))
 }
 
-/// J M⁻¹ Jᵀ of some places, row by row, under the constraints of joints.
+/// Computes J M⁻¹ Jᵀ for some contact points, row by row, under the constraints of the joints.
 fn response(
     bodies: [usize; 2],
     places: &[Place],
@@ -301,7 +308,7 @@ fn response(
     response_to(bodies, places, places.len(), (model, state), joints)
 }
 
-/// The columns of J M⁻¹ Jᵀ for the first places.
+/// Computes the columns of J M⁻¹ Jᵀ that belong to impulses at the first `pushed` contact points.
 fn response_to(
     bodies: [usize; 2],
     places: &[Place],

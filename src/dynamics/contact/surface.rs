@@ -1,20 +1,20 @@
-//! The behavior of surfaces in contact.
+//! The contact properties of surfaces: restitution and friction.
 
-/// The coefficient of friction if neither body has one.
+/// The coefficient of friction of two bodies if neither specifies one.
 const FRICTION: f64 = 0.5;
 
-/// The contact behavior of a body's surface.
+/// The contact properties of a body's surface; `None` where the body does not specify a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
     /// The coefficient of restitution, from 0 to 1.
     pub restitution: Option<f64>,
     /// Coulomb's coefficient of friction.
     pub friction: Option<f64>,
-    /// The coefficient of rolling friction, m: the resisting torque is this times the normal force.
+    /// The coefficient of rolling friction, m: the resisting torque is the normal force times this.
     pub rolling_friction: Option<f64>,
 }
 
-/// The combined behavior of two surfaces.
+/// The combined contact properties of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
     /// The coefficient of restitution.
@@ -26,8 +26,8 @@ pub struct Meeting {
 }
 
 impl Surface {
-    /// Combines this surface with another: the larger restitution, the geometric mean of the frictions and the larger
-    /// rolling friction. If only one has a value, it counts; if neither has, the values are 0, 0.5 and 0.
+    /// Combines two surfaces: the larger restitution, the geometric mean of the coefficients of friction, and the larger rolling friction.
+    /// If only one surface specifies a value, this value counts. If neither does, the values are 0, 0.5 and 0.
     #[must_use]
     pub fn meet(&self, other: &Surface) -> Meeting {
         let mix = |a: Option<f64>, b: Option<f64>, both: fn(f64, f64) -> f64, neither: f64| match (a, b) {

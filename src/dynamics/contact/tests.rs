@@ -1,4 +1,4 @@
-//! Gaps against closed forms and against parry's shapes, and the places where solids touch.
+//! Tests of gaps against closed forms and against parry's shapes, and of the points at which solids touch.
 
 use glam::{DQuat, DVec3};
 use rand_chacha::ChaCha8Rng;
@@ -12,7 +12,7 @@ use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
 use crate::dynamics::shape::{Mesh, Shape};
 
-/// Numbers between −1 and 1, the same on every run.
+/// Random numbers between −1 and 1 from a fixed seed, the same in every run.
 struct Random(ChaCha8Rng);
 
 impl Random {
@@ -75,7 +75,7 @@ fn gaps_have_closed_forms() {
     let lying = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2);
     let corner = DVec3::new(0.5, 0.7, 0.3);
     let diagonal = corner + 2.0 * DVec3::ONE;
-    // Where the side of the cone is, above and beside the centre of mass at a quarter of the height.
+    // A point on the side of the cone, relative to the center of mass, which is at a quarter of the height.
     let slope = DVec3::new(2.0, 1.0, 0.0).normalize();
     let on_side = DVec3::new(0.25, 0.25, 0.0);
     for (a, b, pose, gap) in [
@@ -110,7 +110,7 @@ fn gaps_have_closed_forms() {
     }
 }
 
-/// parry's own shapes, with no code of ours between.
+/// Computes the gap of two shapes with parry's own shapes, independently of the solids under test.
 #[cfg(feature = "time-stepping")]
 #[allow(clippy::unwrap_used, reason = "parry knows these pairs")]
 fn parry(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> f64 {
@@ -154,7 +154,8 @@ fn gaps_are_those_of_parry() {
             for _ in 0..200 {
                 let (pa, pb) = (random.pose(0.9), random.pose(0.9));
                 let (found, other) = (near(a, &pa, b, &pb), parry(a, &pa, b, &pb));
-                // parry's places are on the shapes, so it is never nearer; of round shapes, they may be far from the nearest.
+                // parry's closest points lie on the shapes, so its distance is never smaller than the gap. For round shapes, it can be
+                // larger.
                 let error = other - found.gap;
                 worst = worst.max(error);
                 assert!(error > -1e-9, "{a:?} {pa:?} {b:?} {pb:?}: {} {other}", found.gap);
@@ -165,7 +166,8 @@ fn gaps_are_those_of_parry() {
     assert!(worst > 0.0);
 }
 
-/// Places of both bodies that are as far apart as planes between them: there is no other gap.
+/// The closest points lie on the bodies, and two parallel planes through them separate the bodies. Together, this proves that the gap is
+/// right.
 #[test]
 fn nearest_places_prove_the_gap() {
     let mut random = Random::new(5);
@@ -221,7 +223,7 @@ fn gaps_do_not_depend_on_the_order_nor_on_the_place() {
     }
 }
 
-/// Whatever touches once is touched in one place, and that is the nearest one.
+/// Bodies that approach each other in a random pose touch at exactly one point: the closest one.
 #[test]
 fn bodies_at_random_touch_once() {
     let mut random = Random::new(3);
@@ -233,7 +235,7 @@ fn bodies_at_random_touch_once() {
                 if apart.gap < 0.01 {
                     continue;
                 }
-                // Until they are very near, along the normal: the nearest places stay the same.
+                // Moves the bodies very near to each other along the normal, so the closest points stay the same.
                 pb.location -= (apart.gap - 1e-7) * apart.normal;
                 let found = near(a, &pa, b, &pb);
                 let what = format!("{a:?} {pa:?} {b:?} {pb:?}: {found:?}");
@@ -251,7 +253,8 @@ fn bodies_at_random_touch_once() {
     }
 }
 
-/// d(gap)/dt = n · (velocity of the second place − that of the first).
+/// The rate of the gap is the normal component of the relative velocity: d(gap)/dt = n · (velocity of the second point − that of the
+/// first).
 #[test]
 fn gaps_change_as_places_move() {
     let mut random = Random::new(4);
@@ -287,7 +290,7 @@ fn gaps_change_as_places_move() {
                 let (near, far) =
                     ((gap(h) - gap(-h)) / (2.0 * h), (gap(2.0 * h) - gap(-2.0 * h)) / (4.0 * h));
                 let what = format!("{a:?} {pa:?} {b:?} {pb:?}: {now:?} {near} {far} {rate}");
-                // Where lines are nearly parallel or the other place of a rim becomes nearer, it is not smooth.
+                // The gap is not smooth where lines are nearly parallel or where another point of a rim becomes the closest one.
                 if (near - far).abs() < 1e-6 && now.gap > -0.2 {
                     assert!(((4.0 * near - far) / 3.0 - rate).abs() < 1e-8, "{what}");
                 }
@@ -337,7 +340,8 @@ fn bodies_rest_on_all_their_corners() {
 #[test]
 fn boxes_touch_where_their_faces_overlap() {
     let origin = at(0.0, 0.0, 0.0);
-    // The same box on top, moved along one axis, along two, and turned: corners of both and crossing edges.
+    // The same box on top, shifted along one axis, along two axes, and rotated: the contact points are corners of both boxes and crossings
+    // of edges.
     let turn = DQuat::from_rotation_y(0.5);
     for (pose, count) in [
         (at(0.0, 1.4, 0.0), 4),
@@ -358,7 +362,7 @@ fn boxes_touch_where_their_faces_overlap() {
     }
 }
 
-/// The box as a mesh: its corners by the bits of their numbers.
+/// Creates a box as a mesh. The three bits of a corner's index select its coordinates.
 fn mesh_of_box(size: DVec3) -> Shape {
     let corner = |i: u32| {
         let side = |bit: u32| f64::from(i >> bit & 1) - 0.5;
@@ -370,7 +374,7 @@ fn mesh_of_box(size: DVec3) -> Shape {
     Shape::Mesh { mesh: Arc::new(mesh), scale: 1.0 }
 }
 
-/// A flat square of 4 m by 4 m at height 0, of 4 × 4 squares of two triangles.
+/// Creates a flat square mesh of 4 m by 4 m at height 0, from 4 × 4 squares of two triangles each.
 fn flat() -> Shape {
     let vertices = (0..25).map(|i| DVec3::new(f64::from(i % 5) - 2.0, 0.0, f64::from(i / 5) - 2.0)).collect();
     let squares = (0..16).map(|i| i % 4 + 5 * (i / 4));
@@ -395,7 +399,7 @@ fn a_mesh_touches_as_the_solid_does_that_it_encloses() {
             assert!((found.gap - solid_gap.gap).abs() < 1e-13, "{what}");
             pb.location -= (found.gap - 1e-7) * found.normal;
             let found = touches(&solid(&mesh), &pa, &solid(other), &pb, 2e-7);
-            // At a corner, neighbours may say the same.
+            // At a corner, adjacent triangles may report the same contact.
             assert!(!found.is_empty() && found.len() < 4, "{what} {found:?}");
             for touch in &found {
                 assert!((touch.meeting.gap - 1e-7).abs() < 1e-9, "{what} {found:?}");
@@ -408,7 +412,7 @@ fn a_mesh_touches_as_the_solid_does_that_it_encloses() {
 #[test]
 fn nothing_catches_at_the_seams_of_a_flat_surface() {
     let (surface, place) = (flat(), at(0.0, 0.0, 0.0));
-    // Across seams, along them, and over corners of triangles.
+    // The ball is placed across seams, along seams, and over corners of triangles.
     for i in 0..100 {
         let x = f64::from(i) * 0.037 - 1.85;
         for z in [0.0, 0.25, x, -x, 1.0] {
@@ -424,7 +428,7 @@ fn nothing_catches_at_the_seams_of_a_flat_surface() {
     }
     let found = touch(&surface, &place, &CUBE, &at(0.13, 0.7, 0.41));
     assert_eq!(found.len(), 4, "{found:?}");
-    // Beyond its end there is no ground.
+    // Beyond the end of the mesh there is no ground.
     assert!(touch(&surface, &place, &BALL, &at(2.3, 0.45, 0.0)).is_empty());
     assert_eq!(touch(&surface, &place, &BALL, &at(2.3, 0.4, 0.0)).len(), 1);
 }
@@ -438,7 +442,7 @@ fn a_mesh_rests_on_its_corners() {
 
 #[test]
 fn parallel_lines_meet_in_the_middle_of_the_length_that_they_share() {
-    // From −0.5 m to 0.5 m, and from −0.2 m to 0.8 m.
+    // The axis of the first capsule extends from −0.5 m to 0.5 m, that of the second from −0.2 m to 0.8 m, and then both are shifted down.
     for (a, b) in [(0.0, 0.3), (-0.3, 0.0)] {
         let found = near(&PILL, &at(0.0, a, 0.0), &PILL, &at(0.9, b, 0.0));
         assert!((found.on[0].y - (a + 0.15)).abs() < 1e-15, "{found:?}");
@@ -450,7 +454,7 @@ fn a_touch_ends_at_the_border_of_its_face() {
     let origin = at(0.0, 0.0, 0.0);
     let found = touch(&CUBE, &origin, &BALL, &at(0.1, 1.2, 0.0));
     assert_eq!(found.len(), 1, "{found:?}");
-    // The top reaches to x = 0.5 m and z = 0.3 m.
+    // The top of the box extends to x = 0.5 m and z = 0.3 m.
     for (x, z, left) in [(0.1, 0.0, 0.3), (0.3, 0.0, 0.2), (0.7, 0.0, -0.2), (0.0, -0.4, -0.1)] {
         let inside = inside(&found[0], &solid(&CUBE), &origin, &solid(&BALL), &at(x, 1.2, z));
         assert!((inside - left).abs() < 1e-8, "{x} {z}: {inside}");

@@ -1,4 +1,4 @@
-//! All places at which two solids touch.
+//! All contact points of two solids.
 
 use glam::DVec3;
 
@@ -7,26 +7,27 @@ use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, m
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A flat end lies flat if the sine of its tilt is smaller.
+/// A flat end lies flat on a face if the sine of the angle between them is below this.
 const FLAT: f64 = 1e-7;
-/// Two places closer than this part of the size are one.
+/// Two contact points closer than this fraction of the body's size are the same.
 const SAME: f64 = 1e-6;
-/// The most places kept for a pair of parts: enough to hold one on the other.
+/// The largest number of contact points kept for a pair of parts. They are enough to hold one part on the other.
 const MOST: usize = 8;
 
-/// A place at which two solids touch or nearly touch.
+/// A contact point of two solids that touch or nearly touch.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct Touch {
-    /// The surface of each body around it, in the axes of that body.
+    /// For each solid, its surface around the contact point, in its body axes.
     pub patches: [Patch; 2],
-    /// The nearest places of the two surfaces.
+    /// The closest points of the two patches, with their gap and normal.
     pub meeting: Nearest,
-    /// For each body, the indices of its part and of the feature there. A single place of a rim has no feature.
+    /// For each solid, the index of its part and the index of the feature in this part. `None` for a single point of a rim, which is no
+    /// feature.
     features: [(usize, Option<usize>); 2],
 }
 
-/// All places at which two solids are closer than `within`, m, which must be small compared to their sizes. Each is
-/// listed once, in a deterministic order.
+/// Finds all contact points of two solids with gaps below `within`, m, which must be small compared to their sizes. Each point is listed
+/// once, in a deterministic order.
 pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
     let mut all = Vec::new();
     for_pairs(a, pa, b, pb, within, &mut |i, j| {
@@ -38,7 +39,7 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
         }
     });
     if a.is_surface() || b.is_surface() {
-        // Triangles share their edges and corners.
+        // Adjacent triangles share edges and corners, so the same contact may occur several times.
         let same = SAME * a.size().min(b.size());
         let mut once: Vec<Touch> = Vec::new();
         for touch in all {
@@ -46,7 +47,7 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
                 once.push(touch);
             }
         }
-        // At two corners, the meeting with the adjacent triangle's normal counts instead.
+        // The contact of two corners has no unique normal. A contact with the normal of an adjacent triangle is preferred.
         let is_smooth = |touch: &Touch| !touch.patches[0].has_no_normal_with(&touch.patches[1]);
         if once.iter().any(is_smooth) {
             once.retain(is_smooth);
@@ -56,14 +57,14 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
     all
 }
 
-/// Whether two meetings are the same place.
+/// Returns true if two contact points coincide, with the same normal. `same` is the tolerance, m.
 fn is_same(a: &Nearest, b: &Nearest, same: f64) -> bool {
     a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
 }
 
-/// The distance of a touch from the borders of its features, m; negative outside, infinite without borders.
+/// Returns the distance of a contact point from the borders of its features, m. It is negative outside, and infinite without borders.
 ///
-/// A touch that is 1e-9 sizes outside counts as inside, so that faces of the same size can lie on each other.
+/// A point that is outside by 1e-9 sizes counts as inside, so that faces of the same size can lie on each other.
 pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) -> f64 {
     let meeting = meet(&touch.patches[0], pa, &touch.patches[1], pb);
     let parts = [&a.parts()[touch.features[0].0], &b.parts()[touch.features[1].0]];
@@ -77,8 +78,8 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
         let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
         let place = pose.local(meeting.on[side]);
         least = least.min(feature.margin(place) + edge(parts[side], sum > 0.0));
-        // A round body that rolls from an edge to a face leaves the edge's normals before its places. Against a flat
-        // face the normals do not matter: corners touch it at any tilt.
+        // When a round body rolls from an edge to a face, its normal leaves the edge's normals before its point leaves the edge. Against a
+        // flat face the normals do not matter: corners touch a face at any tilt.
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
             let normal = if side == 0 { meeting.normal } else { -meeting.normal };
             let slack = feature.slack(place, pose.orientation.conjugate() * normal);
@@ -88,7 +89,7 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
     least
 }
 
-/// Two convex parts and their touches.
+/// The search for the contact points of two convex parts.
 struct Pair<'a> {
     a: &'a Part,
     pa: &'a Pose,
@@ -96,7 +97,7 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
-    /// Places that overlap by more than twice this are on the far side of a part, m.
+    /// A limit for overlaps, m. Points that overlap by more than twice this are on the far side of a part.
     depth: f64,
     found: Vec<Touch>,
 }
@@ -126,7 +127,7 @@ impl Pair<'_> {
         all.append(&mut self.found);
     }
 
-    /// The corners and rims of a part that are near the ground.
+    /// Adds the corners and rims of a part that are near the ground.
     fn on_ground(&mut self) {
         let ground_first = self.a.is_ground();
         let part = if ground_first { self.b } else { self.a };
@@ -138,7 +139,7 @@ impl Pair<'_> {
         }
     }
 
-    /// All pairs of features at which two convex parts touch.
+    /// Adds the contact points of all pairs of features at which two convex parts touch.
     fn convex(&mut self) {
         let nearest = between(self.a, self.pa, self.b, self.pb);
         if nearest.gap > self.within {
@@ -147,17 +148,17 @@ impl Pair<'_> {
         self.depth = self.within + nearest.gap.abs() + SAME * self.a.bound.min(self.b.bound);
         let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, self.depth);
         let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, self.depth);
-        // Each feature is placed once, not for each pair.
+        // Each feature is transformed once, not for each pair.
         let near_a = placed(self.a, self.pa, self.pa.location, near_a);
         let near_b = placed(self.b, self.pb, self.pa.location, near_b);
         self.add_where(&near_a, &near_b, is_needed);
         if self.found.is_empty() {
-            // A corner touches a corner or an edge: neither has a normal there.
+            // A corner touches a corner or an edge. Neither has a unique normal.
             self.add_where(&near_a, &near_b, Patch::has_no_normal_with);
         }
     }
 
-    /// Adds the touches of all wanted pairs of features, which are placed around the first body.
+    /// Adds the contact points of all pairs of features that `is_wanted` accepts. The patches are placed relative to the first body.
     fn add_where(
         &mut self,
         near_a: &[(usize, Patch)],
@@ -178,13 +179,13 @@ impl Pair<'_> {
         }
     }
 
-    /// Adds the touches of a pair of features, if there are any.
+    /// Adds the contact points of a pair of features, if the features touch.
     fn add(&mut self, i: usize, j: usize) {
         let (a, b) = (&self.a.features[i].patch, &self.b.features[j].patch);
         self.add_met(i, j, meet(a, self.pa, b, self.pb));
     }
 
-    /// The same for two features whose patches meet there.
+    /// Adds the contact points of two features, whose closest points are `meeting`.
     fn add_met(&mut self, i: usize, j: usize, meeting: Nearest) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
         if a.is_seam || b.is_seam {
@@ -205,7 +206,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Whether a rim of one body lies flat on a plane of the other.
+    /// Returns true if a rim of one body lies flat on a plane of the other. `normal` is the normal of the plane.
     fn is_flat(&self, rim: &Patch, normal: DVec3, of_second: bool) -> bool {
         let (own, other) = if of_second { (self.pb, self.pa) } else { (self.pa, self.pb) };
         match *rim {
@@ -216,8 +217,7 @@ impl Pair<'_> {
         }
     }
 
-    /// Places that represent a rim that lies flat on a face: four around it, and those where it crosses an edge of the
-    /// face.
+    /// Returns points that represent a rim lying flat on a face: four around the rim, and the points where it crosses an edge of the face.
     fn rim_points(&self, side: usize, rim: &Patch, face: &Feature) -> Vec<Patch> {
         let Patch::Circle { centre, axis, radius } = *rim else { return Vec::new() };
         let (own, other) = if side == 0 { (self.pa, self.pb) } else { (self.pb, self.pa) };
@@ -238,18 +238,18 @@ impl Pair<'_> {
         places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
     }
 
-    /// Whether patches touch at a meeting, and not on the far sides of the parts.
+    /// Returns true if two patches touch at their closest points, and not on the far sides of the parts.
     fn is_within_reach(&self, meeting: &Nearest) -> bool {
         (-2.0 * self.depth..=self.within).contains(&meeting.gap)
     }
 
-    /// Adds the touch of a place of a rim and a face, if the bodies touch there and it is new.
+    /// Adds the contact of a point of a rim and a face, if they touch and the contact is new.
     fn keep_rim(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
         self.keep(patches, features, meeting);
     }
 
-    /// Adds the touch of a pair of patches that meet there, if the bodies touch there and it is new.
+    /// Adds the contact of two patches, whose closest points are `meeting`, if the parts touch there and the contact is new.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: Nearest) {
         if !self.is_within_reach(&meeting) {
             return;
@@ -258,7 +258,7 @@ impl Pair<'_> {
         for (side, (part, pose, normal)) in parts.into_iter().enumerate() {
             let Some(feature) = features[side].map(|i| &part.features[i]) else { continue };
             let edge = edge(part, !patches[1 - side].is_sharp());
-            // A face on a face may be tilted a little while all its corners are within reach.
+            // Two faces may be slightly tilted while all corners are within reach.
             let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
             let place = feature.margin(pose.local(meeting.on[side]));
             if place < -edge || margin(feature, pose, meeting.on[side], normal, part.bound) < -edge.max(tilt)
@@ -274,7 +274,7 @@ impl Pair<'_> {
         self.found.push(Touch { patches, meeting, features });
     }
 
-    /// Keeps the most supportive places: the ends of lines, and those farthest from each other.
+    /// Keeps the contact points that support best: the ends of lines, and the points farthest from each other.
     fn thin_out(&mut self) {
         let lines = |touch: &Touch| match touch.patches {
             [
@@ -283,7 +283,7 @@ impl Pair<'_> {
             ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT,
             _ => false,
         };
-        // Touching parallel lines are held at their ends, which are separate places.
+        // Parallel lines in contact are supported at their ends, which are separate contact points.
         if self.found.iter().any(|touch| !lines(touch)) {
             let parallel: Vec<bool> = self.found.iter().map(lines).collect();
             let mut parallel = parallel.into_iter();
@@ -293,7 +293,7 @@ impl Pair<'_> {
     }
 }
 
-/// If there are too many touches, keeps those farthest from each other, beginning with the smallest gap.
+/// Limits the number of contact points: keeps the points farthest from each other, beginning with the smallest gap.
 fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     if all.len() <= MOST {
         return all;
@@ -321,7 +321,7 @@ fn farthest(all: Vec<Touch>) -> Vec<Touch> {
     kept.into_iter().map(|i| all[i]).collect()
 }
 
-/// Whether two patches need their own touch. A line or a face on a face touches at its ends or corners, which are
+/// Returns true if two patches need a contact point of their own. Lines and faces touch a face at their ends and corners, which are
 /// separate patches.
 fn is_needed(a: &Patch, b: &Patch) -> bool {
     match (a, b) {
@@ -332,13 +332,13 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
     }
 }
 
-/// Some features of a part with their patches, in world axes, relative to an origin.
+/// Transforms the patches of some features of a part to world axes, relative to an origin. Returns them with the indices of the features.
 fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
     let pose = Pose { location: pose.location - origin, orientation: pose.orientation };
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
-/// The indices of the features of a part that reach along `normal` at least as far as the point `at`, less `depth` (m).
+/// Returns the indices of the features of a part that extend along `normal` at least as far as the point `at`, less `depth`, m.
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
     let lowest = at.dot(normal) - depth;

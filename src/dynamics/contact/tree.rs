@@ -1,41 +1,42 @@
-//! A tree of the boxes of many parts.
+//! A tree of bounding boxes, to find the parts of a mesh near a point.
 
 use glam::DVec3;
 
-/// The most boxes of a leaf.
+/// The largest number of boxes in a leaf of the tree.
 const LEAF: usize = 4;
 
-/// A box, by its lowest and its highest corner, m.
+/// An axis-parallel box: its lowest and its highest corner, m.
 type Bounds = [DVec3; 2];
 
-/// A tree of boxes, each node split at the middle box along its longest edge.
+/// A tree of bounding boxes. Each node is split at its middle box along its longest edge.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Tree {
-    /// Each node, then all nodes of its first part, then all of its second.
+    /// The nodes in depth-first order: each node precedes all nodes of its first half, then those of its second half.
     nodes: Vec<Node>,
-    /// All boxes with their numbers, in the order of the leaves.
+    /// All boxes with their original indices, in the order of the leaves.
     boxes: Vec<(usize, Bounds)>,
 }
 
 #[derive(Clone, Debug)]
 struct Node {
     bounds: Bounds,
-    /// The boxes within it: from `first` to before `end`.
+    /// The boxes within the node: the range from `first` to before `end` of [`Tree::boxes`].
     first: usize,
     end: usize,
-    /// The number of the node that follows all parts of this one.
+    /// The index of the first node after this node and its descendants.
     next: usize,
 }
 
 impl Tree {
-    /// The tree of boxes. Each is given by its lowest and its highest corner.
+    /// Creates a tree of boxes, each given by its lowest and its highest corner.
     pub(in crate::dynamics) fn new(boxes: impl Iterator<Item = Bounds>) -> Tree {
         let (mut boxes, mut nodes): (Vec<_>, _) = (boxes.enumerate().collect(), Vec::new());
         grow(&mut nodes, &mut boxes, 0);
         Tree { nodes, boxes }
     }
 
-    /// The numbers of the boxes that are at most `within` from a box, in rising order. `count` is the number of all boxes.
+    /// Returns the indices of the boxes that are at most `within` from a given box along each axis, in ascending order. `count` is the
+    /// number of all boxes.
     pub(in crate::dynamics) fn near(&self, [low, high]: Bounds, within: f64, count: usize) -> Vec<usize> {
         if !(low.is_finite() && high.is_finite() && within.is_finite()) {
             return (0..count).collect();
@@ -59,7 +60,7 @@ impl Tree {
     }
 }
 
-/// Makes the node of some boxes and all its parts. `first` is the place of the first box in the tree.
+/// Appends the node of these boxes and all its descendants. `first` is the index of the first box in the tree.
 fn grow(nodes: &mut Vec<Node>, boxes: &mut [(usize, Bounds)], first: usize) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (_, bounds) in &*boxes {
@@ -78,7 +79,7 @@ fn grow(nodes: &mut Vec<Node>, boxes: &mut [(usize, Bounds)], first: usize) {
     nodes[number].next = nodes.len();
 }
 
-/// Whether two boxes touch or overlap.
+/// Returns true if two boxes touch or overlap.
 fn meet([low, high]: Bounds, [other_low, other_high]: Bounds) -> bool {
     low.cmple(other_high).all() && other_low.cmple(high).all()
 }

@@ -9,19 +9,19 @@ use super::patch::Patch;
 use super::solid::Pose;
 use crate::dynamics::shape::Mesh;
 
-/// Two triangles are coplanar if the sine of the angle between them is smaller. Nothing catches at their edge.
+/// Adjacent triangles count as coplanar if the sine of the angle between them is below this. Their common edge then makes no contact.
 const FLAT: f64 = 1e-9;
 
-/// The triangles of a mesh, each by its corners and its features. `pose` is that of the mesh in the axes of the body.
+/// Returns the triangles of a mesh, each with its corners and its features. `pose` is the pose of the mesh in body axes.
 ///
-/// A surface can be touched from both sides. An edge or a corner that is convex on neither side is a seam.
+/// A mesh can be touched from both sides. An edge or a corner that is convex on neither side is a seam, which makes no contact.
 pub(super) fn triangles(mesh: &Mesh, scale: f64, pose: &Pose) -> Vec<([DVec3; 3], Vec<Feature>)> {
     let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| pose.point(scale * *vertex)).collect();
     let corners = |triangle: &[u32; 3]| triangle.map(|i| vertices[i as usize]);
-    // Leave out triangles without an area. Their neighbours have the same edges.
+    // Triangles without an area are left out. Their neighbors have the same edges.
     let solid: Vec<[u32; 3]> =
         mesh.triangles().iter().copied().filter(|triangle| normal(corners(triangle)).is_some()).collect();
-    // For each edge, the directions from it into its triangles; for each corner, the directions along its edges.
+    // For each edge, the directions from the edge into its triangles; for each corner, the directions along its edges.
     let mut of_edges: BTreeMap<[u32; 2], Vec<DVec3>> = BTreeMap::new();
     let mut of_corners: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     for triangle in &solid {
@@ -75,20 +75,20 @@ pub(super) fn triangles(mesh: &Mesh, scale: f64, pose: &Pose) -> Vec<([DVec3; 3]
     solid.iter().map(|triangle| (corners(triangle), features(triangle))).collect()
 }
 
-/// The unit normal of a triangle. `None` for one without an area.
+/// Returns the unit normal of a triangle. `None` for a triangle without an area.
 fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (b - a).normalize_or_zero().cross((c - a).normalize_or_zero()).try_normalize()
 }
 
-/// The convex direction of an edge. `into` are the directions from the edge into its triangles. `None` if those are
-/// coplanar.
+/// Returns the direction in which an edge of a mesh is convex. `into` holds the directions from the edge into its triangles. `None` if
+/// these are coplanar.
 fn outward(into: &[DVec3]) -> Option<DVec3> {
     let sum: DVec3 = into.iter().sum();
     let out = -sum.try_normalize()?;
     (sum.length() > FLAT && into.iter().all(|direction| direction.dot(out) <= 0.0)).then_some(out)
 }
 
-/// Whether a corner is convex. `edges` are the directions of its edges.
+/// Returns true if a corner of a mesh is convex. `edges` holds the directions of its edges.
 fn outward_of_all(edges: &[DVec3]) -> bool {
     let out = -edges.iter().sum::<DVec3>().normalize_or_zero();
     edges.iter().all(|edge| edge.dot(out) < -FLAT)

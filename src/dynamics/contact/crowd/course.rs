@@ -1,9 +1,9 @@
-//! The motion of the crowd through a step.
+//! The motion of the crowd through a step, by time-stepping.
 //!
-//! A step is divided into a few equal substeps. In each, an impulse stops or reverses approaches, the forces act, and
-//! contacts push and grip at its end. The energy that this takes is booked; the order is 1. Sources: J. J. Moreau,
-//! *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean, Comput. Methods Appl. Mech. Eng.
-//! 177 (1999) 235.
+//! A step is divided into a few equal substeps. In each, impulses stop or reverse approaching bodies; then the forces, the contacts and
+//! the friction act with the velocities in the middle of the substep. The energy that this takes is booked. The order of the method is 1.
+//! Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean, Comput. Methods Appl. Mech.
+//! Eng. 177 (1999) 235.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -24,55 +24,56 @@ use super::super::solid::Solid;
 use super::super::touch::touches;
 use super::Crowd;
 
-/// The smallest and largest number of substeps.
+/// The smallest and the largest number of substeps in a step.
 const PARTS: [f64; 2] = [2.0, 64.0];
 
-/// The longest motion in a substep, as part of the smaller body, unless that takes too many substeps.
+/// The longest path of a body in a substep, as a fraction of the body's size, unless this takes too many substeps.
 const FAR: f64 = 0.12;
 
-/// Places touch at the end if their gap is below this part of the smaller body.
+/// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
+/// size.
 const GRASP: f64 = 1e-5;
 
-/// Bodies that overlap at the end by more than this part of the smaller one are jammed.
+/// Bodies are jammed if they overlap at the end of the step by more than this fraction of the smaller body's size.
 const DEEP: f64 = 0.01;
 
-/// The most attempts to separate them before that is an error.
+/// The largest number of attempts to separate jammed bodies. After them, the run fails.
 const REPAIRS: usize = 5;
 
-/// Bodies stay in the crowd while they are nearer to others than this part of the smaller one: lower bounces are no
-/// flight.
+/// Bodies stay in the crowd while their gap to another body is below this fraction of the smaller body's size. Lower bounces do not count
+/// as free flight.
 const LEAN: f64 = 0.01;
 
-/// Times that differ by less than this part are equal.
+/// Times within a substep are equal if they differ by less than this fraction of it.
 const SAME: f64 = 1e-12;
 
-/// Bodies touch if their gap is below this part of the coordinates.
+/// Bodies touch if their gap is below this fraction of their coordinates.
 const NEAR: f64 = 1e-9;
 
-/// The motion of a crowd, sampled at equal intervals.
+/// The motion of the crowd through a step, sampled at the ends of equal substeps.
 #[derive(Clone, Default)]
 pub(super) struct Course {
-    /// The time of its beginning, s.
+    /// The time at which the motion begins, s.
     start: f64,
-    /// The length of each interval, s.
+    /// The length of each substep, s.
     part: f64,
-    /// The states at the ends of the intervals, each with one entry for each body of the crowd.
+    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd.
     states: Vec<State>,
-    /// The state of all bodies at its beginning, and the velocities of bodies outside the crowd, m/s.
+    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd, m/s.
     first: State,
     velocity: Vec<DVec3>,
-    /// The pairs that can meet during it.
+    /// The pairs of bodies that can meet during the motion.
     pairs: Vec<Pair>,
     failure: Option<Breakdown>,
-    /// The rebounds during it, in order of time.
+    /// The impacts during the motion that are not reported yet, in order of time.
     impacts: Vec<Impact>,
-    /// The two most recently computed moments within an interval, s after its beginning.
+    /// The two moments within substeps that were computed last: the time since the beginning of the motion, s, and the state.
     between: [(f64, State); 2],
 }
 
 impl Collider {
-    /// Advances the crowd from time `t` by `dt`, s. `rest` is the remainder of the step then, s. The others have been
-    /// advanced from `before` to `after`.
+    /// Advances the crowd from time `t` by `dt` seconds. `rest` is the time from there to the end of the step, s. All other bodies have
+    /// already been advanced from `before` to `after`. Returns a breakdown if the motion fails.
     pub(in crate::dynamics) fn advance_crowd(
         &mut self,
         model: &Model,
@@ -85,7 +86,7 @@ impl Collider {
         }
         let known = self.crowd.course.take().and_then(|mut course| {
             let now = self.moment(&mut course, t, model, loads);
-            // Other bodies may have hit them meanwhile.
+            // The computed motion is invalid if other bodies have hit the crowd in the meantime.
             let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
             is_here.then_some((course, now.accounts))
         });
@@ -107,7 +108,8 @@ impl Collider {
         failure
     }
 
-    /// The motion of the crowd from `before`, for `span` seconds. The velocities of the others are as in `after`.
+    /// Computes the motion of the crowd from the state `before`, for `span` seconds. Bodies outside the crowd move at their velocities in
+    /// `after`.
     fn course(
         &mut self,
         model: &Model,
@@ -134,7 +136,7 @@ impl Collider {
         course
     }
 
-    /// The crowd has been advanced to a time, s: counts its rebounds until then.
+    /// Reports the impacts of the crowd up to `time`, s, to which the crowd has been advanced.
     pub(in crate::dynamics) fn note_rebounds(&mut self, time: f64) {
         let Collider { crowd, impacts, .. } = self;
         let Some(course) = &mut crowd.course else { return };
@@ -142,7 +144,7 @@ impl Collider {
         impacts.extend(course.impacts.drain(..passed));
     }
 
-    /// The crowd at a time, s.
+    /// Returns the state of the crowd at `time`, s.
     fn moment(&mut self, course: &mut Course, time: f64, model: &Model, loads: &mut Loads) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
@@ -165,7 +167,7 @@ impl Collider {
         found
     }
 
-    /// The crowd some time (s) after the beginning of an interval and before its end.
+    /// Returns the state of the crowd `part` seconds after the beginning of substep `k`, at or before its end.
     fn advance_from(
         &mut self,
         course: &Course,
@@ -179,7 +181,7 @@ impl Collider {
         let time = course.start + passed;
         let mut now = course.first.clone();
         for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
-            // Bodies outside the crowd keep their velocities.
+            // Bodies outside the crowd move on at constant velocity.
             *location += passed * *velocity;
         }
         for (at, &body) in crowd.bodies.iter().enumerate() {
@@ -202,7 +204,7 @@ impl Collider {
         part
     }
 
-    /// The pairs whose impacts the crowd handles and that can meet within a step of `dt`.
+    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd handles.
     fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
         let margin = |i: usize| match &self.solids[i] {
             Some(solid) if self.crowd.bodies.contains(&i) => {
@@ -221,7 +223,8 @@ impl Collider {
         pairs
     }
 
-    /// The crowd's bodies that are close to others or to fixed bodies, and so are not free.
+    /// Returns the bodies of the crowd that are not in free flight, because they are close to other bodies of the crowd or to fixed
+    /// bodies.
     pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
         let mut all = BTreeSet::new();
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -235,7 +238,7 @@ impl Collider {
         all
     }
 
-    /// The number of substeps.
+    /// Returns the number of substeps in a step of `dt` seconds: fast bodies need more.
     fn parts(&self, model: &Model, state: &State, dt: f64) -> f64 {
         let way = |&i: &usize| {
             let (size, reach) =
@@ -246,7 +249,7 @@ impl Collider {
         self.crowd.bodies.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
     }
 
-    /// The places at which bodies of the crowd can meet within a time, s.
+    /// Returns the possible contacts of the crowd's bodies within `part` seconds.
     fn crowd_places(&self, model: &Model, state: &State, pairs: &[Pair], part: f64) -> Vec<Arc<Closed>> {
         let mut all = Vec::new();
         for pair in pairs {
@@ -262,7 +265,7 @@ impl Collider {
         all
     }
 
-    /// All places at which two bodies are nearer than `within`, m.
+    /// Returns all contacts of a pair of bodies with gaps below `within`, m.
     fn places_within(
         &self,
         model: &Model,
@@ -286,8 +289,11 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
     }
 
-    /// Ends a step: separates bodies of the crowd that overlap too deeply. Returns their touching places, or why they
-    /// cannot go on.
+    /// Separates bodies of the crowd that overlap too deeply at the end of a step. Returns the contacts of the crowd.
+    ///
+    /// # Errors
+    ///
+    /// Returns a breakdown if two bodies remain jammed after all attempts.
     pub(in crate::dynamics) fn end_course(
         &mut self,
         model: &Model,
@@ -317,7 +323,7 @@ impl Collider {
         Err(Breakdown::Jammed { bodies, time })
     }
 
-    /// The places at which the crowd's bodies touch, and two bodies that overlap too deeply.
+    /// Returns the contacts of the crowd's bodies, and two bodies that overlap too deeply, if there are any.
     fn touching_in_crowd(&self, model: &Model, state: &State) -> (Vec<Arc<Closed>>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -337,7 +343,7 @@ impl Collider {
 }
 
 impl Crowd {
-    /// The crowd's part of a state.
+    /// Returns the crowd's part of a state, with one entry for each body of the crowd.
     fn part_of(&self, state: &State) -> State {
         State {
             location: self.bodies.iter().map(|&i| state.location[i]).collect(),
@@ -348,7 +354,7 @@ impl Crowd {
         }
     }
 
-    /// Advances by one substep.
+    /// Advances the crowd by one substep of `part` seconds from time `t`. `closed` holds its possible contacts.
     fn advance(
         &mut self,
         closed: Vec<Arc<Closed>>,
@@ -372,7 +378,7 @@ impl Crowd {
         solver.find_by_sweeps(model);
         solver.take_contacts(closed);
         solver.forget();
-        // An approach stops if it would lead to a touch by the end of the substep.
+        // Bodies may approach only so fast that their gap closes at the end of the substep.
         solver.prepare_sweeps(model, t, now);
         let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
         model.sum(t, now, loads);
@@ -398,12 +404,12 @@ impl Crowd {
         separate(&mut self.solver, model, t + part, now);
     }
 
-    /// Moves bodies freely for a time, s.
+    /// Moves the bodies of the crowd freely for `time` seconds.
     fn fly(&self, model: &Model, time: f64, now: &mut State) {
         self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
     }
 
-    /// Applies forces to velocities for a time, s.
+    /// Changes the momenta of the crowd's bodies by the loads, acting for `time` seconds.
     fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
         for &i in &self.bodies {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
@@ -412,7 +418,8 @@ impl Crowd {
     }
 }
 
-/// Undoes the excess motion of bodies, m. The energy that this takes counts as work of impacts.
+/// Subtracts displacements from the positions of bodies, m, that impulses caused before the bodies touched. The change of energy is booked
+/// as work of impacts.
 fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
     if !ways.is_empty() {
         let before = mechanical(model, t, state);
@@ -421,7 +428,7 @@ fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
     }
 }
 
-/// Separates overlapping bodies. The energy that this takes counts as work of impacts.
+/// Moves overlapping bodies apart. The change of energy is booked as work of impacts.
 fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
     if solver.are_within(t, state) {
         let before = mechanical(model, t, state);

@@ -1,4 +1,4 @@
-//! Heaps: many touching bodies. Time-stepping advances them from their first event until they rest.
+//! Heaps: many touching bodies, which time-stepping advances from their first event until they rest.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -7,11 +7,13 @@ use super::super::super::{Model, State};
 use super::super::closed::Closed;
 use super::super::collider::Collider;
 
-/// More touching pairs than this make a heap: finding again and again which of them push and slide takes long.
+/// Touching bodies form a heap if they have more than this number of touching pairs. To decide repeatedly which of many contacts push and
+/// slide would take too long.
 const PAIRS: usize = 6;
 
 impl Collider {
-    /// The heap of some bodies, which touch at some places; none if there is no heap.
+    /// Returns the heap that contains some of these bodies, and remembers its members. `places` are the contacts. Empty if there is no
+    /// heap.
     pub(in crate::dynamics) fn heap_of(
         &mut self,
         bodies: &[usize],
@@ -23,8 +25,8 @@ impl Collider {
         heap
     }
 
-    /// Adds touching bodies that were advanced as a heap before to the crowd again. Bodies just hit are left out: they
-    /// rebound first.
+    /// Adds touching bodies to the crowd again if they were advanced as a heap before. `places` are the lasting contacts. A body that has
+    /// just been hit is not among them, since it rebounds first.
     pub(in crate::dynamics) fn crowd_known_heaps(
         &mut self,
         model: &Model,
@@ -50,8 +52,7 @@ impl Collider {
     }
 }
 
-/// Whether the bodies that touch at some places form a heap if they all hold each other. The places are in the order of
-/// their bodies.
+/// Returns true if contacts connect enough pairs of bodies for a heap. The contacts are in the order of their bodies.
 pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> bool {
     let (mut pairs, mut last) = (0, None);
     for place in places {
@@ -63,7 +64,7 @@ pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> 
     pairs > PAIRS
 }
 
-/// All bodies connected by touches to some bodies, in rising order; none if they are no heap.
+/// Returns all movable bodies that contacts connect with the given bodies, in ascending order. Empty if they form no heap.
 fn heap(bodies: &[usize], places: &[Arc<Closed>], model: &Model) -> Vec<usize> {
     if !is_heap(places) {
         return Vec::new();

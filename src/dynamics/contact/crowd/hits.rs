@@ -1,4 +1,4 @@
-//! Adds bodies that will hit the crowd within a step from the beginning.
+//! Adds bodies that will hit the crowd within a step to the crowd from the step's beginning.
 
 use super::super::super::{Model, State};
 use super::super::collider::Collider;
@@ -6,17 +6,17 @@ use super::super::nearest::nearest;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 
-/// A crowd with fewer bodies is hit at the exact time. Its motion is then computed again, at little cost.
+/// Bodies hit a crowd of at most this many bodies at the exact time. The crowd's motion is then computed again, at little cost.
 const FEW: usize = 6;
 
-/// Impacts can make bodies faster within a step. They join if they could hit the crowd by moving this many times their
-/// free distance, plus this part of their size.
+/// Bodies join a crowd if they could reach it by moving this many times their free distance, plus the fraction `NEARER` of their size. The
+/// margin is needed because impacts can make bodies faster within a step.
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.02;
 
 impl Collider {
-    /// Adds bodies that may hit the crowd within a step of `dt` (s), then bodies that may hit those, and so on. So the
-    /// motion of a large crowd is computed once in a step, not after each hit.
+    /// Adds bodies that may hit the crowd within `dt` seconds, then bodies that may hit these, and so on. The motion of a large crowd is
+    /// then computed once in a step, not after each hit.
     pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
         if self.crowd.bodies.len() <= FEW {
             return;
@@ -34,14 +34,14 @@ impl Collider {
             Some(known) => known.to_vec(),
             None => near(&self.contacts, &self.solids, &ways, (model, state)),
         };
-        // The bodies of another group are not advanced here.
+        // Bodies of other groups are not advanced at present.
         let is_here =
             |body: &usize| self.focus.as_ref().is_none_or(|focus| focus.bodies.binary_search(body).is_ok());
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         pairs.retain(|pair| pair.bodies.iter().all(|body| is_here(body) && can_move(body)));
         loop {
             let is_in = |body: &usize| self.crowd.bodies.contains(body);
-            // Of these pairs, one body is in the crowd; of the others, none is.
+            // `halves` are pairs with one body in the crowd, `others` pairs with none.
             let (halves, others): (Vec<Pair>, Vec<Pair>) = pairs
                 .into_iter()
                 .filter(|pair| !pair.bodies.iter().all(is_in))
@@ -59,7 +59,7 @@ impl Collider {
         }
     }
 
-    /// Whether the distances that two bodies can move add up to their gap, m.
+    /// Returns true if the distances `ways` that two bodies can move, m, add up to at least their gap.
     fn can_meet(&self, pair: &Pair, model: &Model, state: &State, ways: &[f64]) -> bool {
         let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { return false };
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));

@@ -1,5 +1,5 @@
-//! The nearest places of a cylinder's or cone's rim and an edge or another rim. There is no closed form: Newton's
-//! method finds the angle on the rim, to rounding.
+//! The closest points of the rim of a cylinder or cone and an edge or another rim. There is no closed form: Newton's method finds the
+//! angle on the rim, to rounding errors.
 
 use std::f64::consts::TAU;
 
@@ -8,12 +8,12 @@ use glam::DVec3;
 use super::super::nearest::Nearest;
 use super::{PARALLEL, Spine, balls};
 
-/// The number of angles from which Newton's method takes the best as its start.
+/// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
 const STARTS: u32 = 24;
-/// The number of halvings that shrink an interval to rounding.
+/// The largest number of Newton steps or halvings. This many halvings shrink an interval to rounding errors.
 const STEPS: u32 = 60;
 
-/// The rim of a flat end.
+/// The circular rim of a flat end of a cylinder or cone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
     pub(super) centre: DVec3,
@@ -23,14 +23,15 @@ pub(super) struct Rim {
 }
 
 impl Rim {
-    /// The unit direction from the axis at an angle.
+    /// Returns the radial unit vector of the rim at an angle, rad.
     fn radial(&self, angle: f64) -> DVec3 {
         let x = self.axis.any_orthonormal_vector();
         let (sin, cos) = (libm::sin(angle), libm::cos(angle));
         cos * x + sin * self.axis.cross(x)
     }
 
-    /// The unit direction from the axis to a place; any direction across the axis if the place is on it.
+    /// Returns the radial unit vector that points from the rim's axis to a given point. For a point on the axis, any radial direction will
+    /// do.
     fn towards(&self, place: DVec3) -> DVec3 {
         let from = place - self.centre;
         let across = from - from.dot(self.axis) * self.axis;
@@ -38,7 +39,7 @@ impl Rim {
     }
 }
 
-/// The nearest places of a rim and an envelope of balls.
+/// Computes the closest points of a rim and an envelope of balls (an edge, a round side, or a ball).
 pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     if spine.is_point() {
         let radial = rim.towards(spine.at);
@@ -46,13 +47,13 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     }
     let v = spine.along;
     let slope = (1.0 - spine.taper * spine.taper).max(0.0).sqrt();
-    // The gap of a place of the rim, without its constant part.
+    // The gap at a point of the rim, without its constant part.
     let across = |p: DVec3| p - p.dot(v) * v;
     let value = |radial: DVec3| {
         let from = rim.centre + rim.radius * radial - spine.at;
         slope * across(from).length() - spine.taper * from.dot(v)
     };
-    // A place beside the end of the edge counts as farther away, so that the search starts near the edge.
+    // A point beyond the end of the edge counts as farther away, so the search starts near the edge.
     let beyond = |radial: DVec3| {
         let from = rim.centre + rim.radius * radial - spine.at;
         (from.dot(v).abs() - spine.half).max(0.0)
@@ -67,7 +68,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
         let tangent = rim.radius * rim.axis.cross(radial);
         let (from, bend) = (rim.centre + rim.radius * radial - spine.at, -rim.radius * radial);
         let (d, dt, db) = (across(from), across(tangent), across(bend));
-        // The derivatives of half the square of the distance, which is smooth also where it is 0.
+        // The derivatives of half the squared distance, which is smooth even where the distance is 0.
         let (first, second) = (d.dot(dt), dt.length_squared() + d.dot(db));
         if spine.taper == 0.0 {
             return [first, second];
@@ -91,14 +92,14 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
     crossing(place, rim.axis.cross(radial), rim.axis + radial, foot, v, spine.outward, spine.radius)
 }
 
-/// The nearest places of two rims.
+/// Computes the closest points of two rims.
 pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
     let place_a = |angle: f64| a.centre + a.radius * a.radial(angle);
     let gap = |angle: f64| {
         let place = place_a(angle);
         (b.centre + b.radius * b.towards(place) - place).length()
     };
-    // The derivatives of half the square of the distance to the nearest place of the other rim.
+    // The derivatives of half the squared distance to the closest point of the other rim.
     let angle = lowest(gap, |angle| {
         let place = place_a(angle);
         let (ra, rb) = (a.radial(angle), b.towards(place));
@@ -114,8 +115,8 @@ pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
     crossing(places[0], a.axis.cross(ra), a.axis + ra, places[1], b.axis.cross(rb), b.axis + rb, 0.0)
 }
 
-/// The crossing of two edges. The first has a place p, its direction u, and a direction out of its body; the second has
-/// q, v and `out_q`, and may be round, with a radius.
+/// Computes the contact of two crossing edges. The first edge is given by a point `p`, its unit direction `u` and a vector `out_p` out of
+/// its body; the second by `q`, `v` and `out_q`. The second edge may be round, with a radius.
 fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, radius: f64) -> Nearest {
     let cross = u.cross(v);
     let sine = cross.length();
@@ -127,9 +128,10 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     Nearest { gap, normal, on: [p, q - radius * normal] }
 }
 
-/// The angle of a function's smallest minimum, to rounding. `derivatives` are the first and the second.
+/// Returns the angle of the smallest minimum of a periodic function, rad, to rounding errors. `derivatives` returns its first and second
+/// derivative.
 ///
-/// Newton's method within an interval; a step that would leave it halves it instead.
+/// The search is Newton's method within an interval. A step that would leave the interval is replaced by a halving.
 fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
     let apart = TAU / f64::from(STARTS);
     let mut best = (f64::INFINITY, 0.0);
@@ -142,7 +144,8 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
     }
     let mut angle = best.1;
     let (mut low, mut high) = (angle - apart, angle + apart);
-    // The coarse search stops at the ends of an edge, but the derivatives do not. So the minimum may lie outside of the interval.
+    // The coarse search takes the ends of an edge into account, but the derivatives do not. The minimum may therefore lie outside of the
+    // interval.
     for _ in 0..STARTS {
         if derivatives(low)[0] > 0.0 {
             low -= apart;
