@@ -1,4 +1,4 @@
-//! Colors.
+//! Colors in sRGB, and the parser for colors in scenes.
 
 pub(super) use super::color_names::NAMES;
 
@@ -6,16 +6,16 @@ pub(super) use super::color_names::NAMES;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Color(pub [f64; 3]);
 
-/// The named colors: each name with its color as `#rrggbb`.
+/// Returns the name of each named CSS color, with its value as `#rrggbb`.
 pub(crate) fn names() -> Vec<(&'static str, String)> {
     NAMES.iter().map(|&(name, code)| (name, format!("#{code:06x}"))).collect()
 }
 
 impl Color {
-    /// White.
+    /// The color white.
     pub const WHITE: Color = Color([1.0; 3]);
 
-    /// Parses a color: `#rrggbb`, `#rgb`, or a CSS name in uppercase or lowercase letters.
+    /// Parses a color: `#rrggbb`, `#rgb`, or a CSS name in uppercase or lowercase letters. `None` for other texts.
     pub fn parse(text: &str) -> Option<Color> {
         if let Some(&(_, code)) = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)) {
             return Some(Color::from_code(code));
@@ -35,12 +35,12 @@ impl Color {
         }
     }
 
-    /// The color of a number `0xrrggbb`.
+    /// Creates a color from a number `0xrrggbb`.
     pub fn from_code(code: u32) -> Color {
         Color([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
     }
 
-    /// Converts the color to linear light: red, green and blue from 0 to 1 (IEC 61966-2-1).
+    /// Converts the color to linear RGB: red, green and blue from 0 to 1 (IEC 61966-2-1).
     pub fn linear(self) -> [f64; 3] {
         self.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
     }
@@ -77,7 +77,7 @@ mod tests {
     fn linear_light_is_darker_than_srgb_in_between() {
         let [black, middle, white] = Color([0.0, 0.5, 1.0]).linear();
         assert_eq!([black, white], [0.0, 1.0]);
-        // IEC 61966-2-1: sRGB 0.5 is 21.4 % of the light.
+        // The expected value from IEC 61966-2-1: sRGB 0.5 is a linear intensity of 21.4 %.
         assert!((middle - 0.214_041).abs() < 1e-6, "{middle}");
     }
 }

@@ -1,4 +1,4 @@
-//! How the bodies of a checked scene collide.
+//! The contact laws of scenes, and the contact properties of bodies.
 
 use std::sync::Arc;
 
@@ -7,9 +7,9 @@ use crate::dynamics::Surface;
 /// The method that detects contacts and keeps bodies from passing through each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactLaw {
-    /// Finds the time of each impact within a step.
+    /// Event-driven contacts: finds the time of each impact within a timestep.
     EventDriven,
-    /// Solves all contacts of a step together.
+    /// Time stepping: solves all contacts of a timestep together.
     TimeStepping,
 }
 
@@ -17,7 +17,7 @@ impl ContactLaw {
     /// All contact laws.
     pub const ALL: [ContactLaw; 2] = [ContactLaw::EventDriven, ContactLaw::TimeStepping];
 
-    /// The name of the contact law in scenes.
+    /// Returns the name of the contact law in scenes.
     pub fn name(self) -> &'static str {
         match self {
             ContactLaw::EventDriven => "event-driven",
@@ -25,7 +25,7 @@ impl ContactLaw {
         }
     }
 
-    /// Advice on when to choose the contact law.
+    /// Returns one line about when to choose the contact law.
     pub fn summary(self) -> &'static str {
         match self {
             ContactLaw::EventDriven => {
@@ -44,6 +44,6 @@ impl ContactLaw {
 pub struct Collider {
     /// The restitution and friction of the body's surface.
     pub surface: Surface,
-    /// The name of the body's group. Bodies of one group pass through each other.
+    /// The name of the body's collision group. Bodies of the same group pass through each other. `None` if the body is in no group.
     pub group: Option<Arc<str>>,
 }

@@ -1,4 +1,4 @@
-//! Numbers that each particle draws for itself.
+//! Random numbers in scenes, of which each particle draws its own sample.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::expression::{Draw, ExpressionError, Program};
 use crate::dynamics;
 use crate::random::Stream;
 
-/// A number, or a formula whose random numbers are drawn anew for each particle.
+/// A constant number, or a formula with random numbers that is sampled anew for each particle.
 #[derive(Clone, Debug)]
 pub enum Drawn {
     /// The same number for all particles.
@@ -15,7 +15,7 @@ pub enum Drawn {
     Formula(Arc<DrawnFormula>),
 }
 
-/// A formula of the time `t`, with `uniform` and `normal`. Each evaluation draws new random numbers.
+/// A formula of the time `t` with the random functions `uniform` and `normal`. Each evaluation draws new random numbers.
 #[derive(Debug)]
 pub struct DrawnFormula {
     text: Arc<str>,
@@ -23,12 +23,12 @@ pub struct DrawnFormula {
 }
 
 impl DrawnFormula {
-    /// Creates a formula. The time is its only unresolved name, in slot 0.
+    /// Creates a formula from its text and its program. The program's input slot 0 is the time. The random numbers follow.
     pub(super) fn new(text: Arc<str>, program: Program) -> DrawnFormula {
         DrawnFormula { text, program }
     }
 
-    /// The formula as written.
+    /// Returns the formula as written in the scene.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -54,7 +54,7 @@ impl dynamics::Draw for DrawnFormula {
 }
 
 impl Drawn {
-    /// The number or formula in the form that the dynamics use.
+    /// Returns the number or formula as a shared trait object for the dynamics.
     pub fn shared(&self) -> Arc<dyn dynamics::Draw> {
         match self {
             Drawn::Constant(number) => Arc::new(*number),

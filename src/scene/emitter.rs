@@ -10,40 +10,39 @@ use crate::dynamics::{BodyId, ParticleSource, Surface};
 pub struct Emitter {
     /// The name of the emitter, unique among emitters.
     pub name: Arc<str>,
-    /// The times, places and velocities at which the particles are born.
+    /// The birth times, initial locations and initial velocities of the particles.
     pub source: Arc<ParticleSource>,
-    /// The body that carries the emitter. `None` if the emitter is fixed in the world.
+    /// The body that the emitter moves with. `None` if the emitter is fixed in the world.
     pub carrier: Option<BodyId>,
     /// The radius of a particle, m.
     pub radius: f64,
-    /// The surface of a particle. `None` if particles pass through bodies.
+    /// The contact properties of the particles' surfaces. `None` if particles pass through bodies.
     pub collides: Option<Surface>,
-    /// The factors by which a particle is drawn larger: the first at birth, the last at death, the others evenly
-    /// between.
+    /// The factors by which the drawn radius of a particle is multiplied, evenly spaced over its life. The first factor holds at birth,
+    /// the last at death.
     pub sizes: Vec<f64>,
-    /// The colors of a particle: the first at birth, the last at death, the others evenly between.
+    /// The colors of a particle, evenly spaced over its life. The first color holds at birth, the last at death.
     pub colors: Vec<Color>,
-    /// The brightness of a particle's own light. 0 if it gives no light.
+    /// The brightness of the light that a particle emits. 0 if it emits no light, 1 if the light has exactly the particle's color.
     pub glow: f64,
-    /// The time that a streak covers, s: a particle is drawn as a streak along its path in this time. 0: drawn as a
-    /// ball.
+    /// The time that a streak covers, s. A particle is drawn as a streak along its path during this time, or as a ball if the time is 0.
     pub streak: f64,
 }
 
 impl Emitter {
-    /// The color of a particle at an age from 0 (birth) to 1 (death).
+    /// Returns the color of a particle at an age from 0 (birth) to 1 (death).
     #[must_use]
     pub fn color_at(&self, age: f64) -> Color {
         Color([0, 1, 2].map(|i| at_age(&self.colors, age, |color| color.0[i])))
     }
 
-    /// The drawn radius of a particle, m, at an age from 0 (birth) to 1 (death).
+    /// Returns the drawn radius of a particle, m, at an age from 0 (birth) to 1 (death).
     #[must_use]
     pub fn radius_at(&self, age: f64) -> f64 {
         self.radius * at_age(&self.sizes, age, |size| *size)
     }
 
-    /// An upper bound for the number of particles alive at once, as known before the run.
+    /// Returns an upper bound for the number of particles that are alive at the same time during a run of the given duration, s.
     #[must_use]
     pub fn most_alive(&self, duration: f64) -> f64 {
         let births = self.source.births;
@@ -51,7 +50,7 @@ impl Emitter {
         self.births_within(life)
     }
 
-    /// The largest number of births within `time`, s.
+    /// Returns the largest number of births in any interval of length `time`, s.
     #[must_use]
     pub fn births_within(&self, time: f64) -> f64 {
         let births = self.source.births;
@@ -61,7 +60,7 @@ impl Emitter {
     }
 }
 
-/// Interpolates values spaced evenly from birth to death, at an age from 0 to 1.
+/// Interpolates between values that are evenly spaced over a particle's life, at an age from 0 (birth) to 1 (death).
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -9,38 +9,38 @@ use crate::dynamics::{
     LennardJones, Lorentz, Spring,
 };
 
-/// A force between bodies, on several bodies, or on particles. The constant force on one body is part of the body.
+/// A named force between bodies, on bodies, or on particles. The `force` key of a single body is part of that body instead.
 #[derive(Clone, Debug)]
 pub struct Force {
     /// The name of the force, unique among forces.
     pub name: String,
     /// The kind of the force.
     pub kind: ForceKind,
-    /// The indices of the emitters on whose particles the force acts.
+    /// The indices of the emitters whose particles the force acts on.
     pub emitters: Vec<usize>,
 }
 
 /// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum ForceKind {
-    /// The same force and torque on several bodies.
+    /// A constant force and torque on each of several bodies.
     Constant(ConstantForce),
-    /// Drag in air or a liquid.
+    /// Drag in air or in a liquid.
     Drag(Drag),
-    /// Newton's gravitation between all pairs of bodies.
+    /// Newton's gravitation between all pairs of bodies, or between two groups.
     Gravitation(Gravitation),
-    /// Coulomb's force between all pairs of charged bodies.
+    /// The Coulomb force between all pairs of charged bodies, or between two groups.
     Coulomb(Coulomb),
     /// The Lorentz force in uniform electric and magnetic fields.
     Lorentz(Lorentz),
-    /// A force defined by formulas.
+    /// A force given by formulas.
     Formula {
-        /// The bodies on which the force acts.
+        /// The bodies that the force acts on.
         bodies: Vec<BodyId>,
-        /// The formulas of the force.
+        /// The formulas of the force and its potential.
         law: Arc<FormulaLaw>,
     },
-    /// The Lennard-Jones force between neutral atoms, for all close pairs.
+    /// The Lennard-Jones force between neutral atoms, for all pairs closer than the cutoff distance.
     LennardJones(LennardJones),
     /// Buoyancy in a liquid.
     Buoyancy(Buoyancy),
@@ -58,7 +58,7 @@ pub enum ForceKind {
 }
 
 impl ForceKind {
-    /// The forces as the dynamics use them.
+    /// Returns the forces as the dynamics need them. A chain of springs gives one force for each spring.
     pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
         match self {
             ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],

@@ -18,48 +18,48 @@ pub struct Joint {
     pub name: String,
     /// The kind of the joint.
     pub kind: JointKind,
-    /// The motor with limited strength. `None` if the joint has none.
+    /// The motor that drives the joint like a spring with a damper. `None` if the joint has no such motor.
     pub servo: Option<Servo>,
-    /// Whether the two bodies of the joint can collide with each other.
+    /// Whether the two bodies of the joint collide with each other.
     pub collides: bool,
     /// The look of the joint. `None` if the joint is not drawn.
     pub look: Option<JointLook>,
-    /// Arrows for the joint's force and torque, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).
+    /// Arrows for the joint's reaction force and reaction torque, in the order of [`Quantity::OF_JOINTS`](super::Quantity::OF_JOINTS).
     pub arrows: [Option<Arrow>; 2],
 }
 
 /// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum JointKind {
-    /// Keeps two points together.
+    /// A ball joint: keeps two points together.
     Ball(Ball),
-    /// Keeps two points together, and an axis common to both bodies.
+    /// A hinge: keeps two points together, and an axis that both bodies share.
     Hinge(Hinge),
-    /// Lets one body move only along an axis of the other.
+    /// A slider: lets one body move only along an axis of the other body.
     Slider(Slider),
-    /// Fastens two bodies to each other, without any relative motion.
+    /// A fixed joint: prevents any relative motion of two bodies.
     Fixed(Fixed),
-    /// Keeps the distance between two points constant.
+    /// A rod: keeps the distance between two points constant.
     Rod(Rod),
-    /// Keeps the distance between two points from exceeding the length of the rope.
+    /// A rope: keeps the distance between two points from exceeding the length of the rope.
     Rope(Rope),
-    /// A rope that runs over two points.
+    /// A pulley: a rope that runs over two points.
     Pulley(Pulley),
-    /// Couples the motion of two joints.
+    /// A gear: couples the coordinates of two hinges or sliders.
     Gear(Gear),
 }
 
-/// The look of a joint: a rod is drawn from end to end, any other joint as a pin.
+/// The look of a joint. A rod is drawn from end to end, any other joint as a pin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLook {
-    /// The radius of the rod or the pin, m.
+    /// The radius of the drawn rod or pin, m. `None` for the default radius.
     pub radius: Option<f64>,
-    /// The color of the joint. `None` for the default color.
+    /// The color of the drawn joint. `None` for the default color.
     pub color: Option<Color>,
 }
 
 impl JointKind {
-    /// The constraint as the dynamics use it.
+    /// Returns the joint as a constraint for the dynamics.
     pub fn constraint(&self) -> Arc<dyn Constraint> {
         match self {
             JointKind::Ball(ball) => Arc::new(*ball),
@@ -73,7 +73,7 @@ impl JointKind {
         }
     }
 
-    /// The two ends of the joint. For a gear, the second end of each of its two joints.
+    /// Returns the two ends of the joint. For a gear, returns the second end of each of the two coupled joints.
     pub fn between(&self) -> [Anchor; 2] {
         match self {
             JointKind::Ball(Ball { between })
@@ -87,9 +87,8 @@ impl JointKind {
         }
     }
 
-    /// The error of the joint, m: the distance between its two points, or the error of its length. `body` returns the
-    /// state of a body. `None` while a body of the joint is absent, and for pulleys and gears, which do not hold two
-    /// points together.
+    /// Returns the constraint error of the joint, m: the distance between two points that should coincide, or the error of a length.
+    /// `body` returns the state of a body. `None` while a body of the joint is absent, and for pulleys and gears.
     pub fn gap(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<f64> {
         let ends = self.between().map(|end| match end {
             Anchor::Body { id, at } => body(id).map(|body| (body.point(at).0, body.orientation)),
@@ -106,7 +105,7 @@ impl JointKind {
         })
     }
 
-    /// The angle of a hinge, or the position of a slider. `None` for other joints.
+    /// Returns the free coordinate of a joint: the angle of a hinge, or the position of a slider. `None` for other joints.
     pub fn coordinate(&self) -> Option<Coordinate> {
         match self {
             JointKind::Hinge(hinge) => Some(hinge.coordinate()),
@@ -116,12 +115,12 @@ impl JointKind {
     }
 }
 
-/// A joint coordinate that a scene gives as a function of time.
+/// A joint coordinate that the scene prescribes as a function of time.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The formula.
+    /// The number or formula of the time, in the scene's unit.
     pub value: Timed,
-    /// The factor from the unit of the formula to the unit of the dynamics: π/180 for degrees.
+    /// The factor that converts the scene's unit to SI units, such as π/180 for degrees.
     pub unit: f64,
 }
 

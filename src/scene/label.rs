@@ -1,35 +1,35 @@
-//! The measurements and texts of a checked scene: labels, the scale bar, the grid.
+//! The labels, the scale bar and the grid of a scene, with the quantities that labels can show.
 
 use super::Color;
 use super::JointKind;
 use super::expression::Program;
 use crate::dynamics::Reaction;
 
-/// A text in the picture.
+/// A text that is drawn in the picture.
 #[derive(Clone, Debug)]
 pub struct Label {
     /// The name of the label, unique among labels.
     pub name: String,
-    /// The text of the label, in pieces.
+    /// The pieces of the label's text, in order.
     pub text: Vec<Piece>,
-    /// The place of the label.
+    /// The position of the label in the picture.
     pub place: LabelPlace,
-    /// The line height, as a part of the picture's height. `None` for a size that is easy to read.
+    /// The line height as a fraction of the picture's height. `None` for a size that is easy to read.
     pub size: Option<f64>,
-    /// The color. `None` for the default: dark, or light on a dark background.
+    /// The color of the text. `None` for the default color: dark on a light background, and light on a dark one.
     pub color: Option<Color>,
 }
 
-/// A piece of a label.
+/// A piece of a label's text.
 #[derive(Clone, Debug)]
 pub enum Piece {
     /// Constant text.
     Words(String),
     /// The value of a formula at the time of the frame.
     Value {
-        /// The formula, whose inputs are the values of `inputs`.
+        /// The compiled formula. Its inputs are the values of the measures in `inputs`.
         formula: Program,
-        /// The measures that the formula uses, in the order of its inputs.
+        /// The measures that the formula uses, in the order of the formula's inputs.
         inputs: Vec<Measure>,
         /// The number format of the value.
         format: Format,
@@ -43,11 +43,11 @@ pub enum Format {
     Short,
     /// A fixed number of decimals.
     Decimals(usize),
-    /// Scientific notation: a fixed number of decimals, and a power of ten.
+    /// Scientific notation with a fixed number of decimals and a power of ten.
     Scientific(usize),
 }
 
-/// The place of a label.
+/// The position of a label in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LabelPlace {
     /// At an edge or corner of the picture.
@@ -58,7 +58,7 @@ pub enum LabelPlace {
         body: usize,
         /// The side of the body.
         side: Side,
-        /// Whether each ghost of the body has a label too, with the values at the time of the ghost.
+        /// Whether each ghost of the body also has a label, with the values at the time of the ghost.
         ghosts: bool,
     },
 }
@@ -66,22 +66,22 @@ pub enum LabelPlace {
 /// A corner of the picture, or the middle of its top or bottom edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
-    /// At the top, on the left.
+    /// The top left corner.
     TopLeft,
-    /// At the top, in the middle.
+    /// The middle of the top edge.
     Top,
-    /// At the top, on the right.
+    /// The top right corner.
     TopRight,
-    /// At the bottom, on the left.
+    /// The bottom left corner.
     BottomLeft,
-    /// At the bottom, in the middle.
+    /// The middle of the bottom edge.
     Bottom,
-    /// At the bottom, on the right.
+    /// The bottom right corner.
     BottomRight,
 }
 
 impl Corner {
-    /// All corners.
+    /// All corners and edges.
     pub const ALL: [Corner; 6] = [
         Corner::TopLeft,
         Corner::Top,
@@ -91,7 +91,7 @@ impl Corner {
         Corner::BottomRight,
     ];
 
-    /// The name of the corner in scenes.
+    /// Returns the name of the corner in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Corner::TopLeft => "top-left",
@@ -104,7 +104,7 @@ impl Corner {
     }
 }
 
-/// A side of a body in the picture.
+/// The side of a body on which its label stands, as seen in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Above the body.
@@ -118,10 +118,10 @@ pub enum Side {
 }
 
 impl Side {
-    /// All sides.
+    /// All sides of a body.
     pub const ALL: [Side; 4] = [Side::Above, Side::Below, Side::Left, Side::Right];
 
-    /// The name of the side in scenes.
+    /// Returns the name of the side in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Side::Above => "above",
@@ -132,7 +132,7 @@ impl Side {
     }
 }
 
-/// A quantity that labels can show, with a value at each time.
+/// A quantity that labels can show. It has a value at each time of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// A quantity of the whole run.
@@ -141,12 +141,12 @@ pub enum Measure {
     Body(usize, BodyMeasure),
     /// A quantity of one joint. The number is the index of the joint in the scene.
     Joint(usize, JointMeasure),
-    /// The number of impacts so far of one pair of bodies. The number is the index of the pair in the scene.
+    /// The number of impacts between two bodies so far. The number is an index into `pairs` of the scene.
     Impacts(usize),
 }
 
 impl Measure {
-    /// Whether the quantity is a count. A label shows all digits of a count.
+    /// Returns whether the quantity is a count. A label shows all digits of a count.
     pub fn is_count(self) -> bool {
         matches!(
             self,
@@ -158,22 +158,22 @@ impl Measure {
 /// A quantity of the whole run at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunMeasure {
-    /// The time, s.
+    /// The simulated time, s.
     Time,
     /// The number of the frame.
     Frame,
-    /// The sum of kinetic and potential energy, J.
+    /// The kinetic and potential energy of the whole scene, J.
     Energy,
-    /// The kinetic energy, J.
+    /// The kinetic energy of the whole scene, J.
     Kinetic,
-    /// The potential energy, J.
+    /// The potential energy of the whole scene, J.
     Potential,
-    /// The number of impacts so far.
+    /// The number of impacts in the whole scene so far.
     Impacts,
 }
 
 impl RunMeasure {
-    /// All quantities of the run: name in formulas, quantity, meaning.
+    /// All quantities of the run, each with its name in formulas and its meaning.
     pub const ALL: [(&'static str, RunMeasure, &'static str); 6] = [
         ("t", RunMeasure::Time, "the time, s"),
         ("frame", RunMeasure::Frame, "the number of the frame"),
@@ -187,19 +187,19 @@ impl RunMeasure {
 /// A quantity of a body at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyMeasure {
-    /// A coordinate of the location, m.
+    /// A coordinate of the body's location, m. The number is the axis: 0 for x, 1 for y, 2 for z.
     Location(usize),
-    /// The speed, m/s.
+    /// The magnitude of the velocity, m/s.
     Speed,
-    /// A component of the velocity, m/s.
+    /// A component of the velocity, m/s. The number is the axis: 0 for x, 1 for y, 2 for z.
     Velocity(usize),
     /// The magnitude of the acceleration, m/s².
     Accelerating,
-    /// A component of the acceleration, m/s².
+    /// A component of the acceleration, m/s². The number is the axis: 0 for x, 1 for y, 2 for z.
     Acceleration(usize),
     /// The magnitude of the net force on the body, N.
     Pull,
-    /// A component of the net force on the body, N.
+    /// A component of the net force on the body, N. The number is the axis: 0 for x, 1 for y, 2 for z.
     Force(usize),
     /// The magnitude of the angular velocity, rad/s.
     Spin,
@@ -207,14 +207,14 @@ pub enum BodyMeasure {
     Mass,
     /// The magnitude of the momentum, kg·m/s.
     Momentum,
-    /// The kinetic energy of its translation, J.
+    /// The kinetic energy of translation and rotation, J.
     Kinetic,
     /// The number of impacts of the body so far.
     Impacts,
 }
 
 impl BodyMeasure {
-    /// All quantities of a body: name in formulas, quantity, meaning.
+    /// All quantities of a body, each with its name in formulas and its meaning.
     pub const ALL: [(&'static str, BodyMeasure, &'static str); 20] = [
         ("x", BodyMeasure::Location(0), "its location, m"),
         ("y", BodyMeasure::Location(1), "its location, m"),
@@ -246,24 +246,25 @@ impl BodyMeasure {
 /// A quantity of a joint at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointMeasure {
-    /// The magnitude of the joint's force, N.
+    /// The magnitude of the reaction force on the joint's second end, N.
     ForceMagnitude,
-    /// A component of the joint's force, N.
+    /// A component of the reaction force on the joint's second end, N, in world axes. The number is the axis: 0 for x, 1 for y, 2 for z.
     Force(usize),
-    /// The magnitude of the joint's torque, N·m.
+    /// The magnitude of the reaction torque on the joint's second end, N·m.
     TorqueMagnitude,
-    /// A component of the joint's torque, N·m.
+    /// A component of the reaction torque on the joint's second end, N·m, in world axes. The number is the axis: 0 for x, 1 for y, 2 for
+    /// z.
     Torque(usize),
     /// The angle of a hinge, degrees.
     Angle,
     /// The position of a slider along its axis, m.
     Position,
-    /// The rate of change of the hinge angle, rad/s, or of the slider position, m/s.
+    /// The rate of change of a hinge's angle, rad/s, or of a slider's position, m/s.
     Speed,
 }
 
 impl JointMeasure {
-    /// All quantities of a joint: name in formulas, quantity, meaning.
+    /// All quantities of a joint, each with its name in formulas and its meaning.
     pub const ALL: [(&'static str, JointMeasure, &'static str); 11] = [
         ("joint.NAME.force", JointMeasure::ForceMagnitude, "the size of its force on its second end, N"),
         ("joint.NAME.fx", JointMeasure::Force(0), "its force on its second end, N"),
@@ -290,12 +291,12 @@ impl JointMeasure {
         ("joint.NAME.speed", JointMeasure::Speed, "the rate of that angle, rad/s, or of that way, m/s"),
     ];
 
-    /// The part of each name after the name of the joint, with its quantity.
+    /// Returns all quantities of a joint, each with the last part of its name, such as `force`.
     pub fn names() -> impl Iterator<Item = (&'static str, JointMeasure)> {
         JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
     }
 
-    /// Whether joints of this kind have the quantity.
+    /// Returns whether a joint of this kind has the quantity.
     pub fn is_of(self, joint: &JointKind) -> bool {
         match self {
             JointMeasure::Angle => matches!(joint, JointKind::Hinge(_)),
@@ -305,12 +306,12 @@ impl JointMeasure {
         }
     }
 
-    /// Whether the quantity is a force or a torque of the joint.
+    /// Returns whether the quantity is a reaction force or a reaction torque.
     pub fn is_reaction(self) -> bool {
         !matches!(self, JointMeasure::Angle | JointMeasure::Position | JointMeasure::Speed)
     }
 
-    /// The value of the quantity, from the joint's force and torque, its coordinate and the rate of the coordinate.
+    /// Returns the value of the quantity from the joint's reaction, its coordinate `value` (rad or m), and the rate of the coordinate.
     pub fn of(self, reaction: &Reaction, [value, rate]: [f64; 2]) -> f64 {
         match self {
             JointMeasure::Angle => value.to_degrees(),
@@ -324,38 +325,38 @@ impl JointMeasure {
     }
 }
 
-/// A bar in the picture that shows a length.
+/// A bar in the picture with the length that it stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleBar {
     /// The length of the bar, m. `None` for about a fifth of the picture's width.
     pub length: Option<f64>,
-    /// The corner of the picture in which the bar is.
+    /// The corner of the picture in which the bar is drawn.
     pub corner: Corner,
 }
 
-/// Lines with numbers at regular distances, for reading lengths in the picture.
+/// A grid of numbered lines at regular distances, from which lengths in the picture can be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// The distance between two lines, m. `None` for a distance that suits the size of the motion.
+    /// The distance between two neighboring lines, m. `None` for a distance that suits the extent of the motion.
     pub spacing: Option<f64>,
-    /// The plane of the grid.
+    /// The plane in which the grid lies.
     pub plane: GridPlane,
 }
 
-/// The plane of a grid.
+/// The plane in which a grid lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GridPlane {
-    /// On the ground.
+    /// The plane of the ground.
     Ground,
-    /// Vertical, behind the motion.
+    /// A vertical plane behind the motion.
     Wall,
 }
 
 impl GridPlane {
-    /// All planes.
+    /// All planes of grids.
     pub const ALL: [GridPlane; 2] = [GridPlane::Ground, GridPlane::Wall];
 
-    /// The name of the plane in scenes.
+    /// Returns the name of the plane in scenes.
     pub fn name(self) -> &'static str {
         match self {
             GridPlane::Ground => "ground",

@@ -1,4 +1,4 @@
-//! Forces that formulas define, from the location, the velocity and the properties of a body.
+//! Forces given by formulas of the location, the velocity and the properties of a body.
 
 use std::fmt;
 use std::ops::Range;
@@ -10,13 +10,13 @@ use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intr
 use crate::diagnostic::Span;
 use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
-/// The quantities that a force formula can use. The first six are those that a potential can use too.
+/// The names of the quantities that a force formula can use. A potential can use only the first six.
 pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];
 
-/// The quantities that a potential can use: location, mass and charge.
+/// The names of the quantities that a potential can use: location, mass and charge.
 pub const OF_PLACE: &[&str] = QUANTITIES.split_at(6).0;
 
-/// The indices of quantities in [`QUANTITIES`].
+/// The indices of some quantities in [`QUANTITIES`].
 const R: usize = 3;
 const MASS: usize = 4;
 const CHARGE: usize = 5;
@@ -26,7 +26,7 @@ const TIME: usize = 10;
 
 const _: () = assert!(FORCE_BLOCK == LANES);
 
-/// A formula of the quantities of a body, with resolved names.
+/// A formula of a body's quantities, such as its location and velocity.
 pub struct BodyFormula {
     text: Arc<str>,
     span: Span,
@@ -34,35 +34,35 @@ pub struct BodyFormula {
 }
 
 impl BodyFormula {
-    /// Creates a formula. `span` is its place in the text. Its slots are [`QUANTITIES`], in that order.
+    /// Creates a formula. `span` is its position in the scene's text. Its input slots are the [`QUANTITIES`], in the same order.
     pub(super) fn new(text: Arc<str>, span: Span, resolved: Resolved) -> BodyFormula {
         BodyFormula { text, span, resolved }
     }
 
-    /// The formula as written.
+    /// Returns the formula as written in the scene.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The place of the formula in the text.
+    /// Returns the position of the formula in the scene's text.
     pub fn span(&self) -> Span {
         self.span
     }
 }
 
 impl fmt::Debug for BodyFormula {
-    // Leave the place out: equal formulas at different places have the same text.
+    // Omit the source span: equal formulas at different positions shall print the same text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.resolved.fmt(f)
     }
 }
 
-/// A number, or a formula of the quantities of a body.
+/// A constant number, or a formula of a body's quantities.
 #[derive(Clone, Debug)]
 pub enum OfBody {
-    /// The same number for all bodies.
+    /// A number that is the same for all bodies.
     Constant(f64),
-    /// A formula of the quantities of the body.
+    /// A formula of the body's location, velocity, mass, charge and the time.
     Formula(Arc<BodyFormula>),
 }
 
@@ -75,18 +75,18 @@ impl OfBody {
     }
 }
 
-/// The force on a body by formulas, and its potential, if the scene gives one.
+/// The compiled formulas for the force on a body, and for its potential if the scene gives one.
 pub struct FormulaLaw {
     force: [OfBody; 3],
     potential: Option<OfBody>,
     program: Wide,
     energy: Option<Wide>,
-    /// ∂U/∂x, ∂U/∂y and ∂U/∂z with r held constant, and ∂U/∂r.
+    /// The derivatives of the potential U: ∂U/∂x, ∂U/∂y and ∂U/∂z at constant r, and ∂U/∂r.
     slopes: Option<Wide>,
 }
 
 impl fmt::Debug for FormulaLaw {
-    // Leave the programs out: they are compiled from the formulas.
+    // Omit the programs, because they are compiled from the formulas.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("FormulaLaw").field(&self.force).field(&self.potential).finish()
     }
@@ -98,7 +98,7 @@ impl FormulaLaw {
     /// # Errors
     /// If the derivatives of the potential are too long.
     pub fn new(force: [OfBody; 3], potential: Option<OfBody>) -> Result<FormulaLaw, ExpressionError> {
-        /// The largest number of operations in a derivative; enough for formulas of up to a thousand characters.
+        /// The maximum number of operations in a derivative. This is enough for formulas of up to a thousand characters.
         const MOST: u64 = 100_000;
         let formulas = force.each_ref().map(OfBody::resolved);
         let program = Wide::new(&formulas.each_ref());
@@ -117,23 +117,22 @@ impl FormulaLaw {
         Ok(FormulaLaw { force, potential, program, energy, slopes })
     }
 
-    /// Whether the force depends on the time.
+    /// Returns whether the force depends on the time.
     pub fn depends_on_time(&self) -> bool {
         self.program.uses(TIME)
     }
 
-    /// Whether the force depends on the charge of the body.
+    /// Returns whether the force depends on the charge of the body.
     pub fn depends_on_charge(&self) -> bool {
         self.program.uses(CHARGE)
     }
 
-    /// Whether the force depends on the mass of the body.
+    /// Returns whether the force depends on the mass of the body.
     pub fn depends_on_mass(&self) -> bool {
         self.program.uses(MASS)
     }
 
-    /// Finds the first formula that has no finite value for these quantities, and the reason. `None` if all values are
-    /// finite.
+    /// Returns the first formula that has no finite value for these quantities, with the reason. `None` if all values are finite.
     pub fn explain(&self, quantities: &[f64]) -> Option<(&BodyFormula, ExpressionError)> {
         self.force.iter().chain(&self.potential).find_map(|formula| match formula {
             OfBody::Constant(_) => None,
@@ -143,7 +142,8 @@ impl FormulaLaw {
         })
     }
 
-    /// The force on a body at rest, and the negative gradient of the potential there, both N. A check compares the two.
+    /// Returns the force and the negative gradient of the potential for these quantities, both in N. The check requires that the two are
+    /// equal for a body at rest.
     pub(super) fn compare(&self, quantities: &[f64]) -> (DVec3, DVec3) {
         let (mut force, mut gradient) = (DVec3::ZERO, DVec3::ZERO);
         let fill = |slot: usize, column: &mut [f64]| column[0] = quantities[slot];
@@ -161,7 +161,7 @@ impl FormulaLaw {
     }
 }
 
-/// The quantities of a body, in the order of [`QUANTITIES`]: SI units.
+/// Returns the quantities of a body in SI units, in the order of [`QUANTITIES`].
 pub fn quantities(
     location: DVec3,
     velocity: DVec3,
@@ -173,13 +173,12 @@ pub fn quantities(
     [x, y, z, location.length(), mass, charge, vx, vy, vz, velocity.length(), time]
 }
 
-/// The quantities of a body at the place and time at which a force had no value.
+/// Returns the quantities of a body at the location, velocity and time at which a force had no finite value.
 pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES.len()] {
     quantities(at.location, at.velocity, mass, charge, at.time)
 }
 
-/// Fills a column with one quantity of some bodies. `row` is the range of their indices, if the indices are
-/// consecutive.
+/// Fills a column with one quantity of each body. `row` is the range of the bodies' indices if the indices are consecutive.
 fn fill(
     slot: usize,
     (bodies, row): (&[BodyId], Option<&Range<usize>>),
@@ -206,7 +205,7 @@ fn fill(
     }
 }
 
-/// Copies one component of each vector into a column.
+/// Copies one component (0 for x, 1 for y, 2 for z) of each vector into a column.
 fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
     let each = column.iter_mut().zip(from);
     match component {

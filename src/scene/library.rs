@@ -1,70 +1,70 @@
-//! The library: materials that every scene can use by name, without a declaration.
+//! The material library: materials that every scene can use by name.
 //!
-//! The POV-Ray definitions are in `templates/library/`, one file per family.
+//! The POV-Ray definitions are in `templates/library/`, one file per family of materials.
 
 use super::{Color, Finish, Look};
 
-/// A material of the library.
+/// A material of the library, such as `gold`.
 #[derive(Debug, PartialEq)]
 pub struct LibraryMaterial {
     /// The name of the material in scenes.
     pub name: &'static str,
-    /// The look of the material, in one line without a full stop.
+    /// A short description of the look, for lists of materials. It has no full stop.
     pub meaning: &'static str,
-    /// The default color as `0xrrggbb`. `None` if the material has its own colors and cannot take another.
+    /// The default color as `0xrrggbb`. `None` if the material has fixed colors that a scene cannot change.
     pub color: Option<u32>,
-    /// The template that defines the material, without its ending, in `templates/library/`.
+    /// The name of the template in `templates/library/` that defines the material, without the file extension.
     pub family: &'static str,
-    /// How the pattern of the material is placed on a body.
+    /// How the material's pattern is positioned on a body.
     pub pattern: Pattern,
     /// The index of refraction. `None` for an opaque material.
     pub ior: Option<f64>,
-    /// An approximation without POV-Ray, for the preview and for exported models.
+    /// An approximation of the material for pictures without POV-Ray: the preview and exported models.
     pub plain: PlainLook,
 }
 
-/// A material in terms of metallic-roughness shading, as in glTF.
+/// A material's parameters for metallic-roughness shading, as in glTF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlainLook {
-    /// The mean color relative to the color of the material: red, green and blue in linear light. It was measured on a
-    /// ball that POV-Ray rendered in even light. For a material without a color, `tone` is the mean color itself.
+    /// The mean color as a multiple of the material's color: red, green and blue in linear RGB. It was measured on a ball that POV-Ray
+    /// rendered in even light. For a material with fixed colors, `tone` is the mean color itself.
     pub tone: [f64; 3],
-    /// The opacity: 1 if nothing shines through.
+    /// The opacity, from 0 (transparent) to 1 (opaque).
     pub cover: f64,
-    /// 1 for a metal, 0 for other materials.
+    /// The metalness: 1 for a metal, 0 for other materials, and a value between for mixtures.
     pub metallic: f64,
     /// The roughness, from 0 (a mirror) to 1 (chalk).
     pub roughness: f64,
 }
 
-/// The look of a material before its own values are set.
+/// The default shading parameters, which each material then overrides.
 const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
 
 impl LibraryMaterial {
-    /// Sets a gray tone of the given shade, and the metallic and roughness values.
+    /// Sets the shading parameters, with a factor `shade` for the material's color that is the same for red, green and blue.
     const fn seen(self, shade: f64, metallic: f64, roughness: f64) -> LibraryMaterial {
         self.tinged([shade; 3], metallic, roughness)
     }
 
-    /// Sets a tone whose hue differs from the color of the material.
+    /// Sets the shading parameters, with a factor for each of red, green and blue of the material's color.
     const fn tinged(self, tone: [f64; 3], metallic: f64, roughness: f64) -> LibraryMaterial {
         LibraryMaterial { plain: PlainLook { tone, metallic, roughness, ..PLAIN }, ..self }
     }
 
-    /// Sets the opacity and the roughness.
+    /// Sets the opacity and the roughness of a transparent material.
     const fn covers(self, cover: f64, roughness: f64) -> LibraryMaterial {
         LibraryMaterial { plain: PlainLook { cover, roughness, ..PLAIN }, ..self }
     }
 }
 
-/// How the pattern of a material is placed on a body.
+/// How the pattern of a material is positioned on a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// No pattern. The material looks the same from all sides.
+    /// There is no pattern: the material looks the same from all sides.
     None,
-    /// The pattern has a centre and an axis, y: the centre and the y axis of the body.
+    /// The pattern has a center and an axis. They are the center and the y axis of the body.
     Centred,
-    /// The body is cut from a block of the material, each body from a different place in the block.
+    /// The pattern fills a block, and each body is cut from a different position in the block.
     Cut,
 }
 
@@ -100,10 +100,10 @@ const fn painted(name: &'static str, family: &'static str, meaning: &'static str
     LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None, plain: PLAIN }
 }
 
-/// The family of materials that consist of a finish alone.
+/// The family of the materials that consist of a [`Finish`] alone.
 const FINISH: &str = "finish";
 
-/// All materials, family by family.
+/// All materials of the library, sorted by family.
 pub const MATERIALS: &[LibraryMaterial] = &[
     opaque("matte", FINISH, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
     opaque("satin", FINISH, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),
@@ -210,12 +210,12 @@ pub const MATERIALS: &[LibraryMaterial] = &[
 ];
 
 impl LibraryMaterial {
-    /// The material with this name.
+    /// Returns the material with this name. `None` if the library has no such material.
     pub fn named(name: &str) -> Option<&'static LibraryMaterial> {
         MATERIALS.iter().find(|material| material.name == name)
     }
 
-    /// The look of the material. `color` replaces the default color, if the material takes a color.
+    /// Returns the look of the material. `color` replaces the default color, if the material has one.
     pub(super) fn look(&'static self, color: Option<Color>) -> Look {
         let own = self.color.map(Color::from_code);
         match self.finish() {
@@ -224,12 +224,12 @@ impl LibraryMaterial {
         }
     }
 
-    /// The finish of a material that consists of a finish alone. `None` for other materials.
+    /// Returns the finish of a material that consists of a finish alone. `None` for other materials.
     pub(super) fn finish(&self) -> Option<Finish> {
         Finish::named(self.name).filter(|_| self.family == FINISH)
     }
 
-    /// Whether the material gives light by itself.
+    /// Returns whether the material emits light.
     pub fn glows(&self) -> bool {
         matches!(self.name, "luminous" | "neon" | "sun")
     }
