@@ -1,4 +1,4 @@
-//! Images → contact sheet: some of them, evenly spaced in time, on one page.
+//! Draws a contact sheet: one page that shows some images of a film, evenly spaced in time.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -13,14 +13,14 @@ use super::picture::{self, Picture, Size, light, srgb};
 
 type Rgb = [u8; 3];
 
-/// The margin around everything, and the space between two images, pixels.
+/// The margin around the page's contents, and the gap between two images, pixels.
 const MARGIN: usize = 32;
 const GAP: usize = 24;
-/// The space between an image and its caption.
+/// The vertical gap between an image and its caption, pixels.
 const ABOVE_CAPTION: usize = 8;
-/// The area of an image on the sheet, pixels: that of 480 × 270. Small images are not enlarged.
+/// The area of an image on the sheet, in square pixels: that of 480 × 270. Smaller images are not enlarged.
 const AREA: f64 = 480.0 * 270.0;
-/// The preferred shape of a sheet, width to height.
+/// The preferred ratio of width to height of a sheet.
 const SHAPE: f64 = 16.0 / 9.0;
 
 const GROUND: Rgb = [247, 246, 243];
@@ -28,18 +28,18 @@ const EDGE: Rgb = [214, 211, 204];
 const INK: Rgb = [52, 50, 46];
 const FAINT_INK: Rgb = [122, 118, 110];
 
-/// An image that a contact sheet may show.
+/// An image of a film that a contact sheet may show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
     /// The path of the image.
     pub image: PathBuf,
-    /// The number of its frame.
+    /// The number of the frame that the image shows.
     pub frame: usize,
-    /// The time that it shows, s.
+    /// The simulated time that the image shows, s.
     pub time: f64,
 }
 
-/// A planned contact sheet.
+/// A contact sheet to make: its path, and its largest number of images.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ContactSheet {
     path: PathBuf,
@@ -47,13 +47,13 @@ pub struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// The default number of images on a sheet, unless there are fewer.
+    /// The default largest number of images on a sheet.
     pub const USUAL: usize = 12;
 
-    /// A contact sheet of this name.
+    /// Plans a contact sheet with this path.
     ///
     /// # Errors
-    /// If it does not end in `.png`, or there is a folder of this name.
+    /// If the path does not end in `.png`, or is that of a folder.
     pub fn new(path: impl Into<PathBuf>) -> Result<ContactSheet, FilmError> {
         let path = path.into();
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
@@ -65,30 +65,30 @@ impl ContactSheet {
         Ok(ContactSheet { path, most: ContactSheet::USUAL })
     }
 
-    /// The same sheet with at most this many images, and at least one.
+    /// Limits the number of images on the sheet. The limit is at least 1.
     #[must_use]
     pub fn of_at_most(self, images: usize) -> ContactSheet {
         ContactSheet { most: images.max(1), ..self }
     }
 
-    /// The path of the sheet.
+    /// Returns the path of the sheet.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Checks that the sheet can be written to its path. Creates its folder, if needed.
+    /// Checks that the sheet can be written to its path. Creates the parent folder if needed.
     ///
     /// # Errors
-    /// If no file can be written there, or another process writes it.
+    /// If no file can be written to this path, or another process writes the same file.
     pub fn check_place(&self) -> Result<(), FilmError> {
         Target::create(&self.path).map(drop)
     }
 
-    /// Makes the sheet from all existing images, in their order: it takes the first, the last, and some between them, evenly
-    /// spaced. Transparent pixels are shown on white. An existing sheet stays until the new one is whole.
+    /// Makes the sheet from some of the given images: the first, the last, and evenly spaced ones between them. Transparent pixels are
+    /// shown on white. An existing sheet is replaced only when the new one is complete.
     ///
     /// # Errors
-    /// If one of these images cannot be read or differs in size, or the sheet cannot be written.
+    /// If one of the shown images cannot be read or differs in size, or the sheet cannot be written.
     pub fn make(&self, shots: &[Shot]) -> Result<(), FilmError> {
         let chosen: Vec<&Shot> = evenly(shots.len(), self.most).into_iter().map(|i| &shots[i]).collect();
         let size = picture::common_size(chosen.iter().map(|shot| &shot.image))?;
@@ -113,7 +113,7 @@ impl ContactSheet {
     }
 }
 
-/// The indices of at most `most` items out of `count`: the first, the last, and some between them, evenly spaced.
+/// Returns the indices of at most `most` of `count` items: the first, the last, and evenly spaced ones between them.
 pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
@@ -122,13 +122,13 @@ pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|i| (i * (count - 1) + last / 2) / last).collect()
 }
 
-/// The layout of a sheet.
+/// The sizes and positions on a contact sheet, pixels.
 struct Layout {
     page: Size,
     columns: usize,
-    /// The size of an image.
+    /// The size of an image on the sheet, without its caption.
     image: Size,
-    /// The size of an image with its caption.
+    /// The size of an image together with its caption.
     cell: Size,
     letters: RasterHeight,
 }
@@ -150,20 +150,20 @@ impl Layout {
         let rows = count.div_ceil(columns);
         let page = (
             2 * MARGIN + columns * (cell.0 + GAP) - GAP,
-            // The blank line below a line of text is part of its height: a little less margin looks even.
+            // The height of a line of text includes empty space below the letters, so a slightly smaller margin looks even.
             2 * MARGIN + rows * (cell.1 + GAP) - GAP - letters.val() / 4,
         );
         Layout { page, columns, image: (image[0], image[1]), cell, letters }
     }
 
-    /// The upper left corner of an image.
+    /// Returns the upper left corner of the image with this index, pixels.
     fn place(&self, index: usize) -> (usize, usize) {
         let (column, row) = (index % self.columns, index / self.columns);
         (MARGIN + column * (self.cell.0 + GAP), MARGIN + row * (self.cell.1 + GAP))
     }
 }
 
-/// The number of columns that gives the page a pleasant shape with few empty places.
+/// Returns the number of columns that gives the page a shape near [`SHAPE`] with few empty cells.
 fn columns(count: usize, (width, height): Size) -> usize {
     let badness = |columns: usize| {
         let rows = count.div_ceil(columns);
@@ -174,8 +174,8 @@ fn columns(count: usize, (width, height): Size) -> usize {
     (1..=count).min_by(|a, b| badness(*a).total_cmp(&badness(*b))).unwrap_or(1)
 }
 
-/// The captions under the images: the number of the frame, and its time with enough digits to distinguish it from its
-/// neighbours.
+/// Returns the captions under the images: the number of the frame, and its time. The times have enough digits to distinguish neighboring
+/// images.
 fn captions(shots: &[&Shot]) -> Vec<[String; 2]> {
     let gaps = shots.windows(2).map(|pair| (pair[1].time - pair[0].time).abs()).filter(|gap| *gap > 0.0);
     let largest = shots.iter().map(|shot| shot.time.abs()).fold(0.0, f64::max);
@@ -186,7 +186,7 @@ fn captions(shots: &[&Shot]) -> Vec<[String; 2]> {
         |digits: &usize| plain(*digits).zip(shots).all(|(text, shot)| error(&text, shot.time) <= tolerance);
     let times: Vec<String> = match (0..=6).find(is_enough) {
         Some(digits) if plain(digits).all(|text| text.len() <= 9) => plain(digits).collect(),
-        // Very long or very short times, as for planets and atoms.
+        // Very long or very short times, such as those of planets and atoms, are in scientific notation.
         _ => shots.iter().map(|shot| scientific(shot.time)).collect(),
     };
     shots
@@ -200,7 +200,8 @@ fn scientific(time: f64) -> String {
     if time == 0.0 { "0".to_owned() } else { format!("{time:.3e}") }
 }
 
-/// The pixels of a reduced image, three bytes each. It averages light, since a mean of sRGB bytes would darken fine details.
+/// Reads an image and scales it down to this size. Returns its pixels, three bytes each. Averages are taken in linear light, since a mean
+/// of sRGB bytes would darken fine details.
 fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let picture = Picture::read(path)?;
     let (from_width, from_height) = picture.size;
@@ -211,7 +212,7 @@ fn shrunk(path: &Path, (width, height): Size) -> Result<Vec<u8>, FilmError> {
     let from: Vec<RGB<f32>> =
         bytes.chunks_exact(3).map(|p| RGB::new(light(p[0]), light(p[1]), light(p[2]))).collect();
     let mut to = vec![RGB::new(0.0, 0.0, 0.0); width * height];
-    // This filter is sharp without much ringing. It is a polynomial, so it gives the same bits everywhere.
+    // The Catmull–Rom filter is sharp without much ringing. It is a polynomial, so it gives the same bits on every platform.
     let filter = resize::Type::Catrom;
     resize::new(from_width, from_height, width, height, resize::Pixel::RGBF32, filter)
         .and_then(|mut resizer| resizer.resize(&from, &mut to))
@@ -223,7 +224,7 @@ fn text_width(text: &str, letters: RasterHeight) -> usize {
     text.chars().count() * get_raster_width(FontWeight::Regular, letters)
 }
 
-/// A picture to draw on.
+/// The page of a contact sheet as pixels, three bytes each.
 struct Page {
     size: Size,
     rgb: Vec<u8>,
@@ -239,7 +240,7 @@ impl Page {
         &mut self.rgb[start..start + 3]
     }
 
-    /// Draws the edge of a rectangle.
+    /// Draws the outline of a rectangle.
     fn frame(&mut self, (left, top): (usize, usize), (width, height): Size, color: Rgb) {
         for x in left..left + width {
             self.pixel((x, top)).copy_from_slice(&color);
@@ -251,7 +252,7 @@ impl Page {
         }
     }
 
-    /// Puts an image of this width.
+    /// Copies an image of this width onto the page. `(x, y)` is its upper left corner.
     fn put(&mut self, image: &[u8], (x, y): (usize, usize), width: usize) {
         for (row, bytes) in image.chunks_exact(3 * width).enumerate() {
             let start = 3 * ((y + row) * self.size.0 + x);
@@ -259,7 +260,7 @@ impl Page {
         }
     }
 
-    /// Writes a line of ASCII text.
+    /// Writes a line of ASCII text. `(x, y)` is its upper left corner.
     fn write(&mut self, text: &str, (x, y): (usize, usize), letters: RasterHeight, ink: Rgb) {
         let advance = get_raster_width(FontWeight::Regular, letters);
         let glyphs = text.chars().map(|c| get_raster(c, FontWeight::Regular, letters));
@@ -269,7 +270,7 @@ impl Page {
                 for (column, part) in line.iter().enumerate() {
                     let place = (x + index * advance + column, y + row);
                     for (byte, ink) in self.pixel(place).iter_mut().zip(ink) {
-                        // The letters are made for mixing in sRGB; mixed in linear light, they would be too thin.
+                        // The letters are designed for blending sRGB bytes. Blended in linear light, they would be too thin.
                         let (ground, ink, part) = (u32::from(*byte), u32::from(ink), u32::from(*part));
                         *byte = ((ground * (255 - part) + ink * part + 127) / 255) as u8;
                     }
@@ -280,7 +281,7 @@ impl Page {
 
     fn save(&self, target: &Target) -> Result<(), FilmError> {
         let (width, height) = self.size;
-        // Encode in memory first, which cannot fail, so that any later error comes from the disk.
+        // The page is first encoded in memory, which cannot fail, so that any error comes from the disk.
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
         encoder.set_color(png::ColorType::Rgb);

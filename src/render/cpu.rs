@@ -1,9 +1,9 @@
-//! The CPU time of processes, where the system reports it (Linux does, in `/proc`).
+//! Reads the CPU time of processes and the free memory from `/proc`, which only Linux has.
 
 use std::collections::HashMap;
 use std::fs;
 
-/// The CPU time that every process group has used so far, s; `None` where the system does not report it.
+/// Returns the CPU time that each process group has used so far, s, by the group's id. `None` where the system does not report CPU times.
 pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
     let mut groups = HashMap::new();
     for entry in fs::read_dir("/proc").ok()?.flatten() {
@@ -12,7 +12,7 @@ pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
         if !is_process {
             continue;
         }
-        // A process may end during this loop.
+        // A process whose file has disappeared ended during this loop.
         let Ok(stat) = fs::read_to_string(entry.path().join("stat")) else { continue };
         if let Some((group, seconds)) = group_and_seconds(&stat) {
             *groups.entry(group).or_default() += seconds;
@@ -21,21 +21,22 @@ pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
     Some(groups)
 }
 
-/// The CPU time that a process has used so far, s.
+/// Returns the CPU time that a process has used so far, s. `None` where the system does not report it.
 pub(super) fn seconds(process: u32) -> Option<f64> {
     group_and_seconds(&fs::read_to_string(format!("/proc/{process}/stat")).ok()?).map(|(_, seconds)| seconds)
 }
 
-/// The memory available to new processes, bytes.
+/// Returns the memory that is available to new processes, bytes. `None` where the system does not report it.
 pub(super) fn available_memory() -> Option<u64> {
     let text = fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse().ok().map(|kilobytes: u64| kilobytes * 1024)
 }
 
-/// The process group, and the CPU time of a process and of its children that have ended; see proc_pid_stat(5).
+/// Reads a line of `/proc/PID/stat`. Returns the process group, and the CPU time (s) of the process and of its ended children; see
+/// proc_pid_stat(5).
 fn group_and_seconds(stat: &str) -> Option<(i32, f64)> {
-    // The second field is a name in parentheses that may contain anything.
+    // The second field is the program's name in parentheses. The name may itself contain spaces and parentheses.
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks: f64 = fields.get(11..15)?.iter().filter_map(|field| field.parse::<f64>().ok()).sum();
     #[allow(clippy::cast_precision_loss, reason = "it is 100")]

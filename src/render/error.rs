@@ -1,4 +1,4 @@
-//! Why nothing could be rendered.
+//! The errors that stop the rendering of a whole film.
 
 use std::fmt;
 use std::io;
@@ -6,35 +6,36 @@ use std::path::PathBuf;
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Why rendering had to stop. A problem with a single frame is a [`Fault`](super::Fault), and stops nothing.
+/// An error that stops the rendering of all frames. If only a single frame fails, that is a [`Fault`](super::Fault), and the rendering
+/// continues.
 #[derive(Debug)]
 pub enum RenderError {
-    /// There is no POV-Ray: the program that was looked for.
+    /// POV-Ray was not found. The path is that of the missing program.
     NoPovray(PathBuf),
-    /// The program found is not POV-Ray, or its version is unknown: its path and its answer.
+    /// The program is not POV-Ray, or is an unknown version of it: its path, and its answer when asked for the version.
     NotPovray(PathBuf, String),
-    /// The folder has no scripts.
+    /// The folder contains no scripts.
     NoScripts(PathBuf),
-    /// Some scripts are missing from the folder: a compile was interrupted.
+    /// The folder lacks scripts, because the command that wrote them was interrupted.
     Incomplete(PathBuf),
-    /// The folder has no scripts of these frames.
+    /// The folder contains no scripts of the requested frames: its path, and the selection of frames.
     NoSuchFrames(PathBuf, String),
-    /// The folder for the images contains files, but nothing marks it as jabuka's.
+    /// The folder for the images contains files, and jabuka did not make it.
     NotOurs(PathBuf),
-    /// There is a link where jabuka would write.
+    /// The path that jabuka would write to is a symbolic link.
     Link(PathBuf),
     /// Another process renders into the folder.
     Locked(PathBuf),
-    /// There is no room for images.
+    /// The disk has no space left for images.
     DiskFull(PathBuf),
     /// A file could not be read, written or removed.
     Io(PathBuf, io::Error),
-    /// No frame succeeded, and this many failed.
+    /// This many frames failed, and none succeeded.
     AllFail(usize),
 }
 
 impl RenderError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// Returns the diagnostic code of this error.
     pub fn code(&self) -> Code {
         match self {
             RenderError::NoPovray(_) => Code::NoPovray,
@@ -50,7 +51,7 @@ impl RenderError {
         }
     }
 
-    /// The error as a diagnostic.
+    /// Returns the error as a diagnostic, with advice.
     pub fn report(&self) -> Report {
         let diagnostic = Diagnostic::error(self.code(), self.to_string());
         let diagnostic = match self.help() {
@@ -60,7 +61,7 @@ impl RenderError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// How to fix it, where the message does not make that plain.
+    /// Returns advice on how to correct the error. `None` if the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             RenderError::NoPovray(_) => Some(
@@ -87,7 +88,7 @@ impl RenderError {
         }
     }
 
-    /// The error of a file; a full disk has an error of its own.
+    /// Returns a function that converts an I/O error of this file. A full disk becomes [`RenderError::DiskFull`].
     pub(super) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> RenderError {
         let path = path.into();
         |error| match error.kind() {

@@ -1,4 +1,4 @@
-//! A frame with motion blur: collects the images of its moments, until all are there.
+//! Collects the images of the moments of a frame with motion blur, and computes their mean.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,21 +6,21 @@ use std::path::{Path, PathBuf};
 use super::linear_light;
 use super::{Images, RenderError};
 
-/// The images of the moments of a frame. Dropping this removes their folder.
+/// The images of the moments of one frame, in a folder of their own. Dropping this removes the folder.
 pub(super) struct Exposure {
     folder: PathBuf,
     images: Vec<PathBuf>,
-    /// The total cost of the images, s.
+    /// The total rendering time of the images, s.
     pub(super) seconds: f64,
 }
 
 impl Exposure {
-    /// A frame without any moment yet.
+    /// Makes an empty folder for the images of a frame's moments.
     pub(super) fn new(images: &Images, index: usize) -> Result<Exposure, RenderError> {
         Ok(Exposure { folder: images.exposure_folder(index)?, images: Vec::new(), seconds: 0.0 })
     }
 
-    /// Adds the image of one of this many moments, and returns whether all are there.
+    /// Adds the image of a moment. `of` is the number of moments of the frame. Returns true once all their images have been added.
     pub(super) fn add(
         &mut self,
         image: &Path,
@@ -35,11 +35,11 @@ impl Exposure {
         Ok(self.images.len() == of as usize)
     }
 
-    /// The mean of all moments in linear light, as a file in this exposure's folder.
+    /// Writes the mean of all images in linear light into the folder, and returns its path.
     pub(super) fn develop(&self) -> Result<PathBuf, RenderError> {
         let path = self.folder.join("mean.png");
         let mut images = self.images.clone();
-        // The sum of floating-point numbers depends on their order.
+        // The images arrive in any order. They are sorted, since the sum of floating-point numbers depends on their order.
         images.sort();
         let other = |error: linear_light::ImageError| {
             RenderError::io(&path)(std::io::Error::other(error.to_string()))
@@ -51,7 +51,7 @@ impl Exposure {
 
 impl Drop for Exposure {
     fn drop(&mut self) {
-        // The next run removes a folder that stays.
+        // If the folder cannot be removed, the next process removes it.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

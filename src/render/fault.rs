@@ -1,4 +1,4 @@
-//! A frame that cannot be rendered, with POV-Ray's message.
+//! The failure of a single frame, as found in POV-Ray's messages.
 
 use std::fmt;
 use std::fs;
@@ -7,25 +7,25 @@ use std::path::{Path, PathBuf};
 use super::PovRay;
 use crate::diagnostic::{Code, Diagnostic, Report, Span};
 
-/// Why one frame could not be rendered; other frames can.
+/// The failure of one frame: POV-Ray's message, with the line and body that it is about. Other frames may still succeed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The number of the frame.
     pub frame: usize,
-    /// Its script.
+    /// The path of the frame's script.
     pub script: PathBuf,
-    /// The line of the script where POV-Ray stopped, from 1.
+    /// The line of the script where POV-Ray stopped, from 1. `None` if the error is not in the script.
     pub line: Option<usize>,
-    /// The body drawn there.
+    /// The name of the body that the line draws.
     pub body: Option<String>,
-    /// The message.
+    /// POV-Ray's error message.
     pub message: String,
-    /// Whether the sandbox refused a file.
+    /// True if the sandbox denied access to a file.
     pub outside: bool,
 }
 
 impl Fault {
-    /// The fault in POV-Ray's messages about a script.
+    /// Finds the error message, the line and the body in POV-Ray's output (`said`) about a script.
     pub(super) fn parse(frame: usize, script: PathBuf, said: &str, povray: &PovRay) -> Fault {
         let name = script.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
         let mut place = None;
@@ -49,7 +49,7 @@ impl Fault {
             fs::read(&script).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
         let (line, message) = match place {
             Some((file, line)) if file == name => (Some(line), text),
-            // POV-Ray notices an unclosed block only after the end of the script.
+            // POV-Ray notices an unclosed block only after the end of the script, in the script `run.pov` that includes it.
             Some(("run.pov", _)) => (Some(source.lines().count()), text),
             Some((file, line)) => (None, format!("in {file}, line {line}: {text}")),
             None => (None, text),
@@ -66,12 +66,12 @@ impl Fault {
         Fault { frame, script, line, body, message, outside }
     }
 
-    /// The kind of mistake, as a diagnostic's code.
+    /// Returns the diagnostic code of this failure.
     pub fn code(&self) -> Code {
         if self.outside { Code::OutsideSandbox } else { Code::BadFrame }
     }
 
-    /// The fault as an error at its place in the script.
+    /// Returns the failure as a diagnostic that points to the line of the script.
     pub fn report(&self) -> Report {
         let mut report = Report::default();
         let body = self.body.as_ref().map_or_else(String::new, |body| format!(", body `{body}`"));
@@ -113,15 +113,15 @@ impl fmt::Display for Fault {
     }
 }
 
-/// A file that POV-Ray could not open.
+/// The file that POV-Ray could not open, according to its message.
 enum Opened<'a> {
-    /// A file to be read, if POV-Ray names it.
+    /// POV-Ray could not read a file. The name is `None` if the message does not contain it.
     ToRead(Option<&'a str>),
-    /// A file to be written.
+    /// POV-Ray could not write a file.
     ToWrite,
 }
 
-/// The file that a message is about, if it says that POV-Ray could not open one.
+/// Returns the file that POV-Ray could not open, according to its message. `None` for messages about other errors.
 fn opened(message: &str) -> Option<Opened<'_>> {
     let told = message.trim_end_matches('.');
     if let Some(file) = told.strip_prefix("Cannot open user file ") {
@@ -136,13 +136,13 @@ fn opened(message: &str) -> Option<Opened<'_>> {
     ["Cannot open file", "Cannot open font file"].contains(&told).then_some(Opened::ToRead(None))
 }
 
-/// The file's name and the line in the beginning of a message: `File: scripts/frame_0060.pov  Line: 34`.
+/// Returns the file name and the line number in the first line of a message, such as `File: scripts/frame_0060.pov  Line: 34`.
 fn file_and_line(said: &str) -> Option<(&str, usize)> {
     let (path, line) = said.strip_prefix("File: ")?.rsplit_once("Line: ")?;
     Some((path.trim().rsplit('/').next()?, line.trim().parse().ok()?))
 }
 
-/// The body in a line of a script: the object's last line ends with its name as a comment.
+/// Returns the name of the body that a line of a script draws. The name is in a comment at the end of the body's last line.
 fn body_at(script: &str, line: usize) -> Option<String> {
     let lines: Vec<&str> = script.lines().collect();
     let bodies = lines.iter().position(|line| *line == "// the bodies")?;

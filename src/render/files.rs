@@ -1,15 +1,15 @@
-//! The files that all scripts of a folder read.
+//! Lists the files that all scripts of a folder read.
 
 use std::io;
 use std::path::Path;
 
 use crate::emit::COMMON;
 
-/// The folder of assets beside the scripts.
+/// The name of the folder of assets (images, height fields, fonts) beside the scripts.
 pub const ASSETS: &str = "assets";
 
-/// The files that the scripts of a folder read, by their names in it: first the shared files, then the assets in the order of
-/// their names.
+/// Lists the files that the scripts of a folder read, as paths relative to the folder: first the common include file, then the assets
+/// sorted by name.
 ///
 /// # Errors
 /// If a folder cannot be read.
@@ -27,7 +27,7 @@ pub fn of_scripts(scripts: &Path) -> io::Result<Vec<String>> {
     Ok(files)
 }
 
-/// All files below a folder, except hidden ones.
+/// Appends all files below a folder, except hidden ones, as paths relative to `root`.
 fn below(root: &Path, folder: &str, found: &mut Vec<String>) -> io::Result<()> {
     for entry in std::fs::read_dir(root.join(folder))? {
         let entry = entry?;

@@ -1,4 +1,4 @@
-//! The folder of the images: who owns it, who renders into it, and how images are added.
+//! The folder of the images: checks that jabuka made it, locks it, and adds finished images.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -8,18 +8,17 @@ use super::RenderError;
 use super::record::{HIDDEN, Record, Verdict};
 use crate::output::Manifest;
 
-/// A folder of images that this process alone renders into.
+/// A folder of images that is locked, so that only this process renders into it.
 pub struct Images {
     folder: PathBuf,
     _lock: File,
 }
 
 impl Images {
-    /// Opens a folder for images: creates it if needed, checks that it is jabuka's, locks it, and removes leftovers of a killed
-    /// run.
+    /// Opens a folder for images: creates it if needed, checks that jabuka made it, locks it, and removes leftovers of a killed process.
     ///
     /// # Errors
-    /// If the folder belongs to something else, another process renders into it, or it cannot be used.
+    /// If jabuka did not make the folder, another process renders into it, or it cannot be created or read.
     pub fn open(folder: &Path) -> Result<Images, RenderError> {
         fs::create_dir_all(folder).map_err(RenderError::io(folder))?;
         let hidden = folder.join(HIDDEN);
@@ -39,17 +38,17 @@ impl Images {
         Ok(images)
     }
 
-    /// Its path.
+    /// Returns the path of the folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The path of an image.
+    /// Returns the path of an image. `name` has no extension: `frame_0007`.
     pub fn image(&self, name: &str) -> PathBuf {
         self.folder.join(format!("{name}.png"))
     }
 
-    /// The file in which the version of POV-Ray is kept.
+    /// Returns the path of the file that caches the version of POV-Ray.
     pub fn povray_memory(&self) -> PathBuf {
         self.hidden().join("povray")
     }
@@ -58,22 +57,22 @@ impl Images {
         self.folder.join(HIDDEN)
     }
 
-    /// A new folder for one process of POV-Ray's, on the same disk as the images.
+    /// Creates a work folder for one POV-Ray process, on the same disk as the images.
     pub(super) fn work_folder(&self, number: usize) -> Result<PathBuf, RenderError> {
         let path = self.hidden().join(format!("work-{}-{number}", std::process::id()));
         fs::create_dir(&path).map_err(RenderError::io(&path))?;
         Ok(path)
     }
 
-    /// A new folder for the moments of a frame.
+    /// Creates a folder for the images of the moments of one frame.
     pub(super) fn exposure_folder(&self, index: usize) -> Result<PathBuf, RenderError> {
         let path = self.hidden().join(format!("work-{}-frame-{index}", std::process::id()));
         fs::create_dir(&path).map_err(RenderError::io(&path))?;
         Ok(path)
     }
 
-    /// Adds a finished image under its name: first the image, then the record. An interruption between them leaves an image
-    /// that is rendered again.
+    /// Moves a finished image into the folder, and then writes its record. If the process is killed between the two steps, the image has
+    /// no valid record and is rendered again.
     pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {
         let path = self.image(name);
         let record = record.clone().of_image(finished).map_err(RenderError::io(finished))?;
@@ -82,13 +81,13 @@ impl Images {
         self.forget_failure(name)
     }
 
-    /// Whether an image has the bytes that its record states. An unreadable image counts as damaged.
+    /// Checks an image against the digest in its record. An unreadable image counts as changed.
     pub(super) fn verify(&self, name: &str) -> Verdict {
         let Some(record) = Record::read(&self.folder, name) else { return Verdict::Unverified };
         record.verify(&self.image(name)).unwrap_or(Verdict::Changed)
     }
 
-    /// Adds a copy of an existing image under another name.
+    /// Adds a copy of an existing image under another name, with its own record.
     pub(super) fn copy(&self, from: &str, name: &str, record: &Record) -> Result<(), RenderError> {
         let temporary = self.hidden().join(format!("work-{}-copy.png", std::process::id()));
         let bytes = fs::read(self.image(from)).map_err(RenderError::io(self.image(from)))?;
@@ -96,30 +95,30 @@ impl Images {
         self.adopt(&temporary, name, record)
     }
 
-    /// Copies an image to another place. The copy appears whole or not at all.
+    /// Copies an image to a path outside of the folder. The copy is written under a temporary name and renamed when it is complete.
     ///
     /// # Errors
-    /// If it cannot be read, or cannot be written there.
+    /// If the image cannot be read, or the copy cannot be written.
     pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
         let file = target.file_name().unwrap_or_default().to_string_lossy();
         let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));
-        // A killed run may have left this file.
+        // A killed process may have left a temporary file of this name.
         let _ = fs::remove_file(&temporary);
         let copy = || {
             let mut image = File::open(self.image(name))?;
-            // `create_new` follows no link.
+            // `create_new` does not follow symbolic links.
             let mut copy = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
             io::copy(&mut image, &mut copy)?;
             fs::rename(&temporary, target)
         };
         copy().map_err(|error| {
-            // The temporary file may not exist.
+            // The temporary file may not exist, so an error of removing it is ignored.
             let _ = fs::remove_file(&temporary);
             RenderError::io(target)(error)
         })
     }
 
-    /// Records why an image could not be rendered.
+    /// Saves the reason why an image could not be rendered, for `jabuka status`.
     pub(super) fn note_failure(&self, name: &str, why: &str) -> Result<(), RenderError> {
         let folder = self.hidden().join("failed");
         fs::create_dir_all(&folder).map_err(RenderError::io(&folder))?;
@@ -135,8 +134,8 @@ impl Images {
         }
     }
 
-    /// Removes images that jabuka has rendered for frames that no longer exist, and returns their number. An image that was
-    /// changed since stays.
+    /// Removes the images of frames that no longer exist, and returns their number. Images whose length has changed since jabuka rendered
+    /// them stay.
     pub(super) fn remove_others(&self, is_frame: impl Fn(&str) -> bool) -> Result<usize, RenderError> {
         let hidden = self.hidden();
         let mut removed = 0;
@@ -155,17 +154,17 @@ impl Images {
         Ok(removed)
     }
 
-    /// Removes leftovers of a killed run: its work folders, which hold `.pov-state` and unfinished images.
+    /// Removes the leftovers of killed processes: work folders with unfinished images and POV-Ray's `.pov-state`, and temporary files.
     fn sweep(&self) -> io::Result<()> {
         for entry in fs::read_dir(self.hidden())? {
             let entry = entry?;
-            // Also unfinished records.
+            // Names that begin with a dot and end in `.tmp` are unfinished records.
             let is_left =
                 |name: &str| name.starts_with("work-") || (name.starts_with('.') && name.ends_with(".tmp"));
             if !entry.file_name().to_str().is_some_and(is_left) {
                 continue;
             }
-            // A POV-Ray that has outlived its jabuka may still be writing there, so try once more.
+            // A POV-Ray process that outlives its jabuka may still write into the folder, so a failed removal is tried once more.
             let remove = || match entry.file_type() {
                 Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
                 _ => fs::remove_file(entry.path()),
@@ -179,7 +178,7 @@ impl Images {
     }
 }
 
-/// Whether jabuka has rendered images into a folder.
+/// Returns true if jabuka has rendered images into a folder.
 pub(crate) fn is_folder_of_images(folder: &Path) -> bool {
     folder.join(HIDDEN).is_dir()
 }

@@ -1,4 +1,4 @@
-//! The inputs of a script: the files that the script and its include files name, and the assets of its scene.
+//! Finds the inputs of a script: the files that the script and its include files name, and the assets of its scene.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -12,16 +12,16 @@ use super::{RenderError, Script, Sequence};
 use crate::emit::{COMMON, is_trail_file};
 use crate::scene::sdl::{FileKind, files};
 
-/// The record that the image of each script would get now, except for the length of the image.
+/// Returns the record that the image of each script would get if it were rendered now. Length and digest of the image are missing.
 ///
 /// # Errors
-/// If a file cannot be read.
+/// If a script or a file that it reads cannot be read.
 pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Result<Vec<Record>, RenderError> {
     let scripts = sequence.scripts();
     let lists: Result<Vec<Vec<PathBuf>>, RenderError> =
         scripts.par_iter().map(|script| files_of(sequence, script)).collect();
     let lists = lists?;
-    // All scripts of a scene read the same files.
+    // Most scripts of a scene read the same files, so each list of files is digested only once.
     let mut digests: HashMap<&[PathBuf], Files> = HashMap::new();
     for list in &lists {
         if !digests.contains_key(list.as_slice()) {
@@ -38,10 +38,10 @@ pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Resu
     pairs.par_iter().map(record).collect()
 }
 
-/// The files that a script reads, except those that come with POV-Ray: its version stands for these.
+/// Lists the files that a script reads, except those that come with POV-Ray: the record has POV-Ray's version instead.
 ///
-/// Their order is that of the lists of cluster jobs, so that a job's records are the same: first the files shared by all
-/// scripts, then the assets by their names, then all others.
+/// The order is the same as in the lists of cluster jobs, so that the records are equal: first the common include file, then the assets
+/// sorted by name, then all other files.
 fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, RenderError> {
     let folder = sequence.absolute();
     let path = folder.join(&script.file);
@@ -61,7 +61,7 @@ fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, Render
     Ok(paths)
 }
 
-/// Adds the files that included files read, and so on.
+/// Appends the files that the include files in `read` read, and so on recursively.
 fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (PathBuf, io::Error)> {
     let mut next = 0;
     while let Some((kind, path)) = read.get(next).cloned() {
@@ -74,22 +74,22 @@ fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (Path
     Ok(())
 }
 
-/// The files that scripts in a folder would read if their SDL contains these names, and the files that these include, as far as
-/// they can be read now.
+/// Lists the existing files that scripts in a folder would read if their SDL (POV-Ray code) contained these names. Files that these
+/// include are listed, too, as far as they can be read.
 pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf> {
     let mut read = Vec::new();
     for (kind, name) in names {
         add_name(folder, *kind, name, &mut read);
     }
-    // A file that cannot be read cannot be lost either, so errors do not matter here.
+    // The list protects files from being overwritten. A file that cannot be read is left out, so errors do not matter.
     let _ = close(folder, &mut read);
     read.into_iter().map(|(_, path)| path).collect()
 }
 
-/// Adds the existing files that a text names: beside the scripts, among the assets, or at an absolute path.
+/// Appends the existing files that a script or include file names: beside the scripts, among the assets, or at an absolute path.
 fn add_read(folder: &Path, text: &[u8], read: &mut Vec<(FileKind, PathBuf)>) {
     for file in files(&String::from_utf8_lossy(text)) {
-        // The name of a trail's file identifies its contents, and is part of the script.
+        // The name of a trail file identifies its contents, and is part of the script's digest.
         let Some(name) = file.literal.filter(|name| !is_trail_file(name)) else { continue };
         add_name(folder, file.kind, name, read);
     }
@@ -107,7 +107,8 @@ fn add_name(folder: &Path, kind: FileKind, name: &str, read: &mut Vec<(FileKind,
     }
 }
 
-/// The names under which POV-Ray looks for a file. POV-Ray adds the usual endings to a name without one.
+/// Returns the names under which POV-Ray looks for a file. To a name without an extension, POV-Ray adds the usual extensions of this kind
+/// of file.
 fn candidates(name: &str, kind: FileKind) -> Vec<String> {
     let endings: &[&str] = match kind {
         _ if Path::new(name).extension().is_some() => &[],

@@ -1,4 +1,4 @@
-//! All images of a sequence: up-to-date ones stay, equal ones are rendered once, and POV-Ray renders the rest.
+//! Renders all images of a sequence. Up-to-date images stay, equal ones are rendered once, and POV-Ray renders all others.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::atomic::AtomicBool;
@@ -13,90 +13,90 @@ use super::process::{Setup, Unit};
 use super::record::{Compare, Record, State, Verdict};
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
 
-/// The images to render, and settings.
+/// A job that renders the images of a sequence of scripts, with its settings.
 pub struct Job<'a> {
-    /// The scripts.
+    /// The scripts to render.
     pub sequence: &'a Sequence,
-    /// The folder of the images.
+    /// The folder that the images are rendered into.
     pub images: &'a Images,
-    /// The renderer.
+    /// The installed POV-Ray.
     pub povray: &'a PovRay,
-    /// The options of POV-Ray that affect pixels.
+    /// The command-line options of POV-Ray that affect pixels.
     pub options: Vec<String>,
-    /// The number of processes; `None` for as many as keep the processors busy.
+    /// The number of POV-Ray processes. `None` for as many as keep the processors busy.
     pub jobs: Option<usize>,
-    /// The threads that each process renders with.
+    /// The number of threads that each POV-Ray process renders with.
     pub threads: usize,
-    /// How often a frame is tried again after POV-Ray has died on it.
+    /// The number of new attempts for a frame after POV-Ray has crashed on it.
     pub retries: u32,
-    /// Whether to go on if all frames fail.
+    /// True to continue even if all frames fail.
     pub keep_going: bool,
-    /// The longest time for a frame; `None` for a limit far above the time of other frames.
+    /// The time limit for rendering a frame. `None` for a limit far above the time of other frames.
     pub time_limit: Option<Duration>,
-    /// Whether to verify up-to-date images: an image with changed bytes is rendered again.
+    /// True to check up-to-date images against their digests. An image with changed bytes is rendered again.
     pub verify: bool,
 }
 
-/// Progress of a job.
+/// A progress event of a job.
 pub enum Event<'a> {
-    /// The number of existing or copied images, and the number that will be rendered.
+    /// The job has found out which images it has to render.
     Planned {
-        /// The images that are up to date.
+        /// The number of images that are up to date.
         up_to_date: usize,
-        /// The images to render.
+        /// The number of images to render.
         to_make: usize,
     },
-    /// An image has been made, or copied from an equal one.
+    /// An image was rendered, or copied from an equal one.
     Made {
         /// The number of the frame.
         frame: usize,
-        /// The cost, s. `None` for a copy.
+        /// The rendering time of the image, s. `None` for a copy.
         seconds: Option<f64>,
     },
-    /// A frame cannot be rendered.
+    /// A frame could not be rendered.
     Failed(&'a Fault),
 }
 
-/// The outcome of a job.
+/// The result of a job.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// The images that POV-Ray has rendered.
+    /// The number of images that POV-Ray has rendered.
     pub rendered: usize,
-    /// The number of copied images, whose scripts are equal to others.
+    /// The number of images that were copied, because their script equals another one.
     pub copied: usize,
-    /// The images that were up to date.
+    /// The number of images that were already up to date.
     pub up_to_date: usize,
-    /// The frames whose images had changed since they were rendered. Those images were not kept.
+    /// The frames whose images had been changed since they were rendered. Such an image is rendered again.
     pub changed: Vec<usize>,
-    /// Frames that are rendered again because the records of their images have no digest to verify.
+    /// The frames that are rendered again because the records of their images have no digest to verify.
     pub unverified: Vec<usize>,
-    /// The frames that failed, in the order of their numbers.
+    /// The failed frames, in the order of their numbers.
     pub failed: Vec<Fault>,
-    /// The number of removed images, of frames that the film no longer has.
+    /// The number of removed images of frames that the film no longer has.
     pub removed: usize,
-    /// The slowest frame, and its time, s.
+    /// The number of the frame that took longest to render, and its time, s.
     pub slowest: Option<(usize, f64)>,
     /// The number of POV-Ray processes that were started.
     pub processes: usize,
-    /// The warnings of POV-Ray.
+    /// The warnings that POV-Ray has printed.
     pub warnings: Vec<String>,
-    /// Whether the user stopped the job before the end.
+    /// True if the user stopped the job before its end.
     pub stopped: bool,
 }
 
-/// Frames with equal scripts: only the first is rendered.
+/// Frames with equal scripts. Only the first of them is rendered; the others get copies of its image.
 pub(super) struct Group {
-    /// The numbers within the sequence.
+    /// The indices of the frames' scripts in the sequence.
     pub(super) members: Vec<usize>,
     pub(super) record: Record,
 }
 
 impl Job<'_> {
-    /// Renders the missing images. `watch` receives the progress; `stop` ends the job.
+    /// Renders the missing images. `watch` receives the progress. Setting `stop` ends the job.
     ///
     /// # Errors
-    /// If the disk is full, a folder is gone, or nothing can be rendered. Frames that
-    /// fail by themselves are no error here: they are in the outcome.
+    /// If the disk is full, a folder has disappeared, or all of the first frames fail. The failure of a single frame is no error: the
+    /// result lists it.
     pub fn run(&self, watch: &mut dyn FnMut(Event<'_>), stop: &AtomicBool) -> Result<Outcome, RenderError> {
         let removed = self.images.remove_others(|name| self.sequence.has(name))?;
         let mut outcome = Outcome { removed, ..Outcome::default() };
@@ -111,7 +111,8 @@ impl Job<'_> {
         Ok(outcome)
     }
 
-    /// The images to render, in groups of equal scripts. If an equal image is up to date, it is copied at once.
+    /// Groups the scripts without up-to-date images by equal scripts. If an equal script has an up-to-date image, this image is copied at
+    /// once.
     fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
         let scripts = self.sequence.scripts();
         let folder = self.images.folder();
@@ -119,7 +120,7 @@ impl Job<'_> {
         let (there, mut missing): (Vec<usize>, Vec<usize>) =
             (0..scripts.len()).partition(|&index| state(index) == State::UpToDate);
         let looks_missing: HashSet<String> = missing.iter().map(|&index| records[index].to_text()).collect();
-        // Copying reads the image in any case, so a copied image is always verified.
+        // Copying reads the image in any case, so an image is always verified before it is copied.
         let is_read = |index: &usize| self.verify || looks_missing.contains(&records[*index].to_text());
         let verdicts: Vec<Verdict> = there
             .par_iter()

@@ -1,8 +1,8 @@
-//! The mean of images, as light adds up.
+//! Computes the mean of images in linear light.
 //!
-//! While its shutter is open, a camera sees the mean of the light at its moments. The numbers of an image are not proportional to
-//! light: sRGB gives dark tones more numbers than bright ones, so the mean of black and white is 188 of 255, and not 128. So this
-//! module turns numbers into light, averages the light, and turns the mean into numbers again. If images have alpha, a color is
+//! While its shutter is open, a camera sees the mean of the light at different moments. The bytes of an image are not proportional to
+//! light: sRGB encodes dark tones more finely than bright ones, so the mean of black and white is 188 of 255, and not 128. Therefore, this
+//! module converts bytes to light, averages the light, and converts the mean back to bytes. If images have an alpha channel, each color is
 //! weighted by its alpha.
 
 use std::fmt;
@@ -13,37 +13,37 @@ use std::sync::LazyLock;
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Info, SrgbRenderingIntent};
 
-/// An image of 8 bits a channel, in sRGB.
+/// An sRGB image with 8 bits per channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// Its width, pixels.
+    /// The width of the image, pixels.
     pub width: u32,
-    /// Its height, pixels.
+    /// The height of the image, pixels.
     pub height: u32,
-    /// Whether it has alpha.
+    /// True if the image has an alpha channel.
     pub alpha: bool,
-    /// Its pixels, row by row from the upper left: red, green, blue, and, if the image has alpha, the opacity.
+    /// The pixels, row by row from the upper left: red, green, blue, and alpha if the image has it.
     pub bytes: Vec<u8>,
 }
 
-/// Why images have no mean, or it cannot be written.
+/// An error of computing or writing the mean of images.
 #[derive(Debug)]
 pub enum ImageError {
-    /// There is no image.
+    /// The list of images is empty.
     None,
     /// A file cannot be read or written.
     Io(PathBuf, io::Error),
-    /// A file is no image, or one that POV-Ray would not have written.
+    /// A file is not an image, or has a format that POV-Ray does not write. The text gives the reason.
     Format(PathBuf, String),
-    /// An image is of another size than the first, or only one of them has alpha.
+    /// An image differs from the first one in its size, or in having an alpha channel.
     Differs(PathBuf),
 }
 
-/// The mean of images in linear light: PNGs of 8 or 16 bits in sRGB, as POV-Ray writes them with `+FN8` and `+FN16`. They are
-/// read one after another, row by row.
+/// Computes the mean of images in linear light. The images are sRGB PNGs of 8 or 16 bits per channel, as POV-Ray writes them with `+FN8`
+/// and `+FN16`. They are read one after another, row by row.
 ///
 /// # Errors
-/// If a file is no such image, or the sizes of the images differ.
+/// If a file is not such an image, the sizes of the images differ, or there are no images.
 pub fn mean(images: &[PathBuf]) -> Result<Image, ImageError> {
     let mut sum: Option<Sum> = None;
     for path in images {
@@ -52,17 +52,17 @@ pub fn mean(images: &[PathBuf]) -> Result<Image, ImageError> {
     sum.map(|sum| sum.mean(images.len())).ok_or(ImageError::None)
 }
 
-/// The sum of the light of images.
+/// The sum of the light of several images, pixel by pixel.
 struct Sum {
     width: u32,
     height: u32,
     alpha: bool,
-    /// For each pixel, the light of its channels and, if the image has alpha, its opacity; each image adds from 0 to 1. 24 bits
-    /// are enough for the sum of some hundred images, since the mean has 8.
+    /// For each pixel, the sums of its channels in linear light, and of its alpha if the images have it. Each image adds 0 to 1. The 24
+    /// bits of a `f32` are enough for some hundred images, since the mean has 8 bits.
     light: Vec<f32>,
 }
 
-/// Adds the light of an image to the sum.
+/// Adds the light of an image to the sum. The first image starts the sum.
 fn add(path: &Path, sum: &mut Option<Sum>) -> Result<(), ImageError> {
     let file = File::open(path).map_err(|error| ImageError::Io(path.to_owned(), error))?;
     let damaged = |error: png::DecodingError| match error {
@@ -95,11 +95,11 @@ fn add(path: &Path, sum: &mut Option<Sum>) -> Result<(), ImageError> {
             (false, true) => add_covering(light, row.data().as_chunks().0, widened),
         }
     }
-    // Read to the end of the file, to detect a truncated one.
+    // Reading to the end of the file detects a truncated file.
     reader.finish().map_err(damaged)
 }
 
-/// A number of 8 bits as one of 16: 255 becomes 65535.
+/// Scales an 8-bit value to 16 bits: 255 becomes 65535.
 fn widened([byte]: &[u8; 1]) -> u16 {
     u16::from(*byte) * 257
 }
@@ -136,7 +136,7 @@ impl Sum {
     }
 }
 
-/// A pixel that covers part of its background. If it covers nothing, it has no color.
+/// Returns the mean of a pixel with alpha, as bytes. `count` is the number of images. A fully transparent pixel has no color.
 fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     if cover <= 0.0 {
         return [0; 4];
@@ -146,7 +146,7 @@ fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
     [number(r / cover), number(g / cover), number(b / cover), alpha]
 }
 
-/// The number from 0 to 255 with the nearest light, found by looking the light up in the table.
+/// Returns the sRGB byte that is nearest to a linear light of 0 to 1, by a table lookup.
 fn number(light: f32) -> u8 {
     let (starts, borders) = &*NUMBERS;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within the table")]
@@ -158,7 +158,7 @@ fn number(light: f32) -> u8 {
     number
 }
 
-/// The light of each number of 16 bits.
+/// The linear light (0 to 1) of each 16-bit sRGB value.
 static LIGHT: LazyLock<Box<[f32; 65536]>> = LazyLock::new(|| {
     let mut table = Box::new([0.0; 65536]);
     for (number, light) in (0..=u16::MAX).zip(table.iter_mut()) {
@@ -167,10 +167,10 @@ static LIGHT: LazyLock<Box<[f32; 65536]>> = LazyLock::new(|| {
     table
 });
 
-/// The size of the table that a search for a number starts from. The number is then at most a few steps away.
+/// The size of the table in which the search for an sRGB byte starts. The byte is then at most a few steps away.
 const STARTS: usize = 4096;
 
-/// For each entry, the smallest number that its light may have; and for each number, the light above which the next number is
+/// For each table entry, the smallest sRGB byte that light in its range can have. For each byte, the light above which the next byte is
 /// nearer.
 static NUMBERS: LazyLock<(Vec<u8>, [f32; 255])> = LazyLock::new(|| {
     let mut borders = [0.0; 255];
@@ -188,20 +188,20 @@ static NUMBERS: LazyLock<(Vec<u8>, [f32; 255])> = LazyLock::new(|| {
     ((0..=STARTS).map(start).collect(), borders)
 });
 
-/// The light of a number of sRGB, both from 0 to 1.
+/// Converts an sRGB value to linear light, both from 0 to 1.
 #[allow(clippy::cast_possible_truncation, reason = "24 bits are enough")]
 fn linear(number: f64) -> f32 {
     if number <= 0.04045 { (number / 12.92) as f32 } else { libm::pow((number + 0.055) / 1.055, 2.4) as f32 }
 }
 
-/// Whether an image has alpha, and whether it has 16 bits. An error if its encoding differs from that of POV-Ray's images.
+/// Returns whether a PNG has an alpha channel, and whether it has 16 bits per channel. Fails if POV-Ray does not write its encoding.
 fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
-    /// 1/2.2, as a PNG stores gamma: the single power nearest to sRGB.
+    /// The gamma of 1/2.2 as a PNG stores it, times 100 000. It is the power law that is nearest to sRGB.
     const GAMMA: u32 = 45455;
     if info.interlaced {
         return Err("it is interlaced".to_owned());
     }
-    // POV-Ray writes both, unless it is told to write another gamma.
+    // POV-Ray writes an sRGB chunk and a gamma chunk, unless its options set another gamma.
     let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
     if info.srgb.is_none() && gamma.is_some_and(|gamma| gamma.abs_diff(GAMMA) > 500) {
         return Err("its colors are not sRGB".to_owned());
@@ -216,17 +216,17 @@ fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
 }
 
 impl Image {
-    /// Writes a PNG, whole or not at all. It is marked as sRGB, like POV-Ray's.
+    /// Writes the image as an sRGB PNG under a temporary name, and renames it when it is complete.
     ///
     /// # Errors
-    /// If it cannot be written; then an existing file of that name is unchanged.
+    /// If the file cannot be written. An existing file of that name then stays unchanged.
     pub fn write(&self, path: &Path) -> Result<(), ImageError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-        // A killed run may have left this file.
+        // A killed process may have left a temporary file of this name.
         let _ = fs::remove_file(&temporary);
         let write = || {
-            // `create_new` follows no link.
+            // `create_new` does not follow symbolic links.
             let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
             let mut file = BufWriter::new(file);
             self.encode(&mut file)?;

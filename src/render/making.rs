@@ -1,4 +1,4 @@
-//! Results of the pool → named images, and faults.
+//! Turns the results of the POV-Ray processes into named images and reported failures.
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -10,15 +10,16 @@ use super::pool::Fate;
 use super::process::Unit;
 use super::{Fault, RenderError};
 
-/// Handles the result of each unit, as it comes.
+/// Receives the result of each picture that POV-Ray renders, in any order.
 pub(super) struct Making<'a> {
     job: &'a Job<'a>,
     groups: &'a [Group],
     outcome: &'a mut Outcome,
     watch: &'a mut dyn FnMut(Event<'_>),
-    /// A process takes its folder with it, so images of moments wait here for the others of their frame.
+    /// The images of moments of unfinished frames, by the index of the frame's group. They are moved here, since a process removes its
+    /// folder when it ends.
     exposures: HashMap<usize, Exposure>,
-    /// The groups that have failed.
+    /// The indices of the groups that have failed.
     failed: HashSet<usize>,
 }
 
@@ -32,7 +33,7 @@ impl<'a> Making<'a> {
         Making { job, groups, outcome, watch, exposures: HashMap::new(), failed: HashSet::new() }
     }
 
-    /// Records the result of a unit.
+    /// Records the result of rendering one picture.
     pub(super) fn take(&mut self, unit: &Unit, fate: Fate) -> Result<(), RenderError> {
         match (fate, unit.moment) {
             (Fate::Image(path, seconds), None) => self.image(unit, &path, seconds),
@@ -41,7 +42,7 @@ impl<'a> Making<'a> {
         }
     }
 
-    /// Handles the image of a moment; the last one completes its frame.
+    /// Stores the image of a moment of a frame with motion blur. The last moment completes the frame.
     fn moment(&mut self, unit: &Unit, moment: u32, path: &Path, seconds: f64) -> Result<(), RenderError> {
         if self.failed.contains(&unit.index) {
             return Ok(());
@@ -58,7 +59,7 @@ impl<'a> Making<'a> {
         self.image(unit, &exposure.develop()?, exposure.seconds)
     }
 
-    /// Handles the image of a frame, which also serves all frames with equal scripts.
+    /// Stores the image of a frame, and copies of it for all frames with equal scripts.
     fn image(&mut self, unit: &Unit, path: &Path, seconds: f64) -> Result<(), RenderError> {
         let (images, scripts) = (self.job.images, self.job.sequence.scripts());
         let group = &self.groups[unit.index];
@@ -79,9 +80,9 @@ impl<'a> Making<'a> {
 
     /// Records the failure of a frame, and of all frames with equal scripts.
     fn failure(&mut self, unit: &Unit, said: &str) -> Result<(), RenderError> {
-        /// If this many frames fail and none succeeds, the cause is not in the frames.
+        /// If this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
         const HOPELESS: usize = 8;
-        // Other moments of the frame may still be rendering.
+        // Other moments of the failed frame may still be rendered later. Their images are ignored.
         self.exposures.remove(&unit.index);
         if !self.failed.insert(unit.index) {
             return Ok(());

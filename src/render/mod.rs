@@ -1,15 +1,15 @@
-//! Scripts → images → film.
+//! Renders scripts into images, and makes films from the images.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | the scripts of a film in their folder | [`Sequence`] |
-//! | the folder of the images, and its owner | [`Images`] |
-//! | the inputs of an image | [`Record`] |
+//! | the locked folder of the images | [`Images`] |
+//! | the digests of an image's inputs | [`Record`] |
 //! | the installed POV-Ray, and its options | [`PovRay`], [`options`] |
 //! | all images of a sequence, by a pool of POV-Ray processes | [`Job`], its [`Outcome`] |
 //! | a frame that POV-Ray cannot render | [`Fault`] |
 //! | the mean of images, for motion blur | [`linear_light`] |
-//! | images → film, contact sheet | [`Film`], [`ContactSheet`] |
+//! | films and contact sheets from images | [`Film`], [`ContactSheet`] |
 //! | jobs for clusters, and their progress | [`batch`], [`Status`] |
 
 pub mod batch;

@@ -1,22 +1,22 @@
-//! The options of POV-Ray that affect pixels.
+//! The command-line options of POV-Ray that affect pixels.
 
-/// The quality of the images, traded for time.
+/// The quality of images: better quality takes more rendering time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// For a look at the motion: no anti-aliasing.
+    /// A preview of the motion, without anti-aliasing.
     Draft,
-    /// As `animation.ini` renders it.
+    /// The quality that `animation.ini` sets.
     #[default]
     Good,
-    /// For the final film: finer anti-aliasing, adaptive.
+    /// The quality for a final film, with finer and adaptive anti-aliasing.
     Final,
 }
 
 impl Quality {
-    /// The corresponding options of POV-Ray.
+    /// Returns the options of POV-Ray for this quality.
     pub fn options(self) -> &'static str {
         match self {
-            // Measured on the default look: 0.3, 1 and 2 to 3 times the time.
+            // Measured with the default look, these take 0.3, 1 and 2 to 3 times the rendering time of `Good`.
             Quality::Draft => "-A +Q9",
             Quality::Good => "+A0.1 +AM1 +R3",
             Quality::Final => "+A0.03 +AM2 +R4",
@@ -24,7 +24,8 @@ impl Quality {
     }
 }
 
-/// The options that affect pixels, in the order in which a [record](super::Record) has them.
+/// Returns the options of POV-Ray that affect pixels, in the order that a [record](super::Record) stores them. `size` is width and height
+/// in pixels.
 pub fn options(size: [u32; 2], transparent: bool, quality: Quality) -> Vec<String> {
     let [width, height] = size;
     let mut options = vec![format!("+W{width}"), format!("+H{height}")];

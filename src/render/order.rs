@@ -1,7 +1,7 @@
 //! The order in which frames are rendered.
 
-/// The numbers below `count`, from coarse to fine: first 0, then the middle one, then those between. At any time, the finished
-/// frames are spread evenly over the film, so they show the whole motion and allow an estimate of the time left.
+/// Yields the numbers below `count`, from coarse to fine: first 0, then the middle one, then those between. At any time, the finished
+/// frames are spread evenly over the film. So they show the whole motion and allow an estimate of the remaining time.
 pub(super) fn coarse_to_fine(count: usize) -> impl Iterator<Item = usize> {
     let bits = count.next_power_of_two().trailing_zeros();
     let reversed =

@@ -1,4 +1,4 @@
-//! Pictures in memory, and the light that their bytes stand for.
+//! Reads images into memory, and converts between sRGB bytes and linear light.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -9,20 +9,20 @@ use png::{Decoder, Reader, Transformations};
 
 use super::FilmError;
 
-/// A picture of four bytes a pixel: red, green, blue in sRGB, and opacity. The colors are not multiplied by the opacity.
+/// An image in memory with four bytes per pixel: red, green, blue in sRGB, and alpha. The colors are not premultiplied by alpha.
 pub(super) struct Picture {
     pub(super) size: Size,
     pub(super) rgba: Vec<u8>,
 }
 
-/// Width and height in pixels.
+/// A width and a height in pixels.
 pub(super) type Size = (usize, usize);
 
 impl Picture {
-    /// Reads a PNG with any color type.
+    /// Reads a PNG of any color type.
     ///
     /// # Errors
-    /// If it does not exist, or is not a complete PNG.
+    /// If the file does not exist, or is not a complete PNG.
     pub(super) fn read(path: &Path) -> Result<Picture, FilmError> {
         let mut reader = open(path)?;
         let too_large = || FilmError::Image(path.to_owned(), "it is too large".to_owned());
@@ -38,7 +38,7 @@ impl Picture {
         Ok(Picture { size: (info.width as usize, info.height as usize), rgba })
     }
 
-    /// Its colors on white, three bytes a pixel. They are mixed as light, not as sRGB bytes.
+    /// Returns the image on a white background, three bytes per pixel. Colors are blended in linear light.
     pub(super) fn over_white(&self) -> Vec<u8> {
         let pixel = |pixel: &[u8]| match pixel[3] {
             255 => [pixel[0], pixel[1], pixel[2]],
@@ -52,19 +52,19 @@ impl Picture {
     }
 }
 
-/// The size of a PNG. Reads only its head.
+/// Returns the width and height of a PNG. Reads only its header.
 ///
 /// # Errors
-/// If it does not exist, or is no PNG.
+/// If the file does not exist, or is not a PNG.
 pub(super) fn size(path: &Path) -> Result<Size, FilmError> {
     let reader = open(path)?;
     Ok((reader.info().width as usize, reader.info().height as usize))
 }
 
-/// The common size of some images.
+/// Returns the size that all images have in common.
 ///
 /// # Errors
-/// If there are no images, one cannot be read, or they differ in size.
+/// If there are no images, one of them cannot be read, or they differ in size.
 pub(super) fn common_size<'a>(mut paths: impl Iterator<Item = &'a PathBuf>) -> Result<Size, FilmError> {
     let first = paths.next().ok_or(FilmError::NoImages)?;
     let common = size(first)?;
@@ -94,12 +94,12 @@ fn bad(path: &Path, error: &png::DecodingError) -> FilmError {
     FilmError::Image(path.to_owned(), why)
 }
 
-/// The light of a byte of sRGB, from 0 to 1.
+/// Converts an sRGB byte to linear light from 0 to 1.
 pub(super) fn light(byte: u8) -> f32 {
     static LIGHT: LazyLock<[f32; 256]> = LazyLock::new(|| {
         std::array::from_fn(|byte| {
             let value = byte as f64 / 255.0;
-            // IEC 61966-2-1.
+            // The formula is from IEC 61966-2-1.
             let light =
                 if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) };
             light as f32
@@ -108,7 +108,7 @@ pub(super) fn light(byte: u8) -> f32 {
     LIGHT[usize::from(byte)]
 }
 
-/// The sRGB byte with the nearest light. Light below 0 or above 1 is clamped.
+/// Converts linear light to the nearest sRGB byte. Light below 0 or above 1 is clamped.
 pub(super) fn srgb(light: f32) -> u8 {
     let light = f64::from(light).clamp(0.0, 1.0);
     let value =

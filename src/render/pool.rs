@@ -1,7 +1,7 @@
-//! A pool of POV-Ray processes that keeps the processors busy.
+//! Runs a pool of POV-Ray processes that keeps the processors busy.
 //!
-//! POV-Ray waits 0.3 s before its first image and 0.1 to 0.2 s between two, whatever they cost. So there are more processes
-//! than processors: their number follows from these waits and the measured cost of images.
+//! POV-Ray waits 0.3 s before its first image and 0.1 to 0.2 s between two images, whatever they show. So the pool has more processes than
+//! processors. The number of processes follows from these waiting times and the measured rendering time of the images.
 
 use std::collections::{HashMap, VecDeque};
 use std::fs;
@@ -13,45 +13,45 @@ use std::time::{Duration, Instant};
 use super::process::{Process, Setup, Step, Unit};
 use super::{Images, RenderError, cpu};
 
-/// The time that POV-Ray waits between two images, s. Measured on POV-Ray 3.7.
+/// The time that POV-Ray waits between two images, s, measured with POV-Ray 3.7.
 const WAIT: f64 = 0.2;
 
-/// Processes for each processor: before any measurement, and at most.
+/// The number of processes for each processor: before any image is measured, and at most.
 const FIRST: usize = 4;
 const MOST: usize = 12;
 
-/// How often all processes are polled.
+/// The interval between two polls of the POV-Ray processes.
 const TICK: Duration = Duration::from_millis(8);
 
-/// The result of a unit.
+/// The result of rendering one picture (a [`Unit`]).
 pub(super) enum Fate {
-    /// Its image is at this path, and stays there until this event is handled. It took this many seconds.
+    /// The image was rendered: its path, and its rendering time in s. The file exists until this result has been handled.
     Image(PathBuf, f64),
-    /// POV-Ray reports this error in its script.
+    /// POV-Ray has reported this error in the script.
     Broken(String),
-    /// POV-Ray died for this reason, and retries are exhausted.
+    /// POV-Ray has crashed for this reason, and all retries are used up.
     Died(String),
 }
 
-/// The processes, and the queue of units.
+/// The POV-Ray processes, and the queue of pictures to render.
 pub(super) struct Pool<'a> {
     pub(super) setup: Setup<'a>,
     pub(super) images: &'a Images,
-    /// The number of processes, if it is given.
+    /// The number of processes. `None` for as many as keep the processors busy.
     pub(super) jobs: Option<usize>,
-    /// The memory that a process may need, bytes.
+    /// The memory that one process may need, bytes.
     pub(super) memory: u64,
-    /// How often a unit is tried again after POV-Ray has died on it.
+    /// The number of new attempts for a picture after POV-Ray has crashed on it.
     pub(super) retries: u32,
     pub(super) time_limit: Option<Duration>,
     pub(super) stop: &'a AtomicBool,
     processors: usize,
     running: Vec<Process>,
     queue: VecDeque<Unit>,
-    /// How often POV-Ray has died on a unit.
+    /// The number of POV-Ray's crashes on each picture.
     deaths: HashMap<Unit, u32>,
     started: usize,
-    /// The images so far: their number, their total cost, and the wall-clock time of the slowest, s.
+    /// The number of images so far, their total time, and the time of the slowest one, s.
     measured: (usize, f64, f64),
     warnings: Vec<String>,
 }
@@ -76,10 +76,10 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Renders all units. Returns false if the user has asked to stop. `done` receives each unit.
+    /// Renders all pictures. `done` receives the result of each. Returns false if the user has stopped the program.
     ///
     /// # Errors
-    /// If the disk is full or a folder is gone; or an error of `done`.
+    /// If the disk is full, a folder has disappeared, or `done` fails.
     pub(super) fn run(
         &mut self,
         units: impl IntoIterator<Item = Unit>,
@@ -108,17 +108,17 @@ impl<'a> Pool<'a> {
         Ok(true)
     }
 
-    /// The number of processes that have been started.
+    /// Returns the number of processes that have been started so far.
     pub(super) fn started(&self) -> usize {
         self.started
     }
 
-    /// The warnings of POV-Ray, each once.
+    /// Takes the warnings that POV-Ray has printed, each text once.
     pub(super) fn warnings(&mut self) -> Vec<String> {
         std::mem::take(&mut self.warnings)
     }
 
-    /// The number of processes that keep all processors busy.
+    /// Returns the number of processes that keeps all processors busy and fits into memory.
     fn wanted(&self) -> usize {
         if let Some(jobs) = self.jobs {
             return jobs;
@@ -145,9 +145,10 @@ impl<'a> Pool<'a> {
         busy.min(room.max(1))
     }
 
-    /// The number of units for a new process. It is small at the end, so that all processes end together.
+    /// Returns the number of pictures for a new process. It becomes small at the end of the job, so that all processes end at about the
+    /// same time.
     fn share(&self) -> usize {
-        /// Larger numbers do not help.
+        /// The largest number of pictures for one process. More do not save time.
         const MOST_UNITS: usize = 200;
         let (left, processes) = (self.queue.len(), self.wanted());
         let is_first_round = self.started < processes;
@@ -158,14 +159,14 @@ impl<'a> Pool<'a> {
         }
     }
 
-    /// Starts a process on the next units of the queue.
+    /// Starts a process that renders the next pictures of the queue.
     fn start(&mut self) -> Result<(), RenderError> {
-        // The user wants to look at the first image while the others are being made.
+        // The first image is rendered alone, so that the user can look at it while all others are being rendered.
         let is_first = self.started == 0;
         let share = if is_first { 1 } else { self.share() };
         let mut units = Vec::new();
         while let Some(next) = self.queue.front() {
-            // Other frames in the same process may have caused POV-Ray's death.
+            // After a crash, a picture gets a process of its own, since other pictures in the same process may have caused the crash.
             let alone = next.asks_clock || self.deaths.contains_key(next);
             if units.len() >= share || (alone && !units.is_empty()) {
                 break;
@@ -183,7 +184,7 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// Handles the news of a process. Returns whether it goes on.
+    /// Handles an event of the process with this index. Returns true if the process is still running.
     fn take(
         &mut self,
         index: usize,
@@ -202,7 +203,7 @@ impl<'a> Pool<'a> {
             Step::Broken { message, left } => {
                 let mut left = left.into_iter();
                 let broken = left.next();
-                // The remaining units are unchanged.
+                // The remaining pictures go back to the front of the queue.
                 left.rev().for_each(|unit| self.queue.push_front(unit));
                 if let Some(unit) = broken {
                     self.queue.retain(|other| other.index != unit.index);
@@ -231,7 +232,7 @@ impl<'a> Pool<'a> {
         Ok(false)
     }
 
-    /// Tries a unit again after POV-Ray has died on it, unless retries are exhausted.
+    /// Queues a picture again after POV-Ray has crashed on it, unless all retries are used up.
     fn again(
         &mut self,
         unit: Unit,
@@ -249,7 +250,7 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// Checks for free disk space; POV-Ray itself does not report a full disk.
+    /// Checks for free disk space by writing a test file, since POV-Ray does not report a full disk.
     fn probe(&self, index: usize) -> Result<(), RenderError> {
         let folder = self.running[index].folder();
         let path = folder.join("probe");
@@ -259,7 +260,7 @@ impl<'a> Pool<'a> {
         result.and(removed).map_err(RenderError::io(self.images.folder()))
     }
 
-    /// Ends processes that hang.
+    /// Kills processes that hang or exceed the time limit.
     fn guard(
         &mut self,
         done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
@@ -276,9 +277,9 @@ impl<'a> Pool<'a> {
         Ok(())
     }
 
-    /// The time limit for a frame, from the times of other frames.
+    /// Returns the default time limit for a frame, which is far above the times of the frames so far.
     fn usual_limit(&self) -> Duration {
-        /// For the first frames, no times are known.
+        /// The limit until the time of a first frame is known.
         const UNKNOWN: Duration = Duration::from_secs(24 * 3600);
         let (images, _, slowest) = self.measured;
         if images == 0 {

@@ -1,4 +1,4 @@
-//! The installed POV-Ray.
+//! Finds the installed POV-Ray and its version.
 
 use std::fs;
 use std::io::Read;
@@ -10,28 +10,28 @@ use super::RenderError;
 use super::started::Started;
 use crate::sandbox::{Confinement, Needs};
 
-/// A POV-Ray that can be used.
+/// An installed POV-Ray of a known version.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PovRay {
     path: PathBuf,
     version: String,
     confinement: Confinement,
-    /// Why it may read all files, although it should be confined.
+    /// POV-Ray's error message in the sandbox with limited read access. `None` if POV-Ray starts there; otherwise it may read all files.
     unlimited: Option<String>,
 }
 
-/// The longest wait for POV-Ray's version.
+/// The longest time to wait for POV-Ray's answer about its version.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 impl PovRay {
-    /// Finds POV-Ray: at the given path, or else the `povray` of the `PATH`. Asking it for its version takes 0.2 s, so the
-    /// answer is kept in the file `memory`. It holds as long as the program has the same path, size and time.
+    /// Finds POV-Ray: at the path `given`, or else as `povray` in the `PATH`. Asking it for its version takes 0.2 s, so the answer is
+    /// cached in the file `memory`. The cache is valid as long as the program has the same path, size and modification time.
     ///
-    /// The confinement applies to all its runs. A POV-Ray with libraries in an unusual folder cannot start with limited read
-    /// access; it may then read all files, and [`PovRay::warning`] says so.
+    /// The confinement applies to every run of POV-Ray. A POV-Ray with libraries in an unusual folder cannot start with limited read
+    /// access. It may then read all files, and [`PovRay::warning`] says so.
     ///
     /// # Errors
-    /// If there is none, or its version is unknown.
+    /// If POV-Ray is not found, or its version is unknown.
     pub fn find(
         given: Option<&Path>,
         memory: &Path,
@@ -47,7 +47,7 @@ impl PovRay {
         }
         let said = ask(&path, &confinement)?;
         if let Some(version) = version(&said) {
-            // If the answer cannot be kept, POV-Ray is asked again next time.
+            // If the answer cannot be cached, the next command asks POV-Ray again.
             let _ = fs::write(memory, format!("{mark}\n{version}\n"));
             let version = version.to_owned();
             return Ok(PovRay { path, version, confinement, unlimited: None });
@@ -63,58 +63,58 @@ impl PovRay {
         Ok(PovRay { path, version, confinement: reading_all, unlimited: Some(first) })
     }
 
-    /// Finds POV-Ray without running it, which is quick.
+    /// Finds the path of POV-Ray without running it, which is quick.
     ///
     /// # Errors
-    /// If there is none.
+    /// If no such program exists.
     pub fn locate(given: Option<&Path>) -> Result<PathBuf, RenderError> {
         let wanted = given.unwrap_or(Path::new("povray"));
         let path = which::which(wanted).map_err(|_| RenderError::NoPovray(wanted.to_owned()))?;
         path.canonicalize().map_err(RenderError::io(&path))
     }
 
-    /// The path of the program.
+    /// Returns the path of the program.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The warning that POV-Ray is less confined than usual.
+    /// Returns a warning if POV-Ray may read all files, because it does not start with limited read access.
     pub fn warning(&self) -> Option<String> {
         let why = self.unlimited.as_ref()?;
         let path = self.path.display();
         Some(format!("`{path}` may read all files, since it does not start in the sandbox: it says `{why}`"))
     }
 
-    /// Whether the sandbox limits its write access.
+    /// Returns true if the sandbox limits POV-Ray's write access.
     pub(super) fn is_confined(&self) -> bool {
         self.confinement.is_enforced()
     }
 
-    /// Whether the sandbox limits POV-Ray's read access.
+    /// Returns true if the sandbox limits POV-Ray's read access.
     pub(super) fn limits_reading(&self) -> bool {
         self.confinement.limits_reading()
     }
 
-    /// A POV-Ray that was not looked for.
+    /// Makes a value for tests, without looking for an installed POV-Ray.
     #[cfg(test)]
     pub(super) fn unconfined() -> PovRay {
         let (path, version) = (PathBuf::from("povray"), "3.7".to_owned());
         PovRay { path, version, confinement: Confinement::default(), unlimited: None }
     }
 
-    /// The command that starts it; the caller adds the arguments.
+    /// Returns the command that starts POV-Ray in the sandbox. The caller adds the arguments.
     pub(super) fn command(&self, needs: Needs<'_>) -> Command {
         self.confinement.command(&self.path, needs)
     }
 
-    /// Its version, as it prints it: `3.7.0.10.unofficial`.
+    /// Returns the version as POV-Ray prints it: `3.7.0.10.unofficial`.
     pub fn version(&self) -> &str {
         &self.version
     }
 }
 
-/// A mark that identifies a program without running it: path, size, time of change, and whether its read access was limited
-/// when it was asked.
+/// Returns a text that identifies a program without running it: its path, size and modification time, and whether its read access is
+/// limited.
 fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     let limited = if confinement.limits_reading() { " confined" } else { "" };
     let metadata = fs::metadata(path)?;
@@ -122,7 +122,7 @@ fn mark(path: &Path, confinement: &Confinement) -> std::io::Result<String> {
     Ok(format!("{} {} {}{limited}", path.display(), metadata.len(), changed.as_nanos()))
 }
 
-/// The program's answer when asked for its version.
+/// Runs the program with `--version`, and returns its output.
 fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     let mut command = confinement.command(path, Needs::default());
     command.arg("--version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
@@ -137,13 +137,13 @@ fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     let mut said = Vec::new();
     let (_, _, errors) = child.pipes();
     if let Some(errors) = errors {
-        // An unreadable answer counts as empty. No version needs more bytes than this.
+        // An unreadable answer counts as empty. The limit of 64 kB is more than any version text needs.
         let _ = errors.take(1 << 16).read_to_end(&mut said);
     }
     Ok(String::from_utf8_lossy(&said).into_owned())
 }
 
-/// The version in POV-Ray's output, if it is a known one.
+/// Returns the version number in POV-Ray's output. `None` unless it is a 3.7 or 3.8.
 fn version(said: &str) -> Option<&str> {
     let word = said.lines().find_map(|line| line.strip_prefix("POV-Ray ")?.split_whitespace().next())?;
     let known = ["3.7", "3.8"].iter().any(|known| {

@@ -1,7 +1,7 @@
-//! One POV-Ray process, and the images that it makes one after another.
+//! Runs one POV-Ray process that renders several images one after another.
 //!
-//! Each process waits for 0.6 s in total, so it gets several images through POV-Ray's animation loop: its script includes
-//! another script for each frame number.
+//! Each process waits for 0.6 s in total, whatever it renders. So it gets several images through POV-Ray's animation loop: its main script
+//! includes another script for each frame number.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -15,82 +15,83 @@ use super::started::Started;
 use super::{PovRay, cpu};
 use crate::sandbox::Needs;
 
-/// A picture that POV-Ray makes: of a frame, or of one moment of a blurred one.
+/// A picture for POV-Ray to render: a frame, or one moment of a frame with motion blur.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Unit {
-    /// The number of the frame within the job.
+    /// The index of the frame's group within the job.
     pub(super) index: usize,
     /// The number of the frame within the film.
     pub(super) frame: usize,
-    /// The name of the script's file.
+    /// The file name of the script.
     pub(super) script: String,
-    /// The moment within a blurred frame.
+    /// The index of the moment within a frame with motion blur. `None` for a frame without motion blur.
     pub(super) moment: Option<u32>,
-    /// Whether the script asks POV-Ray for its clock. Such a script needs a process of its own.
+    /// True if the script uses POV-Ray's variable `clock` or `frame_number`. Such a script needs a process of its own.
     pub(super) asks_clock: bool,
 }
 
-/// The setup common to all processes of a job.
+/// The settings that all POV-Ray processes of a job share.
 pub(super) struct Setup<'a> {
     pub(super) povray: &'a PovRay,
-    /// The folder of the scripts, absolute.
+    /// The folder of the scripts, as an absolute path.
     pub(super) scripts: &'a Path,
-    /// The options that affect pixels.
+    /// The command-line options of POV-Ray that affect pixels.
     pub(super) options: &'a [String],
-    /// The number of the last frame.
+    /// The number of the film's last frame.
     pub(super) last: usize,
-    /// The value of POV-Ray's clock in the first and in the last frame, s.
+    /// The value of POV-Ray's variable `clock` in the first and in the last frame, s.
     pub(super) clock: [f64; 2],
-    /// The threads that each process renders with.
+    /// The number of threads that each POV-Ray process renders with.
     pub(super) threads: usize,
 }
 
-/// A running process.
+/// A running POV-Ray process.
 pub(super) struct Process {
     child: Started,
     folder: PathBuf,
     units: Vec<Unit>,
     names: Names,
     done: usize,
-    /// The time at which the present image was begun.
+    /// The time at which POV-Ray began the current image.
     since: Instant,
-    /// The CPU time that the process had used by then, s.
+    /// The CPU time that the process had used when it began the current image, s.
     cpu_before: f64,
-    /// The CPU time when it was last seen to grow, s, and when that was.
+    /// The CPU time when it was last seen to grow (s), and the time of that observation.
     alive: (f64, Instant),
 }
 
-/// The events since the last poll.
+/// The result of polling a POV-Ray process.
 pub(super) enum Step {
-    /// Nothing new.
+    /// The process is running, without a new image.
     Working,
-    /// The image of a unit is whole.
+    /// The image of a picture is complete.
     Image { unit: Unit, path: PathBuf, seconds: f64 },
-    /// The process has ended, or was ended, after its last image.
+    /// The process has rendered its last image, and has ended or was killed.
     Done,
-    /// It ended early, with this message of POV-Ray's about the script of the first remaining unit.
+    /// The process has ended early, with an error message about the script of the first remaining picture.
     Broken { message: String, left: Vec<Unit> },
-    /// It ended early, or was ended, for a reason that is not in the script.
+    /// The process has ended early or was killed, for a reason outside of the script.
     Died { why: String, left: Vec<Unit> },
 }
 
-/// How POV-Ray numbers images.
+/// How POV-Ray numbers the image files of a process.
 enum Names {
-    /// From 0, five digits.
+    /// The images are numbered from 0, with five digits.
     Plain,
-    /// The number of the single image, and its digits.
+    /// The process renders a single image: its frame number, and the number of digits.
     Own(usize, usize),
 }
 
 impl Process {
-    /// Starts a process on some units. With `humble`, other processes run first.
+    /// Starts a POV-Ray process that renders some pictures. With `humble`, the process has a low priority.
     pub(super) fn start(
         setup: &Setup<'_>,
         folder: PathBuf,
         units: Vec<Unit>,
         humble: bool,
     ) -> io::Result<Process> {
-        // Folder names may contain characters that neither POV-Ray's command line nor its strings can.
+        // A symbolic link with a plain name stands for the folder of the scripts, since the folder's name may contain characters that
+        // POV-Ray's command line and strings cannot.
         std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
         fs::write(folder.join("run.pov"), master(&units))?;
         let (last, [begin, end]) = (setup.last, setup.clock);
@@ -123,9 +124,9 @@ impl Process {
         Ok(Process { child, folder, units, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
 
-    /// Checks for new events.
+    /// Polls the process for a new image or its end.
     pub(super) fn step(&mut self) -> Step {
-        // First check for the end, then for images, so that no image made before the end is missed.
+        // The end is checked before the images. Otherwise, an image that was completed just before the end could be missed.
         let exit = match self.child.exit() {
             Ok(exit) => exit,
             Err(error) => return self.died(format!("it cannot be watched: {error}")),
@@ -145,7 +146,7 @@ impl Process {
                 return Step::Image { unit, path, seconds };
             }
         } else {
-            // Waiting for its end would take a third of a second.
+            // All images are complete. Waiting for POV-Ray's own end would take a third of a second.
             self.child.end();
             return Step::Done;
         }
@@ -155,9 +156,9 @@ impl Process {
         }
     }
 
-    /// Ends it if it hangs, or exceeds its time limit.
+    /// Kills the process if it hangs or exceeds the time limit. `cpu` is its CPU time so far, s.
     pub(super) fn guard(&mut self, cpu: Option<f64>, limit: Duration) -> Step {
-        /// POV-Ray never waits this long for anything.
+        /// A process that uses no CPU time for this long hangs. POV-Ray never waits as long for anything.
         const STILL: Duration = Duration::from_secs(20);
         let now = Instant::now();
         if cpu.is_none_or(|cpu| cpu > self.alive.0 + 0.005) {
@@ -172,22 +173,22 @@ impl Process {
         }
     }
 
-    /// Its process group.
+    /// Returns the id of the process group.
     pub(super) fn group(&self) -> Option<i32> {
         i32::try_from(self.child.id()).ok()
     }
 
-    /// The warnings of the process.
+    /// Returns the warnings that the process has printed.
     pub(super) fn warnings(&self) -> String {
         said(&self.folder.join("warnings.txt"))
     }
 
-    /// Its work folder.
+    /// Returns the work folder of the process.
     pub(super) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The reason why it ended before all its images were made.
+    /// Finds out why the process ended before all its images were complete.
     fn fate(&mut self, exit: ExitStatus) -> Step {
         let message = said(&self.folder.join("errors.txt"));
         if exit.code() == Some(1) && !message.is_empty() {
@@ -196,7 +197,7 @@ impl Process {
         }
         let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
         let console = String::from_utf8_lossy(&console);
-        // POV-Ray does not call this a parse error, though it occurs while parsing: for missing images, fonts and the like.
+        // For missing images, fonts and the like, POV-Ray prints this error instead of a parse error.
         if let Some(message) = console.lines().find_map(|line| line.strip_prefix("Fatal error in parser: ")) {
             self.child.end();
             return Step::Broken { message: message.to_owned(), left: self.units.split_off(self.done) };
@@ -222,7 +223,7 @@ impl Process {
 impl Drop for Process {
     fn drop(&mut self) {
         self.child.end();
-        // The next run removes a folder that stays.
+        // If the folder cannot be removed, the next command removes it.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }
@@ -237,7 +238,7 @@ impl Names {
     }
 }
 
-/// The script that includes another one for each frame number.
+/// Returns the main script of a process, which includes another script for each frame number.
 fn master(units: &[Unit]) -> String {
     let mut text = "#version 3.7;\n#switch (frame_number)\n".to_owned();
     for (index, unit) in units.iter().enumerate() {
@@ -251,9 +252,9 @@ fn master(units: &[Unit]) -> String {
     text + "#end\n"
 }
 
-/// Whether an image is complete: it has a beginning and an end.
+/// Returns true if a PNG file is complete: it ends with the last chunk of a PNG.
 pub(super) fn is_whole(path: &Path) -> bool {
-    /// The last chunk of every PNG: no bytes, `IEND`, and their checksum.
+    /// The last chunk of every PNG: a length of 0, `IEND`, and the checksum.
     const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
     let ends = || -> io::Result<bool> {
         let mut file = File::open(path)?;
@@ -265,7 +266,7 @@ pub(super) fn is_whole(path: &Path) -> bool {
     ends().unwrap_or(false)
 }
 
-/// A stream of POV-Ray's output, without the banners between frames.
+/// Reads a file of POV-Ray's messages, and removes the banners between frames.
 fn said(path: &Path) -> String {
     let bytes = fs::read(path).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);

@@ -1,6 +1,6 @@
-//! The record of an image: a text file beside it that tells whether the finished image is up to date.
+//! The record of an image: a text file that tells whether the image is up to date.
 //!
-//! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, seven lines:
+//! The record of `images/frame_0007.png` is `images/.jabuka/frame_0007.txt`, with seven lines:
 //!
 //! ```text
 //! script <SHA-256 of the script without its first line, which has number and time>
@@ -13,11 +13,11 @@
 //! ```
 //!
 //! The record and the length of an image are enough to tell whether it is up to date, so thousands of images are checked quickly.
-//! `--verify` also reads the images and compares their digests. Records of earlier versions lack the last line; their images are
-//! up to date, but cannot be verified.
+//! `--verify` also reads the images and compares their digests. Records of earlier versions lack the last line. Their images can be up to
+//! date, but cannot be verified.
 //!
-//! The record is written after the image. An interruption therefore leaves at most an image without a record, which is rendered
-//! again. The script `render-chunk` of a cluster job writes and reads the same texts; a test holds the two together.
+//! The record is written after the image. An interruption therefore leaves at most an image without a record, which is rendered again. The
+//! script `render-chunk` of a cluster job writes and reads the same texts; a test checks that both agree.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -26,70 +26,70 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sha2::{Digest, Sha256};
 
-/// The hidden folder beside the images, for records and other data about them.
+/// The hidden folder beside the images. It contains the records, and other data about the images.
 pub const HIDDEN: &str = ".jabuka";
 
-/// The words that make a script depend on the number of its frame.
+/// The words that make a script's image depend on the number of its frame.
 const NUMBERED: [&str; 2] = ["frame_number", "clock"];
 
-/// The beginning of the names of scripts that hold the moments of a blurred frame. Their `frame_number` is that of the
+/// The beginning of the names of scripts that contain the moments of a frame with motion blur. Their `frame_number` is the number of the
 /// moment, so they do not depend on the number of the frame.
 const BLURRED: &str = "shutter_";
 
-/// The record of a finished image, or of one to be rendered.
+/// The record of a rendered image, or of one that is yet to be rendered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Record {
-    /// The digest of the script without its first line, in hexadecimal digits.
+    /// The SHA-256 of the script without its first line, in hexadecimal digits.
     pub script: String,
-    /// The digest of the files that the script reads, in hexadecimal digits, or `-`.
+    /// The SHA-256 of the files that the script reads, in hexadecimal digits. `-` if the script reads no files.
     pub files: String,
-    /// The options of POV-Ray that matter for the pixels, in one line.
+    /// The command-line options of POV-Ray that affect pixels, in one line.
     pub options: String,
-    /// The frame's number, where the script may depend on it.
+    /// The number of the frame, if the script may depend on it.
     pub frame: Option<usize>,
-    /// The version of POV-Ray: the word after `POV-Ray` in what `povray --version` prints.
+    /// The version of POV-Ray: the word after `POV-Ray` in the output of `povray --version`.
     pub povray: String,
-    /// The length of the image in bytes; without meaning in a record of an image that is yet to be rendered.
+    /// The length of the image in bytes. It is 0 for an image that is yet to be rendered.
     pub bytes: u64,
-    /// The digest of the image in hexadecimal digits. `None` for an image that is yet to be rendered, and in a record of an
-    /// earlier version.
+    /// The SHA-256 of the image in hexadecimal digits. `None` for an image that is yet to be rendered, and in a record of an earlier
+    /// version.
     pub image: Option<String>,
 }
 
-/// Which parts of a record must match.
+/// The parts of two records that must be equal for an image to be up to date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compare {
-    /// All of it.
+    /// All parts.
     All,
-    /// All but the version of POV-Ray, if there is none to ask.
+    /// All parts except the version of POV-Ray, which is unknown if POV-Ray is not installed.
     NotPovray,
-    /// Script, files and frame, if the requested options are unknown.
+    /// Script, files and frame number, if the requested options are unknown.
     Scene,
 }
 
-/// The state of an image.
+/// The state of an image, compared with the image that would be rendered now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// It equals the image that would be rendered now.
+    /// The image equals the one that would be rendered now.
     UpToDate,
-    /// There is an image, but it is outdated, incomplete, or of unknown origin.
+    /// The image exists, but it is outdated, incomplete, or of unknown origin.
     Outdated,
-    /// There is no image.
+    /// The image does not exist.
     Missing,
 }
 
-/// Whether an image has the bytes that were rendered.
+/// The result of checking an image against the digest in its record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It has these bytes.
+    /// The image has the bytes that were rendered.
     Intact,
-    /// It was changed or damaged since.
+    /// The image was changed or damaged after it was rendered.
     Changed,
-    /// Its record has no digest.
+    /// The record of the image has no digest, or there is no record.
     Unverified,
 }
 
-/// The files that all scripts of a folder read: shared files and assets.
+/// A digest of the files that a script reads, and whether an include file among them depends on the frame number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Files {
     digest: String,
@@ -97,10 +97,10 @@ pub struct Files {
 }
 
 impl Files {
-    /// Reads the files, in the order of the list.
+    /// Reads and digests the files, in the order of the list.
     ///
     /// # Errors
-    /// If one cannot be read; the error names it and the reason.
+    /// If a file cannot be read. The error contains its path and the reason.
     pub fn read(files: &[PathBuf]) -> Result<Files, (PathBuf, io::Error)> {
         let mut hasher = Sha256::new();
         let mut numbered = false;
@@ -115,7 +115,7 @@ impl Files {
 }
 
 impl Record {
-    /// The record that an image of this script would get now, except for the length of the image.
+    /// Returns the record that an image of this script would get if it were rendered now. Length and digest of the image are missing.
     ///
     /// # Errors
     /// If the script cannot be read.
@@ -143,7 +143,7 @@ impl Record {
         })
     }
 
-    /// Completes the record with the length and the digest of the finished image.
+    /// Adds the length and the digest of the finished image to the record.
     ///
     /// # Errors
     /// If the image cannot be read.
@@ -152,7 +152,7 @@ impl Record {
         Ok(Record { bytes, image: Some(image), ..self })
     }
 
-    /// Reads the image of this record, and compares its digest.
+    /// Reads the image, and compares its digest with that of the record.
     ///
     /// # Errors
     /// If the image cannot be read.
@@ -162,14 +162,14 @@ impl Record {
         Ok(if is == *digest { Verdict::Intact } else { Verdict::Changed })
     }
 
-    /// The path of an image's record. `name` is the image's name without its ending: `frame_0007`.
+    /// Returns the path of an image's record. `name` is the image's name without its extension: `frame_0007`.
     pub fn path(images: &Path, name: &str) -> PathBuf {
         images.join(HIDDEN).join(format!("{name}.txt"))
     }
 
-    /// Reads the record of an image. `None` if there is none, or its file is no record.
+    /// Reads the record of an image. `None` if the file does not exist, or is not a record.
     pub fn read(images: &Path, name: &str) -> Option<Record> {
-        /// The largest file that is read, bytes: far more than options need.
+        /// The largest number of bytes that are read: far more than any record needs.
         const MAX_BYTES: u64 = 64 << 10;
         let mut text = String::new();
         let file = File::open(Record::path(images, name)).ok()?;
@@ -177,10 +177,11 @@ impl Record {
         Record::parse(&text)
     }
 
-    /// Writes the record of an existing image, whole or not at all. The folder [`HIDDEN`] must exist.
+    /// Writes the record of an existing image under a temporary name, and renames it when it is complete. The folder [`HIDDEN`] must
+    /// exist.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If the record cannot be written.
     pub fn write(&self, images: &Path, name: &str) -> io::Result<()> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let unique = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -191,12 +192,13 @@ impl Record {
             fs::rename(&temporary, Record::path(images, name))
         };
         write().inspect_err(|_| {
-            // A leftover is hidden, and does not have the name of a record.
+            // If the file cannot be removed, the leftover does no harm: it is hidden, and does not have the name of a record.
             let _ = fs::remove_file(&temporary);
         })
     }
 
-    /// The state of an image that should have this record.
+    /// Returns the state of an existing or missing image. The image is up to date if its own record agrees with this one in the parts that
+    /// `compare` selects.
     pub fn state(&self, images: &Path, name: &str, compare: Compare) -> State {
         let Ok(metadata) = fs::metadata(images.join(format!("{name}.png"))) else { return State::Missing };
         let is = |record: Record| record.bytes == metadata.len() && record.is_of(self, compare);
@@ -206,7 +208,7 @@ impl Record {
         }
     }
 
-    /// Whether two records agree, apart from the lengths of the images.
+    /// Returns true if two records agree in the parts that `compare` selects. Lengths and digests of the images do not matter.
     pub fn is_of(&self, other: &Record, compare: Compare) -> bool {
         self.script == other.script
             && self.files == other.files
@@ -215,7 +217,7 @@ impl Record {
             && (compare != Compare::All || self.povray == other.povray)
     }
 
-    /// The text of the record's file.
+    /// Returns the record as the text of its file.
     pub fn to_text(&self) -> String {
         let frame = self.frame.map_or_else(|| "-".to_owned(), |frame| frame.to_string());
         let Record { script, files, options, povray, bytes, .. } = self;
@@ -248,7 +250,7 @@ impl Record {
     }
 }
 
-/// Whether a text contains a word that makes a script depend on the number of its frame.
+/// Returns true if a text contains a word that makes the image depend on the number of its frame.
 fn mentions_number(text: &[u8]) -> bool {
     let is_word = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
     let at = |start: usize, word: &str| {
@@ -259,7 +261,7 @@ fn mentions_number(text: &[u8]) -> bool {
     (0..text.len()).any(|start| NUMBERED.iter().any(|word| at(start, word)))
 }
 
-/// The SHA-256 of a file, in hexadecimal digits, and the number of its bytes.
+/// Returns the SHA-256 of a file in hexadecimal digits, and its length in bytes.
 fn digest_of_file(path: &Path) -> io::Result<(String, u64)> {
     let mut reader = BufReader::with_capacity(1 << 16, File::open(path)?);
     let (mut hasher, mut bytes) = (Sha256::new(), 0);
@@ -302,7 +304,7 @@ mod tests {
         let image = folder.path().join("image.png");
         fs::write(&image, "twelve bytes").unwrap();
         let record = expected(folder.path(), "// frame 7\nabc\n").of_image(&image).unwrap();
-        // echo abc | sha256sum
+        // The digest of the script was computed by `echo abc | sha256sum`.
         let text = "script edeaaff3f1774ad2888673770c6d64097e391bc362d7d6fb34982ddf0efd18cb\n\
                     files -\noptions +W320 +H180 +A0.1 +AM1 +R3\nframe -\npovray 3.7.0.10.unofficial\nbytes 12\n\
                     image d4ce2c527afe674c7a086bd74e256019e3d5dcdb31eeb6eaadef5ada8c4383b9\n";
@@ -314,7 +316,7 @@ mod tests {
         for broken in ["", "script x\n", &text[..text.len() - 1], &format!("{text}more\n"), &capitals] {
             assert_eq!(Record::parse(broken), None, "{broken}");
         }
-        // As earlier versions wrote it.
+        // Earlier versions wrote records without the last line.
         let old = text.split_inclusive('\n').take(6).collect::<String>();
         assert_eq!(Record::parse(&old), Some(Record { image: None, ..record.clone() }));
         assert_eq!(Record::parse(&old).unwrap().to_text(), old);

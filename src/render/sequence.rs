@@ -7,29 +7,29 @@ use crate::emit::frame_name;
 use crate::output::{Manifest, scripts};
 use crate::simulate::Selection;
 
-/// Some or all scripts of a film.
+/// The scripts of all frames of a film, or of the selected ones.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// The folder as it was given, for messages.
+    /// The path of the folder as the user gave it, for messages.
     folder: PathBuf,
-    /// The same folder as an absolute path.
+    /// The absolute path of the folder.
     absolute: PathBuf,
     scripts: Vec<Script>,
     /// The number of the film's last frame.
     pub last: usize,
-    /// Frames per second.
+    /// The number of frames per second of simulated time.
     pub frame_rate: f64,
-    /// Frames per second of a film, if the scene sets this rate.
+    /// The number of frames per second of a film. `None` if the scene does not set one.
     pub video_rate: Option<f64>,
-    /// Width and height of the images, pixels.
+    /// The width and height of the images, pixels.
     pub size: [u32; 2],
-    /// Whether the images have an alpha channel.
+    /// True if the images have an alpha channel.
     pub transparent: bool,
-    /// The number of moments of each frame, if frames are blurred.
+    /// The number of moments that each image is the mean of. `None` without motion blur.
     pub moments: Option<u32>,
-    /// The time of the moment that its only script shows, s, if that can differ from the time of a frame.
+    /// The simulated time that a single script shows, s, if it may lie between two frames. `None` for the time of each frame.
     pub moment: Option<f64>,
-    /// Files that scripts read without including them.
+    /// The assets (images, height fields, fonts) that the scripts read.
     pub(super) assets: Vec<PathBuf>,
 }
 
@@ -38,17 +38,17 @@ pub struct Sequence {
 pub struct Script {
     /// The number of the frame.
     pub frame: usize,
-    /// The name of the frame, which its image has too: `frame_0007`.
+    /// The name of the frame and of its image, without extension: `frame_0007`.
     pub name: String,
-    /// The name of the file with the script; of a blurred frame, the file with the scripts of its moments.
+    /// The name of the script's file. For a frame with motion blur, this script contains all moments of the frame.
     pub file: String,
 }
 
 impl Sequence {
-    /// The scripts in a folder, or those of some frames.
+    /// Opens a folder of scripts. `selection` selects frames, `None` all of them.
     ///
     /// # Errors
-    /// If there are none, or some of the requested ones are missing.
+    /// If the folder contains no scripts of jabuka's, or some of the requested ones are missing.
     pub fn open(folder: &Path, selection: Option<&Selection>) -> Result<Sequence, RenderError> {
         let found = scripts(folder).map_err(|error| match error {
             crate::output::OutputError::Io(path, error) => RenderError::io(path)(error),
@@ -96,28 +96,28 @@ impl Sequence {
         })
     }
 
-    /// The folder of the scripts.
+    /// Returns the folder of the scripts, as the user gave it.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// The folder of the scripts, as an absolute path.
+    /// Returns the folder of the scripts, as an absolute path.
     pub(super) fn absolute(&self) -> &Path {
         &self.absolute
     }
 
-    /// The requested scripts, in the order of their frames.
+    /// Returns the requested scripts, in the order of their frames.
     pub fn scripts(&self) -> &[Script] {
         &self.scripts
     }
 
-    /// The time of a frame, s.
+    /// Returns the simulated time of a frame, s.
     #[allow(clippy::cast_precision_loss, reason = "a film has fewer frames than that")]
     pub fn time(&self, frame: usize) -> f64 {
         frame as f64 / self.frame_rate
     }
 
-    /// Whether an image of this name belongs to a frame of the film, requested or not.
+    /// Returns true if a name such as `frame_0007` belongs to a frame of the film, requested or not.
     pub(super) fn has(&self, name: &str) -> bool {
         let number = name.strip_prefix("frame_").and_then(|digits| digits.parse().ok());
         let is = |number: usize| frame_name(number, self.last + 1) == format!("{name}.pov");

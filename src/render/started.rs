@@ -1,4 +1,4 @@
-//! A program that jabuka has started, and its end.
+//! A child process, which ends together with the thread that started it.
 
 use std::io;
 use std::marker::PhantomData;
@@ -7,10 +7,10 @@ use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitSta
 
 use rustix::process::{Pid, Signal, kill_process_group};
 
-/// A running program. Dropping this ends it, with all processes that it has started.
+/// A running child process. Dropping it kills the process, and all processes of its group.
 ///
-/// The system also ends the program when the thread that started it ends; nothing else works when jabuka is killed. So this
-/// stays on its thread (it is not `Send`): no other thread can be left with a program that ends too early.
+/// The system also kills the child when the thread that started it ends. This works even if jabuka itself is killed. So this type is not
+/// `Send`: it stays on its thread, and no other thread can be left with a child that ends too early.
 pub(super) struct Started {
     child: Child,
     exit: Option<ExitStatus>,
@@ -18,30 +18,31 @@ pub(super) struct Started {
 }
 
 impl Started {
-    /// Starts a program as a process group of its own, so that an interrupt from the terminal does not reach it: POV-Ray would
-    /// leave its state behind, and ffmpeg would end a film too early.
+    /// Starts a program in a process group of its own, so that an interrupt from the terminal does not reach it. An interrupted POV-Ray
+    /// would leave state files behind, and an interrupted ffmpeg would cut the film short.
     ///
     /// # Errors
-    /// If the system does not start it.
+    /// If the program cannot be started.
     pub(super) fn new(command: &mut Command) -> io::Result<Started> {
         let child = command.process_group(0).spawn()?;
         Ok(Started { child, exit: None, on_this_thread: PhantomData })
     }
 
-    /// The number of the process, which is also that of its group.
+    /// Returns the process id, which is also the id of its process group.
     pub(super) fn id(&self) -> u32 {
         self.child.id()
     }
 
-    /// Takes its ends of the requested pipes, each only once.
+    /// Takes jabuka's ends of the pipes to standard input, output and error. Each is `Some` only once, and only if the command requested
+    /// the pipe.
     pub(super) fn pipes(&mut self) -> (Option<ChildStdin>, Option<ChildStdout>, Option<ChildStderr>) {
         (self.child.stdin.take(), self.child.stdout.take(), self.child.stderr.take())
     }
 
-    /// Its exit status; `None` while it runs.
+    /// Returns the exit status of the process. `None` while it is running.
     ///
     /// # Errors
-    /// If the system does not report it.
+    /// If the system does not report the status.
     pub(super) fn exit(&mut self) -> io::Result<Option<ExitStatus>> {
         if self.exit.is_none() {
             self.exit = self.child.try_wait()?;
@@ -49,10 +50,10 @@ impl Started {
         Ok(self.exit)
     }
 
-    /// Ends it, if it has not ended, with all processes that it has started: it may be a script that runs another program.
+    /// Kills all processes of the group, since the program may be a script that runs another program. Returns the exit status.
     pub(super) fn end(&mut self) -> Option<ExitStatus> {
         if self.exit.is_none() {
-            // Killing a process that has ended already fails, which is as good.
+            // Killing fails if the process has already ended, which does no harm.
             let _ = kill_process_group(Pid::from_child(&self.child), Signal::KILL);
             let _ = self.child.kill();
             self.exit = self.child.wait().ok();

@@ -1,4 +1,4 @@
-//! The status of the images in a folder, read from the images and not from the program that renders them.
+//! Finds out which images of a folder are done, from the images and their records. The program that renders them is not asked.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -17,11 +17,10 @@ use crate::diagnostic::visible;
 use crate::output::{self, MANIFEST};
 use crate::simulate::Selection;
 
-/// The marker of a frame that is being rendered is touched twice a minute. A marker that was not touched for this long belongs
-/// to a dead process.
+/// The age at which the marker of a running frame counts as abandoned. A living process updates its marker twice a minute.
 const HEARTBEATS: Duration = Duration::from_secs(180);
 
-/// The status of the images in a folder. Every frame is in one of the lists.
+/// The status of the images in a folder. Each list contains the numbers of frames in one state.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Status {
     /// The requested frames.
@@ -29,47 +28,47 @@ pub struct Status {
     pub frames: Vec<usize>,
     /// The frames with up-to-date images.
     pub done: Vec<usize>,
-    /// The frames whose images have changed since they were rendered; empty unless the images were read.
+    /// The frames whose images have changed since they were rendered. The list is filled by [`Status::verified`] only.
     pub changed: Vec<usize>,
-    /// The frames whose records have no digest to compare with; empty unless the images were read.
+    /// The frames whose records have no digest to verify. The list is filled by [`Status::verified`] only.
     pub unverified: Vec<usize>,
     /// The frames that are being rendered.
     pub running: Vec<Running>,
-    /// The frames that failed at the last attempt.
+    /// The frames whose last attempt failed.
     pub failed: Vec<Failed>,
-    /// The frames that nobody works on, without an image or with an outdated one.
+    /// The frames without an up-to-date image that no process renders.
     pub missing: Vec<usize>,
-    /// The missing frames that were begun, but have given no sign of life for three minutes.
+    /// The missing frames that a process began to render and then abandoned: it has given no sign of life for three minutes.
     pub stale: Vec<Running>,
-    /// Whether there is a film of all these images. `None` if no film was requested.
+    /// True if a film of all these images exists. `None` if no film was requested.
     pub film: Option<bool>,
-    /// Whether writing the scripts was interrupted, so that some may be missing or of another version of the scene.
+    /// True if the writing of the scripts was interrupted. Some may then be missing, or belong to another version of the scene.
     pub unfinished_scripts: bool,
 }
 
-/// A frame that is being rendered.
+/// A frame that a process is rendering.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Running {
-    /// Its number.
+    /// The number of the frame.
     pub frame: usize,
-    /// The machine.
+    /// The host name of the machine that renders the frame.
     pub host: String,
-    /// The number of the process.
+    /// The id of the process that renders the frame.
     pub process: u32,
-    /// When it began, in seconds since 1970.
+    /// The time at which the process began, in seconds since 1970.
     pub since: u64,
 }
 
-/// A frame that failed.
+/// A frame that could not be rendered.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Failed {
-    /// Its number.
+    /// The number of the frame.
     pub frame: usize,
-    /// Why, in one line: script and line, message, body.
+    /// The reason in one line: script and line, body, and POV-Ray's message.
     pub reason: String,
 }
 
-/// The paths of a folder's contents.
+/// The paths and settings of a folder that contains scripts and their images.
 struct Place {
     scripts: PathBuf,
     images: PathBuf,
@@ -82,17 +81,17 @@ struct Place {
 }
 
 impl Status {
-    /// Like [`Status::read`], but also reads the images. Only images with the digest of their record count as done.
+    /// Reads the status like [`Status::read`], and also reads the images. An image counts as done only if it has the digest of its record.
     ///
     /// # Errors
-    /// The same as those of [`Status::read`].
+    /// If [`Status::read`] fails.
     pub fn verified(folder: &Path) -> io::Result<Status> {
         let place = Place::find(folder)?;
         let mut status = Status::of(&place)?;
         let verdict = |&frame: &usize| {
             let name = place.name(frame);
             let image = place.images.join(format!("{name}.png"));
-            // A file on a damaged disk may be unreadable in part.
+            // On a damaged disk, parts of a file may be unreadable. The image then counts as changed.
             let of_record = |record: Record| record.verify(&image).unwrap_or(Verdict::Changed);
             Record::read(&place.images, &name).map_or(Verdict::Unverified, of_record)
         };
@@ -107,11 +106,10 @@ impl Status {
         Ok(status)
     }
 
-    /// Reads a job folder, or a folder of scripts whose images are in its folder `images`. It does not read the images
-    /// themselves.
+    /// Reads the status of a job folder, or of a folder of scripts with a subfolder `images`. The images themselves are not read.
     ///
     /// # Errors
-    /// If the folder is neither, or cannot be read.
+    /// If the folder contains no scripts of jabuka's, or a file that the scripts read is missing.
     pub fn read(folder: &Path) -> io::Result<Status> {
         Status::of(&Place::find(folder)?)
     }
@@ -128,7 +126,7 @@ impl Status {
             let name = place.name(frame);
             let blurred = place.scripts.join(format!("{name}.pov").replacen("frame", "shutter", 1));
             let script = if blurred.is_file() { blurred } else { place.scripts.join(format!("{name}.pov")) };
-            // Without an image, there is nothing to compare.
+            // Without an image, the record need not be computed.
             let image = place.images.join(format!("{name}.png")).is_file();
             let expected =
                 image.then(|| Record::expected(&script, frame, &files, options, "").ok()).flatten();
@@ -150,14 +148,14 @@ impl Status {
         Ok(status)
     }
 
-    /// Whether all images are there.
+    /// Returns true if all requested frames have up-to-date images.
     pub fn is_complete(&self) -> bool {
         self.done.len() == self.frames.len() && !self.unfinished_scripts
     }
 
-    /// The status for people: how many frames are in each state, and which.
+    /// Returns the status as text for a terminal: the number of frames in each state, and their numbers.
     pub fn to_text(&self) -> String {
-        /// The number of failures that are shown.
+        /// The largest number of failed frames that are shown.
         const SHOWN: usize = 10;
         let list = |frames: &[usize]| frames.iter().copied().collect::<Selection>().to_string();
         let on_hosts = |running: &[Running]| {
@@ -212,7 +210,7 @@ impl Status {
 }
 
 impl Place {
-    /// The name of the script and the image of a frame, without the ending.
+    /// Returns the name of a frame's script and image, without extension: `frame_0007`.
     fn name(&self, frame: usize) -> String {
         format!("frame_{frame:0width$}", width = self.digits)
     }
@@ -243,7 +241,7 @@ impl Place {
             });
         }
         let found = output::scripts(&scripts).map_err(io::Error::other)?;
-        // A blurred frame has two scripts but one image.
+        // A frame with motion blur has two scripts but one image.
         let mut frames: Vec<usize> = found.into_iter().map(|(frame, _)| frame).collect();
         frames.dedup();
         let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
@@ -252,7 +250,8 @@ impl Place {
 }
 
 impl Running {
-    /// The marker of a frame that is being rendered, and whether it is fresh.
+    /// Reads the marker of a frame that is being rendered. Also returns true if the marker is recent, so that the process is probably
+    /// alive.
     fn read(images: &Path, name: &str, frame: usize) -> Option<(Running, bool)> {
         let path = images.join(HIDDEN).join("running").join(name);
         let touched = fs::metadata(&path).ok()?.modified().ok()?;
@@ -261,14 +260,14 @@ impl Running {
         let host = words.next()?.to_owned();
         let process = words.next()?.parse().ok()?;
         let since = words.next()?.parse().ok()?;
-        // The clock of another machine may be ahead.
+        // The clock of another machine may be ahead, so the age could be negative.
         let age = SystemTime::now().duration_since(touched).unwrap_or_default();
         Some((Running { frame, host, process, since }, age < HEARTBEATS))
     }
 }
 
 impl Failed {
-    /// Why a frame failed, unless its script has changed since.
+    /// Reads the reason of a frame's failure. `None` if the frame has not failed, or its script has changed since.
     fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
         let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
         let text = fs::read_to_string(&path).ok()?;
@@ -281,7 +280,7 @@ impl Failed {
     }
 }
 
-/// Whether a film consists of these images, according to the note of `render-video`.
+/// Returns true if the film exists and consists of these images, according to the digest that `render-video` has saved.
 fn is_made(film: &Path, how: &str, place: &Place) -> bool {
     let mut hasher = Sha256::new();
     hasher.update(format!("{how}\n"));

@@ -1,4 +1,4 @@
-//! Copies scripts that were compiled before into a job of their own.
+//! Copies existing scripts into the folder of a cluster job.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,10 +9,10 @@ use crate::emit::{COMMON, INI, MASTER};
 use crate::output::{self, Entry, Folder, Head, MANIFEST, Manifest, OutputError};
 use crate::render::files;
 
-/// The head of a folder's manifest, if its scripts are complete.
+/// Returns the header of a folder's manifest.
 ///
 /// # Errors
-/// If the folder has no scripts of jabuka's, or some are missing.
+/// If the folder contains no scripts of jabuka's, or some scripts are missing.
 pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
     match output::read_manifest(&scripts.join(MANIFEST)) {
         None => Err(OutputError::NoScripts(scripts.to_owned())),
@@ -23,11 +23,11 @@ pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
     }
 }
 
-/// Copies all scripts of a folder, and the files that belong to them, into the folder of a job. Equal files stay untouched, and
-/// obsolete ones are removed.
+/// Copies all scripts of a folder, and the files that they read, into the script folder of a job. Files that are already equal stay
+/// untouched, and obsolete ones are removed.
 ///
 /// # Errors
-/// If the scripts are not complete, or a file cannot be copied.
+/// If scripts are missing, or a file cannot be copied.
 pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     let io_error = |error| OutputError::Io(from.to_owned(), error);
     complete(from)?;
@@ -37,7 +37,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     }
     let names = scripts(from).map_err(io_error)?;
     let old = scripts(to.path()).map_err(|error| OutputError::Io(to.path().to_owned(), error))?;
-    // A file that the user has edited is set aside if a different file would replace it.
+    // A file that the user has edited is renamed before a different file replaces it.
     let known = Manifest::read(to.path()).map(|manifest| manifest.files).unwrap_or_default();
     let is_equal = |name: &str| matches!((fs::read(from.join(name)), fs::read(to.path().join(name))), (Ok(a), Ok(b)) if a == b);
     let replaced: Vec<&Entry> = known.iter().filter(|entry| !is_equal(&entry.name)).collect();
@@ -46,7 +46,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
         let path = to.path().join(name);
         fs::remove_file(&path).map_err(|error| OutputError::Io(path, error))?;
     }
-    // The manifest comes last: it marks the folder as complete.
+    // The manifest is copied last, since it marks the folder as complete.
     let last = names.get(MANIFEST);
     for name in names.iter().filter(|name| name.as_str() != MANIFEST).chain(last) {
         let path = from.join(name);
@@ -63,7 +63,7 @@ pub fn copy_scripts(from: &Path, to: &Folder) -> Result<(), OutputError> {
     to.settle(false)
 }
 
-/// The names of all of jabuka's files in a folder of scripts.
+/// Returns the names of all files that jabuka wrote into a folder of scripts, with their assets.
 fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
     let mut names: BTreeSet<String> = files::of_scripts(folder)?.into_iter().collect();
     names.extend(output::trail_files(folder)?);
@@ -82,7 +82,8 @@ fn scripts(folder: &Path) -> io::Result<BTreeSet<String>> {
     Ok(names)
 }
 
-/// The size of the images of a folder of scripts, and whether they have alpha, according to its `animation.ini`.
+/// Returns the width and height of the images (pixels), and whether they have an alpha channel. Reads `animation.ini` in the folder of the
+/// scripts.
 pub fn size(scripts: &Path) -> ([u32; 2], bool) {
     let ini = fs::read_to_string(scripts.join(INI)).unwrap_or_default();
     let value = |key: &str| ini.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix('='));

@@ -1,4 +1,4 @@
-//! Writes files that users may edit, without losing their edits.
+//! Writes the files of a job folder that users may edit, without losing their edits.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,16 +11,16 @@ use super::Edits;
 use super::texts::Text;
 use crate::output::{self, Folder, OutputError};
 
-/// The file that marks a folder as one of jabuka's jobs. It holds the digests of files as jabuka wrote them.
+/// The name of the file that marks a folder as one of jabuka's job folders. It contains the digests of the files as jabuka wrote them.
 const MARKS: &str = ".jabuka-job.json";
 
 const GENERATOR: &str = "jabuka";
 
-/// The digests of the files that jabuka wrote into a job folder.
+/// The digests of the files that jabuka wrote into a job folder. A file with another digest was edited.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Marks {
     generator: String,
-    /// Names and digests.
+    /// The SHA-256 of each file in hexadecimal, by file name.
     files: BTreeMap<String, String>,
 }
 
@@ -31,7 +31,7 @@ impl Default for Marks {
 }
 
 impl Marks {
-    /// Reads the marks of a folder; none if it is not one of jabuka's jobs.
+    /// Reads the digests of the files in a job folder. `None` if jabuka did not make the folder.
     pub(super) fn read(folder: &Path) -> Option<Marks> {
         let marks: Marks = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
         (marks.generator == GENERATOR).then_some(marks)
@@ -43,7 +43,8 @@ impl Marks {
     }
 }
 
-/// Writes the texts, except those that have been edited.
+/// Writes files into a job folder. An edited file that users may edit stays; its new text goes to a file `.new`. Any other edited file is
+/// renamed to `.old`.
 pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
     let mut marks = Marks::read(folder.path()).unwrap_or_default();
     let mut edits = Edits::default();
@@ -68,7 +69,7 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
             put(folder, text.name, text)?;
         }
         marks.files.insert(text.name.to_owned(), is);
-        // After every file, so that the run after a killed one does not take jabuka's own files for edited ones.
+        // The digests are saved after every file. If the process is killed, the next one does not take jabuka's own files for edited ones.
         marks.write(folder)?;
     }
     Ok(edits)
@@ -82,7 +83,7 @@ fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
         let path = folder.path().join(name);
         let permit = |path: &Path| {
             let mut permissions = fs::metadata(path)?.permissions();
-            // Everyone who may read the file may also run it.
+            // Everyone who may read the file may also execute it.
             let mode = permissions.mode();
             permissions.set_mode(mode | (mode & 0o444) >> 2);
             fs::set_permissions(path, permissions)

@@ -1,7 +1,7 @@
 //! Job folders: everything that several machines need to render a film together, without jabuka.
 //!
-//! A job folder holds the scripts, the images, and `render-chunk`, a bash script that renders some of the frames and that every
-//! engine calls. Its texts are in `templates/batch/`.
+//! A job folder contains the scripts, the images, and `render-chunk`, a bash script that renders some of the frames. Every engine (a job
+//! scheduler such as Slurm) calls `render-chunk`. The texts of the files are in `templates/batch/`.
 
 mod copy;
 mod edits;
@@ -22,20 +22,20 @@ use super::record::HIDDEN;
 use super::{Pace, Quality};
 use crate::output::{self, Folder, OutputError};
 
-/// The folder of the scripts in a job folder.
+/// The subfolder of a job folder that contains the scripts.
 pub const SCRIPTS: &str = "scripts";
 
-/// The program that distributes the frames to machines.
+/// The job scheduler that distributes the frames to machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// Slurm.
+    /// The workload manager Slurm.
     Slurm,
-    /// A manager of render farms that reads Open Job Descriptions.
+    /// A render-farm manager that reads Open Job Descriptions (OpenJD).
     OpenJd,
 }
 
 impl Engine {
-    /// Its name on the command line.
+    /// Returns the name of the engine on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Engine::Slurm => "slurm",
@@ -44,44 +44,44 @@ impl Engine {
     }
 }
 
-/// A job folder that this process alone writes to.
+/// A job folder that is locked, so that only this process writes to it.
 pub struct JobFolder {
     folder: Folder,
 }
 
-/// The treatment of the files that users may edit.
+/// What happened to edited files of a job folder when it was written again. Files are given by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits {
-    /// Edited files that were kept.
+    /// The edited files that were kept.
     pub kept: Vec<&'static str>,
-    /// The kept files that jabuka would now write differently. The new text is beside each, with the ending `.new`.
+    /// The kept files whose text would now be different. The new text is in a file beside each, with the extension `.new`.
     pub new: Vec<&'static str>,
-    /// Edited files that jabuka had to replace, each with its present name, as in `submit.old`.
+    /// The edited files that jabuka had to replace, each with the new name of the edited version, such as `submit.old`.
     pub moved: Vec<(&'static str, String)>,
 }
 
 impl JobFolder {
-    /// Opens a job folder: a new or empty one, or one that jabuka made.
+    /// Opens and locks a job folder: a new or empty folder, or one that jabuka made.
     ///
     /// # Errors
-    /// If the folder belongs to something else, another process writes to it, or it cannot be used.
+    /// If jabuka did not make the folder, another process writes to it, or it cannot be created or read.
     pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
         let folder = Folder::open_marked(path, &|path| edits::Marks::read(path).is_some())?;
         let job = JobFolder { folder };
-        // From the first moment on, the folder is marked as jabuka's.
+        // The folder is marked as jabuka's at once, so that jabuka can open it again if this process is killed.
         edits::Marks::read(path).unwrap_or_default().write(&job.folder)?;
         Ok(job)
     }
 
-    /// The folder for its scripts, to be written like any other.
+    /// Opens the subfolder for the scripts of the job, for writing.
     ///
     /// # Errors
-    /// If it cannot be used.
+    /// If the subfolder cannot be opened as an output folder.
     pub fn scripts(&self) -> Result<Folder, OutputError> {
         Folder::open(&self.folder.path().join(SCRIPTS))
     }
 
-    /// Writes everything but the scripts. No user's edit is lost.
+    /// Writes all files of a job except the scripts. Edits by users are kept or moved; the result lists them.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -92,7 +92,7 @@ impl JobFolder {
         requirements: &Requirements,
     ) -> Result<Edits, OutputError> {
         let path = self.folder.path();
-        // A log without a folder makes its job fail without a message.
+        // The engine writes logs into `logs`. If that folder is missing, the job fails without a message.
         for folder in ["logs", "images", &format!("images/{HIDDEN}")] {
             let folder = path.join(folder);
             fs::create_dir_all(&folder).map_err(|error| OutputError::Io(folder, error))?;
@@ -101,21 +101,22 @@ impl JobFolder {
     }
 }
 
-/// The number of up-to-date images of a job folder, and the number of requested ones.
+/// Returns the number of up-to-date images in a job folder, and the number of requested frames.
 ///
 /// # Errors
-/// If a file that the scripts read is missing.
+/// If the folder has no scripts or settings that can be read, or a file that the scripts read is missing.
 pub fn up_to_date(folder: &Path) -> io::Result<(usize, usize)> {
     let status = super::status::Status::read(folder)?;
     Ok((status.done.len(), status.frames.len()))
 }
 
-/// The settings of a job for the scripts of a folder.
+/// Makes the settings of a cluster job for the scripts of a folder.
 ///
-/// `frames` are the requested ones; `None` stands for all that have scripts. `video_rate` is the film's, if it is given.
+/// `frames` are the requested frames, or `None` for all frames that have scripts. `video_rate` is the frame rate of the film, `None` for
+/// the rate in the manifest.
 ///
 /// # Errors
-/// If the folder has no complete set of jabuka's scripts.
+/// If scripts of the folder are missing, or the folder contains none of jabuka's.
 pub fn settings(
     scripts: &Path,
     frames: Option<&crate::simulate::Selection>,
@@ -128,7 +129,7 @@ pub fn settings(
         .map(|(frame, _)| frame)
         .filter(|frame| frames.is_none_or(|frames| frames.contains(*frame)))
         .collect();
-    // A blurred frame has two scripts but one image.
+    // A frame with motion blur has two scripts but one image.
     frames.dedup();
     let blurred = fs::read_dir(scripts).map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
     let blurred = blurred.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("shutter_"));
@@ -153,7 +154,8 @@ pub fn settings(
     })
 }
 
-/// The files that all scripts read. Their names must be valid in the settings, where each takes up a line.
+/// Returns the names of the files that all scripts read. Refuses control characters in names, since each name takes one line of the
+/// settings.
 fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
     let files = super::files::of_scripts(scripts);
     let files = files.map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
@@ -164,18 +166,18 @@ fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
     Ok(files)
 }
 
-/// The name of a job for a scene. Commas, braces and other characters have a meaning for engines, so all but letters, digits
-/// and `-_.` become `_`.
+/// Makes the name of a cluster job from the name of a scene. Commas, braces and other characters have a meaning for engines, so all
+/// characters but letters, digits and `-_.` become `_`.
 fn job_name(scene: &str) -> String {
-    /// The limit of Open Job Description is 128.
+    /// The largest number of characters taken from the scene's name. Open Job Description limits the whole name to 128 characters.
     const MOST_CHARACTERS: usize = 100;
     let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
     let name: String = scene.chars().take(MOST_CHARACTERS).map(plain).collect();
     format!("jabuka-{name}")
 }
 
-/// The default number of frames in one job of an engine: few enough that a failure costs little, enough for all processors, and
-/// at most 1000 jobs.
+/// Returns the default number of frames in one job of an engine. It is small enough that a failure costs little, keeps all processors
+/// busy, and gives at most 1000 jobs.
 pub fn chunk(frames: usize, cpus: usize) -> usize {
     frames.div_ceil(1000).max(10).max(cpus.saturating_mul(4))
 }

@@ -1,4 +1,4 @@
-//! The settings of a job folder, `job.conf`, for the scripts that run on the nodes.
+//! The settings of a cluster job, for the bash scripts that run on the nodes. They are in the file `job.conf` of the job folder.
 
 use std::fs;
 use std::io;
@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use crate::render::{Format, Pace, Quality};
 use crate::simulate::Selection;
 
-/// The name of the file in its folder.
+/// The name of the settings file in a job folder.
 pub const SETTINGS: &str = "job.conf";
-/// The name of the file with the user's own settings, which override the others.
+/// The name of the file with the user's own settings. They override those of `job.conf`.
 const OWN: &str = "local.conf";
 
-/// The keys of the settings.
+/// The keys that a settings file may contain.
 const KEYS: [&str; 17] = [
     "JOB",
     "FRAMES",
@@ -33,51 +33,51 @@ const KEYS: [&str; 17] = [
     "PROCESSES",
 ];
 
-/// The settings of a job.
+/// The settings of a cluster job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The name of the job, of letters, digits and `-_.`.
+    /// The name of the job: letters, digits and `-_.`.
     pub job: String,
-    /// The frames to be rendered, in their order.
+    /// The numbers of the frames to render, in ascending order.
     pub frames: Vec<usize>,
     /// The number of the last frame of the whole scene.
     pub last_frame: usize,
-    /// The time of that frame, s.
+    /// The simulated time of the scene's last frame, s.
     pub end: f64,
-    /// The number of digits in the names of frames.
+    /// The number of digits of the frame number in file names.
     pub digits: usize,
-    /// The speed of the film.
+    /// The frame rate of the film, and its speed relative to the scene.
     pub pace: Pace,
-    /// The quality of the film.
+    /// The quality of the film's encoding.
     pub video_quality: Quality,
     /// The number of frames that one job of the engine renders.
     pub chunk: usize,
-    /// The options of POV-Ray that affect pixels.
+    /// The command-line options of POV-Ray that affect pixels.
     pub options: String,
-    /// The files that all scripts read, by their names in the folder of the scripts.
+    /// The files that all scripts read, as paths relative to the folder of the scripts.
     pub files: Vec<String>,
-    /// Whether some frames are averages of several moments.
+    /// True if frames have motion blur: an image is then the mean of several moments.
     pub blurred: bool,
-    /// Whether the scripts may read all files, and write in the job's folder: the user trusts the scene.
+    /// True if the user trusts the scene: the scripts may then read all files, and write in the job folder.
     pub trust: bool,
-    /// The time limit for one frame, s.
+    /// The time limit for rendering one frame, s.
     pub limit: u64,
 }
 
-/// The settings in force for the existing scripts, including the user's changes.
+/// The current settings of an existing job folder, with the user's changes from `local.conf`.
 #[derive(Clone, Debug)]
 pub(crate) struct InForce {
     pub(crate) frames: Selection,
     pub(crate) options: String,
     pub(crate) files: Vec<PathBuf>,
-    /// The settings of the film besides its images: frame rate and options of ffmpeg.
+    /// The settings that affect the film but not its images: the frame rate and the options of ffmpeg.
     pub(crate) film: String,
 }
 
 impl Settings {
-    /// The settings as text for the scripts.
+    /// Returns the settings as the text of `job.conf`.
     ///
-    /// Every value is the rest of its line and is never run, so it needs no quotes, but must not contain line breaks.
+    /// Every value is the rest of its line and is never executed. So values need no quotes, but must not contain line breaks.
     pub(super) fn to_text(&self) -> String {
         let frames: Selection = self.frames.iter().copied().collect();
         let files: Vec<String> = self.files.iter().map(|file| format!("FILE={file}")).collect();
@@ -103,15 +103,15 @@ impl Settings {
 }
 
 impl InForce {
-    /// Reads the settings of a job folder; `None` if it has none, so that it is no job folder.
+    /// Reads the settings of a job folder. `None` if the folder has no settings file, so that it is not a job folder.
     ///
     /// # Errors
-    /// If a file of settings cannot be read or understood.
+    /// If a settings file cannot be read or understood.
     pub(crate) fn read(folder: &Path) -> io::Result<Option<InForce>> {
         let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
         values.extend(values_of_user(folder)?);
         let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
-        // If a key occurs in several lines, the last one counts.
+        // If several lines set a key, the last one counts.
         let one = |key: &str| {
             let value = values.iter().rev().find(|(set, _)| set == key).map(|(_, value)| value.as_str());
             value.ok_or_else(|| {
@@ -134,12 +134,12 @@ impl InForce {
     }
 }
 
-/// The user's settings, if there are any.
+/// Reads the user's own settings of a job folder. They are empty if `local.conf` does not exist.
 fn values_of_user(folder: &Path) -> io::Result<Vec<(String, String)>> {
     Ok(values(folder, OWN)?.unwrap_or_default())
 }
 
-/// The keys and values of a file of settings, read as `settings.sh` reads them; `None` if there is no such file.
+/// Reads the keys and values of a settings file, by the same rules as `settings.sh`. `None` if the file does not exist.
 fn values(folder: &Path, name: &str) -> io::Result<Option<Vec<(String, String)>>> {
     let bytes = match fs::read(folder.join(name)) {
         Ok(bytes) => bytes,
@@ -174,7 +174,7 @@ fn values(folder: &Path, name: &str) -> io::Result<Option<Vec<(String, String)>>
     Ok(Some(values))
 }
 
-/// Replaces `@key@` in a text by values, in one pass: the values themselves are not searched for keys.
+/// Replaces each `@key@` in a text by its value. This happens in one pass, so that keys inside of values stay as they are.
 pub(super) fn fill(text: &str, values: &[(&str, &str)]) -> String {
     let mut filled = String::new();
     let mut rest = text;
@@ -222,7 +222,7 @@ pub(super) mod tests {
         }
     }
 
-    /// Every value as `settings.sh` reads it, each followed by `|`; or the error message.
+    /// Returns every value as `settings.sh` reads it, each followed by `|`. Returns the error message if `settings.sh` fails.
     fn read_by_bash(folder: &Path) -> Result<String, String> {
         fs::write(folder.join("settings.sh"), include_str!("../../../templates/batch/settings.sh")).unwrap();
         let print = "set -euo pipefail; export LC_ALL=C; source ./settings.sh; printf '%s|' \"$JOB\" \"$FRAMES\" \
@@ -233,7 +233,7 @@ pub(super) mod tests {
         if output.status.success() { Ok(text(output.stdout)) } else { Err(text(output.stderr)) }
     }
 
-    /// Texts that a shell or a second substitution would interpret.
+    /// Values that a shell or a second substitution would execute or replace.
     const HOSTILE: [&str; 9] = [
         "a$(touch PWNED)",
         "a`touch PWNED`",
@@ -305,7 +305,7 @@ pub(super) mod tests {
             let rust = InForce::read(folder.path()).unwrap_err().to_string();
             assert!(rust.contains(said), "{rust}");
         }
-        // Bash runs code in the index of a variable in arithmetic.
+        // In arithmetic, bash executes commands in the index of an array variable, so these values must be refused.
         for key in
             ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED", "TRUST"]
         {

@@ -1,33 +1,33 @@
-//! The files of a job folder, from `templates/batch/`.
+//! Makes the files of a job folder from the templates in `templates/batch/`.
 
 use super::settings::fill;
 use super::{Engine, SETTINGS, Settings};
 use crate::simulate::Selection;
 
-/// The resources that a job requests. The user can fill in missing ones by editing the file.
+/// The computing resources that a job requests. The user can set missing ones by editing the job's files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Requirements {
-    /// The partition of Slurm.
+    /// The Slurm partition (queue) to submit to.
     pub partition: Option<String>,
-    /// The account of Slurm.
+    /// The Slurm account to charge.
     pub account: Option<String>,
-    /// The time limit for a chunk, as Slurm writes it.
+    /// The time limit for a chunk of frames, in Slurm's notation.
     pub time: Option<String>,
-    /// The processors for a chunk.
+    /// The number of processors for a chunk of frames.
     pub cpus: Option<usize>,
-    /// The memory for a chunk, as Slurm writes it.
+    /// The memory for a chunk of frames, in Slurm's notation.
     pub memory: Option<String>,
-    /// The modules to load, as `module load` takes them.
+    /// The environment modules to load, as arguments of `module load`.
     pub modules: Option<String>,
 }
 
-/// A file of a job folder.
+/// A file of a job folder, with its name and text.
 pub(super) struct Text {
     pub(super) name: &'static str,
     pub(super) text: String,
-    /// Whether users are meant to edit it.
+    /// True if users may edit the file, so that jabuka keeps their edits.
     pub(super) users: bool,
-    /// Whether it is executable.
+    /// True if the file is executable.
     pub(super) runs: bool,
 }
 
@@ -53,7 +53,7 @@ const OPENJD_FILES: &str = "\
 | `template.yaml` | the job; `-p Frames=7,13-24` renders only some |
 | `asset_references.yaml` | files beyond this folder: none |";
 
-/// All files of a job folder but its scripts.
+/// Makes all files of a job folder except the scripts.
 pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirements) -> Vec<Text> {
     let own = |name, text: String, runs| Text { name, text, users: false, runs };
     let users = |name, text| Text { name, text, users: true, runs: false };
@@ -106,7 +106,7 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
     texts
 }
 
-/// The `#SBATCH` lines: requested resources, and the others commented out.
+/// Returns the `#SBATCH` lines of a Slurm script: those for the requested resources, and commented-out examples of all others.
 fn slurm(requirements: &Requirements) -> String {
     let line = |option: &str, value: Option<&str>, example: &str| match value {
         Some(value) => format!("#SBATCH --{option}={value}"),
@@ -133,12 +133,12 @@ fn modules(requirements: &Requirements) -> String {
     }
 }
 
-/// A text as a quoted YAML string, cut to the longest valid name.
+/// Quotes a text as a YAML string, shortened to the longest valid name.
 fn yaml(text: &str) -> String {
-    /// The limit of Open Job Description.
+    /// The largest number of characters in a name, according to Open Job Description.
     const MAX: usize = 128;
     let text: String = text.chars().take(MAX).collect();
-    // A JSON string is a YAML string as well. Braces would be a reference.
+    // A JSON string is also a YAML string. Double braces are replaced, since Open Job Description reads them as a variable.
     serde_json::Value::String(text.replace("{{", "(").replace("}}", ")")).to_string()
 }
 

@@ -1,4 +1,4 @@
-//! Why a film or a contact sheet could not be made.
+//! The errors of making a film or a contact sheet.
 
 use std::fmt;
 use std::io;
@@ -7,59 +7,60 @@ use std::path::PathBuf;
 use super::{Format, Pace};
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Why a film or a contact sheet could not be made.
+/// An error of making a film or a contact sheet.
 #[derive(Debug)]
 pub enum FilmError {
-    /// The ending of the film's name is none of the known formats.
+    /// The extension of the film's name is not that of a known format.
     FilmName(PathBuf),
     /// The name of the contact sheet does not end in `.png`.
     SheetName(PathBuf),
-    /// There is a folder where the film or the sheet should be.
+    /// The path of the film or the contact sheet is that of a folder.
     Folder(PathBuf),
-    /// There are no images.
+    /// There are no images to make a film or a contact sheet from.
     NoImages,
-    /// No film can be shown at this rate, in frames per second.
+    /// The frame rate is outside of the allowed range. The number is in frames per second.
     Rate(f64),
-    /// The format of the film has no choice of quality.
+    /// A quality was requested for a format that has no choice of quality.
     NoQuality(PathBuf),
     /// The images are too large for a film of this format.
     TooLarge {
-        /// The format.
+        /// The format of the film.
         format: Format,
-        /// Width and height of the images, pixels.
+        /// The width and height of the images, pixels.
         size: [u32; 2],
-        /// The longest side that the format allows, pixels.
+        /// The longest side of an image that the format allows, pixels.
         most: u32,
     },
-    /// There is no ffmpeg: the program that was looked for, and why it cannot be used.
+    /// ffmpeg cannot be used: the path of the program, and the reason.
     NoFfmpeg(PathBuf, String),
-    /// This ffmpeg was built without an encoder that is needed.
+    /// This ffmpeg was built without the required encoder: the path of the program, and the name of the encoder.
     NoEncoder(PathBuf, &'static str),
-    /// An image is missing, or is no complete PNG: its path, and the reason.
+    /// An image is missing, or is not a complete PNG: its path, and the reason.
     Image(PathBuf, String),
     /// Two images differ in size.
     Sizes {
-        /// The first image, its width and height.
+        /// The path of the first image, with its width and height in pixels.
         first: (PathBuf, (usize, usize)),
-        /// The first one of another size.
+        /// The path of the first image of a different size, with its width and height in pixels.
         other: (PathBuf, (usize, usize)),
     },
     /// Another process writes the same file.
     Locked(PathBuf),
-    /// There is no room for the file.
+    /// The disk has no space left for the file.
     DiskFull(PathBuf),
     /// A file could not be written.
     Io(PathBuf, io::Error),
-    /// ffmpeg failed: the file, how ffmpeg ended, and its last messages.
+    /// ffmpeg failed: the path of the film, how ffmpeg ended, and its last messages.
     Failed(PathBuf, String, String),
-    /// ffmpeg ended well, but the numbers of frames and images differ: the file, its frames, and the images.
+    /// ffmpeg reported success, but the numbers of frames and images differ: the path of the film, the number of frames, and the number of
+    /// images.
     Count(PathBuf, usize, usize),
-    /// The user has asked to stop.
+    /// The user has stopped the program.
     Cancelled,
 }
 
 impl FilmError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// Returns the diagnostic code of this error.
     pub fn code(&self) -> Code {
         match self {
             FilmError::FilmName(_) | FilmError::SheetName(_) => Code::BadFilmName,
@@ -78,7 +79,7 @@ impl FilmError {
         }
     }
 
-    /// The error as a diagnostic.
+    /// Returns the error as a diagnostic, with advice.
     pub fn report(&self) -> Report {
         let diagnostic = Diagnostic::error(self.code(), self.to_string());
         let diagnostic = match self.help() {
@@ -88,7 +89,7 @@ impl FilmError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// How to fix it, where the message does not make that plain.
+    /// Returns advice on how to correct the error. `None` if the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             FilmError::FilmName(_) => Some(
@@ -124,7 +125,7 @@ impl FilmError {
         }
     }
 
-    /// The error of an output file; a full disk has an error of its own.
+    /// Returns a function that converts an I/O error of this output file. A full disk becomes [`FilmError::DiskFull`].
     pub(in crate::render) fn io(path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> FilmError {
         let path = path.into();
         |error| match error.kind() {

@@ -1,4 +1,4 @@
-//! Finds ffmpeg and runs it.
+//! Finds the program ffmpeg and runs it.
 
 use std::collections::VecDeque;
 use std::ffi::OsString;
@@ -14,7 +14,7 @@ use super::super::started::Started;
 use super::{FilmError, Format};
 use crate::sandbox::{Confinement, Needs};
 
-/// An installed ffmpeg that can make a film of some format.
+/// An installed ffmpeg that has the encoder for the format of a film.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ffmpeg {
     program: PathBuf,
@@ -22,20 +22,20 @@ pub struct Ffmpeg {
     confinement: Confinement,
 }
 
-/// The result of a run of ffmpeg.
+/// The result of a run of ffmpeg that was not cancelled.
 pub(super) struct End {
-    /// Whether ffmpeg reports success, which is not always true.
+    /// True if ffmpeg's exit status means success. The film can be broken even then.
     pub(super) success: bool,
-    /// How it ended: "ended with code 1".
+    /// How ffmpeg ended, as text: "ended with code 1".
     pub(super) how: String,
-    /// Its last messages.
+    /// The last lines of ffmpeg's error output.
     pub(super) said: String,
-    /// The number of frames that it has written.
+    /// The number of frames that ffmpeg has written.
     pub(super) frames: usize,
 }
 
 impl Ffmpeg {
-    /// Looks for a program, or for `ffmpeg` in the `PATH`, and asks it for the encoder of a format.
+    /// Finds ffmpeg, and checks that it has the encoder for a format. `program` is its path or name, `None` for `ffmpeg` in the `PATH`.
     pub(super) fn find(
         program: Option<&Path>,
         format: Format,
@@ -65,21 +65,21 @@ impl Ffmpeg {
         Ok(Ffmpeg { program: program.to_owned(), version: version.to_owned(), confinement })
     }
 
-    /// Its path, or its name if that was enough to find it.
+    /// Returns the path of the program, or the name that the `PATH` was searched for.
     pub fn program(&self) -> &Path {
         &self.program
     }
 
-    /// The version, such as `5.1.6-0+deb12u1`.
+    /// Returns the version of ffmpeg, such as `5.1.6-0+deb12u1`.
     pub fn version(&self) -> &str {
         &self.version
     }
 
-    /// Runs it with write access to the file `film` only. `feed` writes to its standard input, on a thread of its own;
-    /// `progress` receives the number of written frames.
+    /// Runs ffmpeg with write access to the file `film` only. `feed` writes to ffmpeg's standard input, on a thread of its own. `progress`
+    /// receives the number of written frames.
     ///
     /// # Errors
-    /// If it cannot be run, `feed` fails, or `cancelled` returns true.
+    /// If ffmpeg cannot be started, `feed` fails, or `cancelled` returns true.
     pub(super) fn run(
         &self,
         arguments: &[OsString],
@@ -96,9 +96,9 @@ impl Ffmpeg {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
-            // Its messages are searched for English words.
+            // ffmpeg's messages must be in English, since they are searched for English words.
             .env("LC_ALL", "C")
-            // Either variable would add unwanted output to the messages or to the folder.
+            // The first variable adds colors to ffmpeg's messages. The second makes it write a log file.
             .env_remove("AV_LOG_FORCE_COLOR")
             .env_remove("FFREPORT");
         let started = Started::new(&mut command);
@@ -128,18 +128,18 @@ impl Ffmpeg {
                 thread::sleep(Duration::from_millis(10));
             };
             stop.store(true, Ordering::Relaxed);
-            // From here on, no thread waits for ffmpeg: its ends of the pipes are closed.
+            // After this, ffmpeg's ends of the pipes are closed, so no other thread waits for ffmpeg any longer.
             let exit = running.end();
             if stopped {
                 return Err(FilmError::Cancelled);
             }
-            // A panic of that thread would be a bug in this file.
+            // A panic of the feeding thread would be a bug in this file, so it is ignored.
             feeder.join().unwrap_or(Ok(()))?;
             let said = said.join().unwrap_or_default();
             Ok(End { success: exit.is_some_and(|exit| exit.success()), how: how(exit), said, frames: 0 })
         })
         .map(|end| {
-            // The last frames may have been counted after the last poll.
+            // The last frames may have been counted after the loop has looked for the last time.
             let frames = frames.load(Ordering::Relaxed);
             if frames != shown {
                 progress(frames);
@@ -158,7 +158,7 @@ fn how(exit: Option<ExitStatus>) -> String {
     }
 }
 
-/// Follows the progress messages of ffmpeg: lines such as `frame=25`.
+/// Reads ffmpeg's progress messages to their end, and stores the number of written frames from lines such as `frame=25`.
 fn count(output: impl Read, frames: &AtomicUsize) {
     for line in BufReader::new(output).lines().map_while(Result::ok) {
         if let Some(number) = line.strip_prefix("frame=").and_then(|text| text.trim().parse().ok()) {
@@ -167,7 +167,7 @@ fn count(output: impl Read, frames: &AtomicUsize) {
     }
 }
 
-/// Reads to the end, and keeps the last few lines, shortened, without characters that control a terminal.
+/// Reads to the end, and returns the last few lines. Long lines are shortened, and characters that control a terminal are removed.
 fn last_lines(mut from: impl Read) -> String {
     const LINES: usize = 8;
     const BYTES: usize = 4000;

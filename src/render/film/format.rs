@@ -1,4 +1,4 @@
-//! The formats of films, and ffmpeg's options for them.
+//! The formats of films, and the options of ffmpeg for each of them.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -7,22 +7,22 @@ use super::next_even;
 use crate::render::Quality;
 use crate::render::picture::Size;
 
-/// A format of films.
+/// The file format of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// H.264 in MP4.
+    /// H.264 video in an MP4 file.
     Mp4,
-    /// An animated GIF that loops forever.
+    /// VP9 video in a WebM file.
     Webm,
-    /// An animated GIF that never ends.
+    /// An animated GIF that loops forever.
     Gif,
 }
 
 impl Format {
-    /// All formats.
+    /// All formats of films.
     pub const ALL: [Format; 3] = [Format::Mp4, Format::Webm, Format::Gif];
 
-    /// The ending of film names, which is also ffmpeg's name of the format.
+    /// Returns the file extension of the format, which is also ffmpeg's name for it.
     pub fn extension(self) -> &'static str {
         match self {
             Format::Mp4 => "mp4",
@@ -31,13 +31,13 @@ impl Format {
         }
     }
 
-    /// The format that belongs to the ending of a name.
+    /// Returns the format that belongs to the extension of a path. `None` for unknown extensions.
     pub(super) fn of(path: &Path) -> Option<Format> {
         let extension = path.extension()?;
         Format::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// The name of the encoder in ffmpeg.
+    /// Returns ffmpeg's name of the encoder.
     pub(super) fn encoder(self) -> &'static str {
         match self {
             Format::Mp4 => "libx264",
@@ -46,7 +46,8 @@ impl Format {
         }
     }
 
-    /// The indices of the images from which ffmpeg computes the palette of a GIF; ffmpeg gets them before all images.
+    /// Returns the indices of the images from which ffmpeg computes the palette of a GIF. ffmpeg receives these images first, and then all
+    /// images. Other formats have no palette.
     ///
     /// For a palette of all images, ffmpeg would hold all of them in memory: 3.7 MB for each of 1280 × 720 pixels.
     pub(super) fn samples(self, images: usize) -> Vec<usize> {
@@ -57,7 +58,8 @@ impl Format {
         }
     }
 
-    /// Tells ffmpeg to read pixels from its standard input, and to make a film of this format from them.
+    /// Returns the arguments of ffmpeg for reading raw pixels from its standard input and making a film of this format. `samples` is the
+    /// number of images for the palette.
     pub(super) fn arguments(
         self,
         (width, height): Size,
@@ -66,7 +68,7 @@ impl Format {
         quality: Quality,
     ) -> Vec<OsString> {
         let (pixels, width, height) = match self {
-            // Transparency and odd sizes: see the documentation of the module `film`.
+            // The documentation of the module `film` explains how transparency and odd sizes are handled.
             Format::Gif => ("rgba", width, height),
             Format::Mp4 | Format::Webm => ("rgb24", next_even(width), next_even(height)),
         };
@@ -76,29 +78,29 @@ impl Format {
         words.extend(["-filter_complex".to_owned(), self.filters(samples)]);
         words.extend(self.codec(quality).split(' ').map(str::to_owned));
         if self == Format::Mp4 {
-            // So a browser can begin to play before it has the whole film.
+            // A browser can then begin to play the film before it has loaded the whole file.
             words.extend(["-movflags", "+faststart"].map(str::to_owned));
         }
         if self != Format::Gif {
-            // Fixed, since the bytes depend on it.
+            // The number of threads is fixed, since the bytes of the film depend on it.
             let options = "-threads 8 -pix_fmt yuv420p \
                            -colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
             words.extend(options.split_whitespace().map(str::to_owned));
         }
-        // No version and no time, which would differ between equal films.
+        // ffmpeg must not write its version and the time into the file, so that equal films have equal bytes.
         words.extend(["-fflags", "+bitexact", "-flags:v", "+bitexact"].map(str::to_owned));
         words.extend(["-y", "-f", self.extension()].map(str::to_owned));
         words.into_iter().map(OsString::from).collect()
     }
 
-    /// The options of ffmpeg for the encoder and its quality. A lower number after `-crf` means a better picture.
+    /// Returns the options of ffmpeg for the encoder and its quality. A lower number after `-crf` means a better picture.
     pub(in crate::render) fn codec(self, quality: Quality) -> &'static str {
-        // Each quality of VP9 is near that of H.264, by SSIM.
+        // The numbers for VP9 give about the same quality as those for H.264, measured by SSIM.
         match (self, quality) {
             (Format::Mp4, Quality::Draft) => "-c:v libx264 -preset veryfast -crf 28",
-            // Hard to tell from the images.
+            // The film looks almost the same as the images.
             (Format::Mp4, Quality::Good) => "-c:v libx264 -preset medium -crf 18",
-            // For a film that is cut and encoded again.
+            // This quality is for films that will be cut and encoded again.
             (Format::Mp4, Quality::Final) => "-c:v libx264 -preset slow -crf 12",
             (Format::Webm, Quality::Draft) => {
                 "-c:v libvpx-vp9 -crf 40 -b:v 0 -deadline good -cpu-used 5 -row-mt 1"
@@ -113,7 +115,7 @@ impl Format {
         }
     }
 
-    /// The longest side of an image that the encoder accepts, pixels.
+    /// Returns the longest side of an image that the encoder accepts, pixels.
     pub(super) fn longest_side(self) -> u32 {
         match self {
             Format::Mp4 | Format::Webm => 16384,
@@ -121,7 +123,7 @@ impl Format {
         }
     }
 
-    /// The filters between the images and the encoder.
+    /// Returns the ffmpeg filters between the images and the encoder: color conversion, and the palette of a GIF.
     fn filters(self, samples: usize) -> String {
         match self {
             Format::Mp4 | Format::Webm => {
@@ -130,7 +132,8 @@ impl Format {
                  setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709"
                     .to_owned()
             }
-            // The pattern of `bayer` stands still, whereas error diffusion flickers; it also compresses best.
+            // The dithering pattern of `bayer` stays in place from frame to frame, whereas error diffusion flickers. It also compresses
+            // best.
             Format::Gif => format!(
                 "split[first][rest];\
                  [first]trim=end_frame={samples},palettegen=stats_mode=full[palette];\

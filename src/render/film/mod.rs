@@ -1,25 +1,26 @@
-//! Images → film, by ffmpeg.
+//! Makes films from images, by ffmpeg.
 //!
-//! jabuka reads the images and pipes their pixels to ffmpeg. So images with any names make a film, a broken image can be named,
-//! and ffmpeg's own PNG reader is not needed. A film has as many frames as there are images; ffmpeg's count is checked.
+//! jabuka reads the images and pipes their pixels to ffmpeg. So images with any names make a film, a broken image can be named, and
+//! ffmpeg's own PNG reader is not needed. A film has as many frames as there are images; ffmpeg's count is checked.
 //!
-//! **Colors.** The bytes are sRGB. For `.mp4` and `.webm`, they are converted by the BT.709 matrix to the limited range, and
-//! the film is marked so; without the mark, players guess from the size. Color has half the resolution (4:2:0), since nothing
-//! else plays everywhere.
+//! **Colors.** The bytes of the images are sRGB. For `.mp4` and `.webm`, they are converted by the BT.709 matrix to the limited range, and
+//! the film's metadata says so. Without this metadata, players guess the matrix from the size. Color has half the resolution of brightness
+//! (4:2:0), since many players support nothing else.
 //!
-//! **Sizes.** `.mp4` and `.webm` need even widths and heights. An odd one gets one more column or row, a copy of the last.
+//! **Sizes.** `.mp4` and `.webm` need even widths and heights. An image with an odd width or height gets one more column or row, a copy of
+//! the last.
 //!
-//! **Transparency.** `.mp4` and `.webm` show transparent pixels on white. A `.gif` keeps transparency as far as the format can:
-//! a pixel that is at least half opaque becomes opaque, any other fully transparent.
+//! **Transparency.** `.mp4` and `.webm` show transparent pixels on white. A `.gif` keeps transparency as far as the format can: a pixel
+//! that is at least half opaque becomes opaque, any other fully transparent.
 //!
-//! **Rates.** [`Pace`] chooses the rate of a film if none is given. The file has the exact rate: 23.976 is 2997/125. The times
-//! in a `.webm` are whole milliseconds. The frames of a `.gif` last whole hundredths of a second, and at least two, since
-//! browsers replace one by ten. So 25 and 50 frames a second are exact, 24 have delays of 4, 4, 4, 4, 4, 5 hundredths, 30 have
-//! 3, 3, 4; both have the right duration. Higher rates are shown at 50: a second of 60 frames takes 1.2 s. [`Film::shown_rate`]
-//! gives the shown rate.
+//! **Rates.** [`Pace`] chooses the frame rate of a film if none is given. The file has the exact rate: 23.976 is 2997/125. The times in a
+//! `.webm` are whole milliseconds. The frames of a `.gif` last whole hundredths of a second, and at least two, since browsers show a frame
+//! of one hundredth for ten. So 25 and 50 frames a second are exact. Delays of 4, 4, 4, 4, 4, 5 hundredths give 24 frames a second, and
+//! delays of 3, 3, 4 give 30; the duration of the film is right. Higher rates are shown at 50: a second of 60 frames takes 1.2 s.
+//! [`Film::shown_rate`] returns the shown rate.
 //!
-//! **Sameness.** The same images and the same build of ffmpeg give the same bytes on any number of cores: the number of threads
-//! is [fixed](Format), since libx264 and libvpx depend on it. Another version of ffmpeg may give other bytes.
+//! **Reproducibility.** The same images and the same build of ffmpeg give the same bytes on any number of cores. The number of threads is
+//! [fixed](Format), since the output of libx264 and libvpx depends on it. Another version of ffmpeg may give other bytes.
 
 mod error;
 mod ffmpeg;
@@ -41,7 +42,7 @@ use super::Quality;
 use super::picture::{self, Picture, Size};
 use crate::sandbox::Confinement;
 
-/// A planned film.
+/// A film to make: its path, format and quality.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Film {
     path: PathBuf,
@@ -50,10 +51,10 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film of this name, whose ending gives the format.
+    /// Plans a film with this path. The extension selects the format.
     ///
     /// # Errors
-    /// If the ending is unknown, or there is a folder of this name.
+    /// If the extension is unknown, or the path is that of a folder.
     pub fn new(path: impl Into<PathBuf>) -> Result<Film, FilmError> {
         let path = path.into();
         let Some(format) = Format::of(&path) else {
@@ -65,10 +66,10 @@ impl Film {
         Ok(Film { path, format, quality: Quality::default() })
     }
 
-    /// The same film in another quality.
+    /// Sets the quality of the film.
     ///
     /// # Errors
-    /// If the format has no qualities: a `.gif`.
+    /// If the format has no choice of quality (`.gif`).
     pub fn with_quality(self, quality: Quality) -> Result<Film, FilmError> {
         match self.format {
             Format::Gif => Err(FilmError::NoQuality(self.path)),
@@ -76,17 +77,18 @@ impl Film {
         }
     }
 
-    /// The path of the film.
+    /// Returns the path of the film.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its format.
+    /// Returns the format of the film.
     pub fn format(&self) -> Format {
         self.format
     }
 
-    /// The frames per second at which the film will be shown, if it is made for this rate. All formats but `.gif` keep the rate.
+    /// Returns the frame rate at which players show a film that is made for `frame_rate`, in frames per second. Only `.gif` limits the
+    /// rate, to 50.
     pub fn shown_rate(&self, frame_rate: f64) -> f64 {
         match self.format {
             Format::Gif => frame_rate.min(50.0),
@@ -94,34 +96,34 @@ impl Film {
         }
     }
 
-    /// The speed at which the film shows images of a scene with this frame rate: the requested rate, or else one that people
-    /// can watch.
+    /// Returns the frame rate of the film and its speed relative to the scene. `asked` is the requested frame rate, `None` for a rate that
+    /// suits the scene.
     pub fn pace(&self, scene_rate: f64, asked: Option<f64>) -> Pace {
         let rate = Pace::new(scene_rate, asked).rate;
         Pace::new(scene_rate, Some(self.shown_rate(rate)))
     }
 
-    /// Finds the ffmpeg for the film, so that a missing one is noticed before anything is rendered: the given program, or else
-    /// `ffmpeg` in the `PATH`. The confinement applies to all its runs.
+    /// Finds the ffmpeg for the film, so that a missing program is reported before anything is rendered. `ffmpeg` is its path, `None` for
+    /// `ffmpeg` in the `PATH`. The confinement applies to every run of ffmpeg.
     ///
     /// # Errors
-    /// If it does not exist, or cannot make this format.
+    /// If ffmpeg does not exist, or cannot make this format.
     pub fn check(&self, ffmpeg: Option<&Path>, confinement: Confinement) -> Result<Ffmpeg, FilmError> {
         Ffmpeg::find(ffmpeg, self.format, confinement)
     }
 
-    /// Checks that a film can have this rate, in frames per second.
+    /// Checks that a frame rate, in frames per second, is in the range that films allow.
     ///
     /// # Errors
-    /// If it cannot.
+    /// If the rate is out of range.
     pub fn check_rate(frame_rate: f64) -> Result<(), FilmError> {
         if Pace::RATES.contains(&frame_rate) { Ok(()) } else { Err(FilmError::Rate(frame_rate)) }
     }
 
-    /// Checks that a film of this format can have images of this size.
+    /// Checks that the format of the film allows images of this size, pixels.
     ///
     /// # Errors
-    /// If they are too large.
+    /// If the images are too large.
     pub fn check_size(&self, size: [u32; 2]) -> Result<(), FilmError> {
         let most = self.format.longest_side();
         if size.iter().all(|side| *side <= most) {
@@ -130,16 +132,16 @@ impl Film {
         Err(FilmError::TooLarge { format: self.format, size, most })
     }
 
-    /// Checks that the film can be written to its path. Creates its folder, if needed.
+    /// Checks that the film can be written to its path. Creates the parent folder if needed.
     ///
     /// # Errors
-    /// If no file can be written there, or another process writes it.
+    /// If no file can be written to this path, or another process writes the same file.
     pub fn check_place(&self) -> Result<(), FilmError> {
         Target::create(&self.path).map(drop)
     }
 
-    /// Makes the film from some images, in their order. Many times a second, on this thread, it asks `cancelled` and tells
-    /// `progress` the number of frames in the film. An existing film stays until the new one is whole.
+    /// Makes the film from images, in the given order. Calls `cancelled` many times a second, on this thread, and `progress` with each new
+    /// number of written frames. An existing film is replaced only when the new one is complete.
     ///
     /// # Errors
     /// If an image cannot be read or differs in size, ffmpeg fails, the film cannot be written, or `cancelled` returns true.
@@ -152,7 +154,7 @@ impl Film {
         progress: &dyn Fn(usize),
     ) -> Result<(), FilmError> {
         Film::check_rate(frame_rate)?;
-        // All headers are read first, which is quick, so that missing images are reported before the long work.
+        // The headers of all images are read first, which is quick, so that missing images are reported before the long work.
         let size = picture::common_size(images.iter())?;
         let target = Target::create(&self.path)?;
         let samples = self.format.samples(images.len());
@@ -171,7 +173,7 @@ impl Film {
                 let fed = self.pixels(&images[index], size).map(|pixels| pipe.write_all(&pixels));
                 match fed {
                     Ok(Ok(())) => {}
-                    // ffmpeg has closed its end, and will report the reason.
+                    // ffmpeg has closed its end of the pipe. Its own error message gives the reason.
                     Ok(Err(error)) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(()),
                     Ok(Err(error)) => return fail(stop, FilmError::io(&self.path)(error)),
                     Err(error) => return fail(stop, error),
@@ -184,9 +186,9 @@ impl Film {
         target.finish()
     }
 
-    /// Checks that a run of ffmpeg has made a film of this many images.
+    /// Checks that ffmpeg has succeeded, and has written as many frames as there are images.
     fn judge(&self, end: ffmpeg::End, images: usize) -> Result<(), FilmError> {
-        // ffmpeg ends with code 0 even if it could not write the last bytes, and then the film cannot be played.
+        // ffmpeg's exit code is 0 even if it could not write the last bytes. The film cannot be played then.
         let unwritten = ["Error writing", "Error closing", "File too large", "Input/output error"];
         let full = ["No space left on device", "Disk quota exceeded"];
         let says = |words: &[&str]| words.iter().any(|word| end.said.contains(word));
@@ -202,11 +204,11 @@ impl Film {
         Ok(())
     }
 
-    /// The pixels of an image as ffmpeg gets them.
+    /// Reads an image, and returns its pixels in the layout that ffmpeg expects for the format.
     fn pixels(&self, path: &Path, size: Size) -> Result<Vec<u8>, FilmError> {
         let picture = Picture::read(path)?;
         if picture.size != size {
-            // The image has changed since its header was read.
+            // The size differs from that in the header, so the file was changed after its header was read.
             return Err(FilmError::Image(path.to_owned(), "it has been changed meanwhile".to_owned()));
         }
         Ok(match self.format {
@@ -216,18 +218,18 @@ impl Film {
     }
 }
 
-/// Ends the feeding of ffmpeg with an error.
+/// Stops feeding images to ffmpeg, and returns the error.
 fn fail(stop: &AtomicBool, error: FilmError) -> Result<(), FilmError> {
     stop.store(true, Ordering::Relaxed);
     Err(error)
 }
 
-/// The next even number.
+/// Rounds a length up to an even number.
 fn next_even(length: usize) -> usize {
     length + length % 2
 }
 
-/// A picture of three bytes a pixel with even width and height: the last column and the last row may be doubled.
+/// Makes the width and height of an image even, by copies of its last column and its last row. The pixels have three bytes each.
 fn even(rgb: &[u8], (width, height): Size) -> Vec<u8> {
     let mut pixels = Vec::with_capacity(3 * next_even(width) * next_even(height));
     let last = height.saturating_sub(1);

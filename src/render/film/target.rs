@@ -1,4 +1,4 @@
-//! A file that appears whole or not at all, even if another program writes it.
+//! A file that is written under a temporary name and renamed when it is complete, even if another program writes it.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -7,26 +7,27 @@ use std::path::{Path, PathBuf};
 
 use super::FilmError;
 
-/// A file that is made under a temporary name beside its path. If it is not finished, dropping this removes it.
+/// A file that is written under a temporary name beside its final path. Dropping it before [`Target::finish`] removes the temporary file.
 pub(in crate::render) struct Target {
     path: PathBuf,
     temporary: PathBuf,
-    /// Locked, so that two processes do not write the same file; the lock ends with the process, however that ends.
+    /// The temporary file. It is locked, so that two processes do not write the same file. The lock ends with the process, however the
+    /// process ends.
     file: File,
     finished: bool,
 }
 
 impl Target {
-    /// Makes the empty temporary file, and the folder if needed. Removes leftovers of a killed run.
+    /// Creates and locks the empty temporary file, and the parent folder if needed. Removes the leftover of a killed process.
     ///
     /// # Errors
-    /// If another process makes the same file, or no file can be made there.
+    /// If another process writes the same file, or no file can be created there.
     pub(in crate::render) fn create(path: &Path) -> Result<Target, FilmError> {
         let io_error = || FilmError::io(path);
         if path.is_dir() {
             return Err(FilmError::Folder(path.to_owned()));
         }
-        // Absolute, so that no name looks like an option or a protocol.
+        // An absolute path never looks like an option or a protocol to ffmpeg.
         let absolute = std::path::absolute(path).map_err(io_error())?;
         let name = absolute.file_name().ok_or_else(|| FilmError::Folder(path.to_owned()))?;
         let mut temporary = OsString::from(".jabuka-");
@@ -44,7 +45,7 @@ impl Target {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(io_error()(error)),
             _ => {}
         }
-        // `create_new` follows no link.
+        // `create_new` does not follow symbolic links.
         let file = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(io_error())?;
         if is_locked(&file) {
             return Err(FilmError::Locked(path.to_owned()));
@@ -52,25 +53,25 @@ impl Target {
         Ok(Target { path: path.to_owned(), temporary, file, finished: false })
     }
 
-    /// The path of the product.
+    /// Returns the final path of the file.
     pub(in crate::render) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The absolute path of the temporary file.
+    /// Returns the absolute path of the temporary file.
     pub(super) fn temporary(&self) -> &Path {
         &self.temporary
     }
 
-    /// The file to write to, for jabuka itself.
+    /// Returns the open temporary file, for files that jabuka itself writes.
     pub(in crate::render) fn file(&self) -> &File {
         &self.file
     }
 
-    /// Renames the file to its final path.
+    /// Renames the temporary file to its final path.
     ///
     /// # Errors
-    /// If it cannot be renamed.
+    /// If the file cannot be renamed.
     pub(in crate::render) fn finish(mut self) -> Result<(), FilmError> {
         fs::rename(&self.temporary, &self.path).map_err(FilmError::io(&self.path))?;
         self.finished = true;
@@ -81,7 +82,7 @@ impl Target {
 impl Drop for Target {
     fn drop(&mut self) {
         if !self.finished {
-            // If even this fails, the next run removes it.
+            // If the file cannot be removed, the next process that writes to this path removes it.
             let _ = fs::remove_file(&self.temporary);
         }
     }

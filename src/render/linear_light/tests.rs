@@ -1,6 +1,6 @@
 use super::*;
 
-/// Writes an image of two pixels.
+/// Writes a PNG of 2 × 1 pixels, and returns its path.
 fn image(folder: &Path, name: &str, color: ColorType, depth: BitDepth, bytes: &[u8]) -> PathBuf {
     let path = folder.join(name);
     let mut encoder = Encoder::new(File::create(&path).unwrap(), 2, 1);
@@ -14,7 +14,7 @@ fn opaque(folder: &Path, name: &str, bytes: [u8; 6]) -> PathBuf {
     image(folder, name, ColorType::Rgb, BitDepth::Eight, &bytes)
 }
 
-/// An image of 16 bits, with alpha.
+/// Writes a PNG of 2 × 1 pixels with 16 bits per channel and alpha.
 fn covering(folder: &Path, name: &str, numbers: [u16; 8]) -> PathBuf {
     let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_be_bytes()).collect();
     image(folder, name, ColorType::Rgba, BitDepth::Sixteen, &bytes)
@@ -58,7 +58,7 @@ fn light_adds_up() {
     let folder = tempfile::tempdir().unwrap();
     let mut paths = Vec::new();
     let mut expected = [0.0; 6];
-    // Numbers all over the place, the same every time.
+    // These pseudo-random bytes are the same in every run of the test.
     let mut random = 1u32;
     for i in 0..50 {
         let bytes = [0; 6].map(|_: u8| {
@@ -81,8 +81,8 @@ fn light_adds_up() {
 fn a_color_counts_as_much_as_it_covers() {
     let folder = tempfile::tempdir().unwrap();
     const ALL: u16 = 65535;
-    // A pixel that is red for a quarter of the time stays fully red, with a quarter of the opacity. Red and green for half the
-    // time each give half of each. The color of a transparent pixel does not count.
+    // The first pixel is red in one image of four, so its mean is fully red with a quarter of the opacity. The second pixel is red in two
+    // images and green in two, so its mean is half of each. The color of a transparent pixel does not count.
     let red = covering(folder.path(), "0.png", [ALL, 0, 0, ALL, ALL, 0, 0, ALL]);
     let green = covering(folder.path(), "1.png", [0, ALL, 0, 0, 0, ALL, 0, ALL]);
     let mut images = vec![red, green];
@@ -125,7 +125,7 @@ fn what_is_written_is_read() {
     let path = folder.path().join("mean.png");
     for (alpha, bytes) in [(false, vec![0, 1, 2, 253, 254, 255]), (true, vec![9, 8, 7, 6, 5, 4, 3, 2])] {
         let image = Image { width: 2, height: 1, alpha, bytes };
-        // A file left by a killed run does no harm.
+        // A temporary file left by a killed process must not prevent writing.
         fs::write(folder.path().join(".jabuka-mean.png.tmp"), "half").unwrap();
         image.write(&path).unwrap();
         let mut reader = Decoder::new(BufReader::new(File::open(&path).unwrap())).read_info().unwrap();
