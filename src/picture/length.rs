@@ -1,8 +1,8 @@
-//! Lengths as on a ruler.
+//! Formats lengths with suitable units.
 
 use super::number;
 
-/// The unit in which a length is written, m, and its symbol.
+/// Chooses the unit for a length in meters. Returns the length of the unit, m, and its symbol.
 pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
     const UNITS: [(f64, &str); 9] = [
         (1e9, "million km"),
@@ -15,12 +15,12 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
         (1e-12, "pm"),
         (1e-15, "fm"),
     ];
-    // Tenths of a metre are more usual than tens of centimetres.
+    // Tenths of a meter are more common than tens of centimeters.
     let fits = |(unit, _): &&(f64, &str)| length >= if *unit == 1.0 { 0.1 } else { unit * 0.999_999 };
     UNITS.iter().find(fits).copied().unwrap_or((1e-15, "fm"))
 }
 
-/// A number on a ruler: short, with a real minus sign.
+/// Formats a number with at most six significant digits and a typographic minus sign.
 pub(super) fn value(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 6);

@@ -1,40 +1,40 @@
-//! The lights of a scene at a moment, and the default lights.
+//! The lights of a scene at a given time, and the default lights.
 
 use glam::DVec3;
 
 use super::stage::Stage;
 use crate::scene::{Color, Light, LightKind, Preset, Scene};
 
-/// A light at a moment.
+/// A light at a given time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedLight {
-    /// Its name in the scene.
+    /// The name of the light in the scene.
     pub name: String,
-    /// Its kind.
+    /// The kind of the light.
     pub kind: Lamp,
-    /// Its position, m; for a sun, a point in its direction.
+    /// The position of the light in the world, m. For a sun, a point in its direction.
     pub location: DVec3,
-    /// The diameter of an area light, m.
+    /// The diameter of an area light, m. `None` for other lights.
     pub size: Option<f64>,
-    /// Its color times its intensity, linear.
+    /// The linear color of the light, multiplied by its intensity.
     pub color: [f64; 3],
-    /// Whether it casts shadows and highlights.
+    /// True if the light casts shadows and makes highlights.
     pub shadows: bool,
 }
 
 /// The kind of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lamp {
-    /// A lamp without size.
+    /// A lamp without size, whose shadows have sharp edges.
     Point,
-    /// A lamp with a size.
+    /// A lamp with a size, whose shadows have soft edges.
     Area,
-    /// Parallel light, which shines at the middle of the motion.
+    /// A distant light with parallel rays, in the direction of the middle of the motion.
     Sun,
 }
 
 impl Lamp {
-    /// Its name: `point`, `area` or `sun`.
+    /// The name of the kind: `point`, `area` or `sun`.
     pub fn name(self) -> &'static str {
         match self {
             Lamp::Point => "point",
@@ -44,24 +44,24 @@ impl Lamp {
     }
 }
 
-/// A default light. Lengths are in sizes of the stage.
+/// A default light. Lengths are relative to the size of the stage.
 struct Usual {
     name: &'static str,
-    /// From the middle of the stage.
+    /// The position relative to the middle of the stage.
     location: [f64; 3],
-    /// The diameter of an area light.
+    /// The diameter of an area light. `None` for a point light.
     size: Option<f64>,
     color: UsualColor,
     shadows: bool,
 }
 
-/// A color, which may be brighter than white.
+/// A linear or sRGB color, which may be brighter than white.
 enum UsualColor {
     Linear([f64; 3]),
     Srgb([f64; 3]),
 }
 
-/// The lights of an environment. `templates/lights.inc` has the same ones; a test in `emit` compares them.
+/// The default lights of an environment. They equal those in `templates/lights.inc`; a test in `emit` compares them.
 fn usual(preset: Preset) -> &'static [Usual] {
     use UsualColor::{Linear, Srgb};
     const SUN: Usual = Usual {
@@ -118,7 +118,7 @@ fn usual(preset: Preset) -> &'static [Usual] {
     }
 }
 
-/// The default lights around a stage.
+/// The default lights around a stage, in world coordinates.
 pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
     let place = |light: &Usual| PlacedLight {
         name: light.name.to_owned(),
@@ -134,13 +134,13 @@ pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
     usual(stage.preset).iter().map(place).collect()
 }
 
-/// The lights of a scene.
+/// The lights that a scene gives.
 #[derive(Clone, Debug)]
 pub(super) struct Lights {
     lights: Vec<Light>,
-    /// The point that suns shine at.
+    /// The point in the direction of which all suns shine, m.
     center: DVec3,
-    /// The reach of the whole scene, m.
+    /// The radius of the visible scene, m. Suns are placed far outside.
     reach: f64,
 }
 
@@ -149,12 +149,12 @@ impl Lights {
         Lights { lights: scene.lights.clone(), center, reach }
     }
 
-    /// Whether they change between frames.
+    /// True if any of the lights moves.
     pub(super) fn moves(&self) -> bool {
         self.lights.iter().any(Light::moves)
     }
 
-    /// The lights at a time, s.
+    /// The lights at a time (s).
     pub(super) fn at(&self, time: f64) -> Vec<PlacedLight> {
         self.lights.iter().map(|light| self.light(light, time)).collect()
     }
@@ -163,7 +163,7 @@ impl Lights {
         let (kind, location, size) = match &light.kind {
             LightKind::Point { location } => (Lamp::Point, location.at(time), None),
             LightKind::Area { location, size } => (Lamp::Area, location.at(time), Some(*size)),
-            // Far enough to be outside everything; its rays are parallel anyway.
+            // The distance is large enough to be outside the scene. It has no other effect, since the rays are parallel.
             LightKind::Sun { direction } => (Lamp::Sun, self.center - *direction * self.reach * 10.0, None),
         };
         PlacedLight {

@@ -1,8 +1,8 @@
 //! Frames → the contents of their pictures.
 //!
-//! A [`Plan`] is made once for a run and a camera. For any frame, in any order and from several threads, it then gives
-//! the camera, the lights, and what is drawn beside the bodies: arrows, axes, springs, joints, ghosts, trails, texts, a
-//! grid, a scale bar. Everything is in metres and independent of the renderer, so all renderers draw the same.
+//! A [`Plan`] is made once for a run and a camera. For any frame, in any order and from several threads, the plan computes the camera, the
+//! lights, and everything that is drawn besides the bodies: arrows, axes, springs, joints, ghosts, trails, texts, a grid, a scale bar. All
+//! lengths are in meters and independent of the renderer, so all renderers draw the same picture.
 
 mod arrows;
 mod bar;

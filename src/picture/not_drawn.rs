@@ -1,4 +1,4 @@
-//! Finds things that a scene requests but no picture of the run shows.
+//! Finds things that a scene requests but that no picture of the run shows.
 
 use super::arrows::{LONGEST, round_down};
 use super::decimal_step;
@@ -8,30 +8,30 @@ use super::text::MARGIN;
 use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
 
-/// If the longest is shorter than this, an arrow is invisible, pixels.
+/// The length below which an arrow is invisible, pixels.
 const SHORTEST: f64 = 1.0;
-/// A thinner line is invisible, pixels.
+/// The width below which a line is invisible, pixels.
 const THINNEST: f64 = 0.1;
 
-/// A requested thing that no picture shows, or none after some moment. Lengths are in metres.
+/// A requested thing that is invisible in all pictures, or from some time on. Lengths are in meters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotDrawn {
-    /// The thing.
+    /// The requested thing.
     pub what: Asking,
-    /// The name of the body or the force that requests it.
+    /// The name of the body or force that requests the thing. Empty for the scale bar.
     pub name: String,
-    /// Why.
+    /// The reason why the thing is invisible.
     pub why: Why,
-    /// The number of others of the same kind that are not drawn either.
+    /// The number of other things of the same kind that are invisible for the same reason.
     pub others: usize,
 }
 
-/// The requested thing.
+/// The kind of a requested thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asking {
     /// An arrow of a body.
     Arrow(Quantity),
-    /// The axes of a body.
+    /// The coordinate axes of a body.
     Axes,
     /// The trail of a body.
     Trail,
@@ -45,54 +45,55 @@ pub enum Asking {
     ScaleBar,
 }
 
-/// Why something is not drawn.
+/// The reason why a requested thing is invisible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Why {
-    /// Its largest length or width is too few pixels. `fit` is a value of its key that would make it visible.
+    /// The thing is too small in the picture.
     TooSmall {
-        /// Its length or width at most, pixels.
+        /// The largest length or width of the thing in any picture, pixels.
         pixels: f64,
-        /// A value that would be visible, in the key's unit.
+        /// A value of its key that would make the thing visible, in the unit of the key.
         fit: f64,
     },
-    /// Its tip becomes non-finite at some time.
+    /// The tip of the arrow becomes non-finite.
     Lost {
-        /// The time of the first frame, s.
+        /// The time of the first frame with a non-finite tip, s.
         time: f64,
-        /// A value that would be visible, in the key's unit. `None` if all of the run is lost.
+        /// A scale that would make the arrow visible, in the unit of its key. `None` if all vectors before that time are zero or
+        /// non-finite.
         fit: Option<f64>,
     },
     /// The path of the body is shorter than half the width of its trail.
     Wide {
-        /// The length of its path.
+        /// The largest distance of the body from the start of its trail.
         way: f64,
-        /// The width.
+        /// The width of the trail.
         width: f64,
     },
-    /// Nothing touches the body.
+    /// The body has no contacts.
     Untouched,
-    /// The body hardly moves.
+    /// The body hardly moves, so its ghosts coincide with it.
     Still,
-    /// The body is gone before its first ghost.
+    /// The body disappears before the time of its first ghost.
     Gone,
-    /// It is longer than the picture is wide.
+    /// The scale bar is wider than the picture.
     TooLong {
-        /// Its length.
+        /// The length that the scale bar represents.
         length: f64,
-        /// A length that the picture has room for.
+        /// A length for which the picture has room.
         fit: f64,
     },
-    /// The bodies at its ends leave no room for it.
+    /// The bodies at the ends of the spring leave no room for it.
     NoRoom {
-        /// Its radius.
+        /// The radius of the spring.
         radius: f64,
-        /// A radius for which there is room, if any.
+        /// A radius for which there is room. `None` if the bodies touch or overlap.
         fit: Option<f64>,
     },
 }
 
-/// Finds the requested things that are not drawn. `view` is the smallest width that a picture shows, m. `bar` is the length of a
-/// scale bar, m, and its width at the start, in pictures of width 2.
+/// Finds the requested things that no picture shows. `view` is the smallest width in view of the camera, m. `bar` is the length of the
+/// scale bar, m, and its width at the start in the image plane, where the picture has a width of 2.
 pub(super) fn find(
     scene: &Scene,
     survey: &Survey,
@@ -121,7 +122,7 @@ pub(super) fn find(
         let kind = Quantity::OF_LOADS.iter().position(|quantity| *quantity == arrow.quantity);
         let scale = kind.and_then(|kind| body.showing.loads[kind]?.scale);
         let why = match scale {
-            // Friction may be zero for a body in contact; the normal force is zero only without contact.
+            // A body without normal force had no contact. Friction can be zero in spite of a contact.
             _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Why::Untouched,
             Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < SHORTEST * pixel => {
                 let fit = round_down(LONGEST * view / arrow.longest);
@@ -155,7 +156,7 @@ pub(super) fn find(
             Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Why::Still,
             Some(_) => continue,
         };
-        // A fixed body never has ghosts. That needs no warning.
+        // Ghosts of a fixed body are invisible as expected, so no warning is needed.
         if !body.start.fixed {
             found.add(Asking::Ghosts, &body.name, why);
         }
@@ -178,7 +179,7 @@ pub(super) fn find(
     found.0
 }
 
-/// The findings, one of each kind.
+/// The findings, of which only one is kept for each kind and reason.
 #[derive(Default)]
 struct Found(Vec<NotDrawn>);
 
@@ -188,7 +189,7 @@ impl Found {
             known.what == what && std::mem::discriminant(&known.why) == std::mem::discriminant(&why)
         };
         match self.0.iter_mut().find(is_same) {
-            // A spring of several links counts once.
+            // A spring force with several links counts once.
             Some(known) if known.name == name => {}
             Some(known) => known.others += 1,
             None => self.0.push(NotDrawn { what, name: name.to_owned(), why, others: 0 }),

@@ -1,12 +1,12 @@
-//! Numbers as text.
+//! Writes numbers as short decimal texts.
 
-/// Powers of ten that are exact as `f64`.
+/// The powers of ten that are exact as `f64`.
 const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Appends a finite number, rounded to `digits` significant digits (1 to 17), without trailing zeros. Zero has no sign.
+/// Appends a finite number to a text, rounded to `digits` significant digits (1 to 17), without trailing zeros. Zero has no sign.
 pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     debug_assert!(number.is_finite(), "the emitter refuses numbers that are not finite");
     if number == 0.0 {
@@ -21,7 +21,7 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     layout(out, decimals, exponent, digits);
 }
 
-/// A number as text.
+/// Returns a number as text, rounded to `digits` significant digits.
 #[cfg(test)]
 pub(crate) fn text(number: f64, digits: usize) -> String {
     let mut out = String::new();
@@ -29,8 +29,8 @@ pub(crate) fn text(number: f64, digits: usize) -> String {
     out
 }
 
-/// The significant digits as a whole number, and the exponent of the first; `None` if the scaling might round to the
-/// wrong side.
+/// Computes the significant digits as a whole number, and the decimal exponent of the first digit. `None` if floating-point errors might
+/// round to the wrong side.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -42,7 +42,7 @@ fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
     if digits > MOST_DIGITS || !(1e-9..1e15).contains(&magnitude) {
         return None;
     }
-    // log10(2) ≈ 1233 / 4096. The guess may be off by one and is corrected below.
+    // log10(2) is about 1233 / 4096. The estimate of the exponent may be off by one, which is corrected below.
     let binary_exponent = (magnitude.to_bits() >> 52) as i32 - 1023;
     let mut exponent = (binary_exponent * 1233) >> 12;
     let scale = |exponent: i32| {
@@ -63,17 +63,17 @@ fn fast(magnitude: f64, digits: usize) -> Option<(u64, i32)> {
     }
     let whole = scaled.floor();
     let fraction = scaled - whole;
-    // The scaling is off by at most one unit in the last place: 10^12 × 2^-52 < 0.0003.
+    // The scaled number has an error of at most one unit in the last place: 10^12 × 2^-52 < 0.0003.
     if (fraction - 0.5).abs() < 0.001 {
         return None;
     }
     let decimals = whole as u64 + u64::from(fraction > 0.5);
-    // Rounded up to the next power of ten, or a worse guess of the exponent: leave it to `exact`.
+    // If the digits were rounded up to the next power of ten, or the estimated exponent is wrong, `exact` is used instead.
     let range = POWERS[digits - 1] as u64..POWERS[digits] as u64;
     range.contains(&decimals).then_some((decimals, exponent))
 }
 
-/// The same by exact decimal arithmetic.
+/// Computes the same digits and exponent as [`fast`] by exact decimal arithmetic.
 fn exact(magnitude: f64, digits: usize) -> (u64, i32) {
     let text = format!("{magnitude:.*e}", digits - 1);
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -82,7 +82,7 @@ fn exact(magnitude: f64, digits: usize) -> (u64, i32) {
     (decimals, exponent.parse().unwrap_or(0))
 }
 
-/// Writes digits with their decimal point: in plain notation from 0.00001 to below 10^10, else with an exponent.
+/// Writes digits with a decimal point, without trailing zeros. Numbers from 0.00001 to below 10^10 have no exponent.
 fn layout(out: &mut String, mut decimals: u64, exponent: i32, digits: usize) {
     let mut buffer = [b'0'; 20];
     let mut length = digits;
@@ -155,14 +155,14 @@ mod tests {
         assert_eq!(text(20_000.0, 4), "20000");
     }
 
-    /// The fast way gives what exact decimal arithmetic gives, or nothing.
+    /// The fast algorithm either agrees with exact decimal arithmetic or returns `None`.
     #[test]
     fn the_fast_way_agrees_with_the_exact_one() {
         let mut bits: u64 = 0x9e37_79b9_7f4a_7c15;
         let mut decided = 0;
         for round in 0..400_000 {
             bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // Exponents around those of scenes; now and then a number that is a tie in decimal.
+            // The exponents are typical of scenes. Every fifth number may lie exactly between two decimal numbers.
             let unit = (bits >> 11) as f64 / (1u64 << 53) as f64;
             let magnitude = libm::pow(10.0, f64::from(round % 26) - 10.0) * (unit + 1e-3);
             let magnitude = if round % 5 == 0 { (magnitude * 2048.0).round() / 2048.0 } else { magnitude };

@@ -1,34 +1,33 @@
-//! How fast a film shows its scene.
+//! The frame rate and the speed of a film.
 
 use std::ops::RangeInclusive;
 
-/// How fast a film shows its scene.
+/// The frame rate of a film, and its speed relative to real time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
-    /// Frames of the film per second.
+    /// The frame rate of the film, frames per second.
     pub rate: f64,
-    /// Seconds of the scene per second of the film: 1 is as in life, 0.25 is four times slower.
+    /// The simulated time per second of the film, s: 1 for real time, 0.25 for slow motion by a factor of 4.
     pub speed: f64,
 }
 
 impl Pace {
-    /// The rates that a film can have, in frames per second.
+    /// The possible frame rates of a film, frames per second.
     pub const RATES: RangeInclusive<f64> = 0.01..=1000.0;
-    /// The frame rate of a film if that of the scene is unwatchable, in frames per second.
+    /// The default frame rate of a film if the scene's frame rate is unsuitable, frames per second.
     pub const USUAL_RATE: f64 = 25.0;
-    /// The frame rates of scenes that can be watched in real time, in frames per second.
+    /// The frame rates of scenes that are suitable for a film in real time, frames per second.
     pub const WATCHABLE: RangeInclusive<f64> = 1.0..=120.0;
 
-    /// The pace of a film whose images are `scene_rate` to the second of the scene. The film gets the rate that is asked for;
-    /// without one it is in real time, if the scene's rate can be watched, and else has the usual rate.
+    /// Chooses the frame rate of a film from the frame rate of its scene. A rate given in `asked` is used unchanged. Otherwise the film
+    /// runs in real time if the scene's rate is suitable, and at the default rate if not.
     pub fn new(scene_rate: f64, asked: Option<f64>) -> Pace {
         let watchable = Pace::WATCHABLE.contains(&scene_rate);
         let rate = asked.unwrap_or(if watchable { scene_rate } else { Pace::USUAL_RATE });
         Pace { rate, speed: rate / scene_rate }
     }
 
-    /// How much faster or slower than life the film is: `4 times slower than life`. `None` if it is as fast, to one part in
-    /// a thousand.
+    /// The speed of the film in words, such as `4 times slower than life`. `None` for real time, to one part in a thousand.
     pub fn in_words(self) -> Option<String> {
         let (times, how) =
             if self.speed < 1.0 { (1.0 / self.speed, "slower") } else { (self.speed, "faster") };
@@ -36,7 +35,7 @@ impl Pace {
     }
 }
 
-/// A number of at least 1, to three digits.
+/// Formats a number of at least 1 with three significant digits.
 fn three_digits(number: f64) -> String {
     let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
     if rounded < 1e6 { format!("{rounded}") } else { format!("{rounded:e}") }

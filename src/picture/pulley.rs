@@ -1,4 +1,4 @@
-//! The course of a rope over the wheels of a pulley.
+//! The path of a rope over the wheels of a pulley.
 
 use glam::DVec3;
 
@@ -7,13 +7,13 @@ use super::catenary::hanging;
 /// The number of straight pieces of a rope around a wheel.
 const PIECES: u32 = 10;
 
-/// A wheel is at most this many of its radii from its corner of the rope.
+/// The largest distance between a wheel's center and its corner of the rope, in radii of the wheel.
 const FARTHEST: f64 = 3.0;
 
-/// A rope from one end over one or two wheels to the other end.
+/// The path of a rope from one end over one or two wheels to the other end.
 pub(super) struct Course {
     ends: [DVec3; 2],
-    /// The corners over which it runs.
+    /// The corners of the rope, as if the wheels had no size, m.
     over: [DVec3; 2],
     /// The arcs around the wheels.
     pub(super) turns: Vec<Turn>,
@@ -21,7 +21,7 @@ pub(super) struct Course {
 
 /// The arc of a rope around a wheel.
 pub(super) struct Turn {
-    /// The centre of the wheel, m.
+    /// The center of the wheel, m.
     pub(super) centre: DVec3,
     /// The axis of the wheel, a unit vector.
     pub(super) axis: DVec3,
@@ -30,7 +30,8 @@ pub(super) struct Turn {
 }
 
 impl Course {
-    /// The course from the first point over two corners to the last point, m. Coinciding corners share one wheel.
+    /// Computes the path from the first point over two corners to the last point, m, with wheels of the given radius. Coinciding corners
+    /// share one wheel.
     pub(super) fn new([from, first, second, to]: [DVec3; 4], radius: f64) -> Course {
         let turns = if first.distance(second) > 1e-9 * first.distance(from) {
             vec![Turn::new(from, first, second, radius), Turn::new(first, second, to, radius)]
@@ -40,18 +41,18 @@ impl Course {
         Course { ends: [from, to], over: [first, second], turns }
     }
 
-    /// The points of the rope, m. Slack is shared equally by both outer parts. The length counts the second part
-    /// `ratio` times.
+    /// The points of the rope, m. Half of the slack hangs in each outer part. The last part counts `ratio` times in `length`, as in a
+    /// block and tackle.
     pub(super) fn points(&self, length: f64, ratio: f64, down: Option<DVec3>) -> Vec<DVec3> {
         let [first, last] = [0, 1].map(|i| self.ends[i].distance(self.over[i]));
         let slack = 0.5 * (length - first - ratio * last).max(0.0);
-        // Slack from rounding is none.
+        // Slack this small is a rounding error.
         let slack = if slack > 1e-9 * length { slack } else { 0.0 };
         let part = |from: DVec3, to: DVec3, slack: f64| hanging([from, to], from.distance(to) + slack, down);
         let mut points = vec![self.ends[0]];
         for turn in &self.turns {
             let begin = turn.points[0];
-            // The first part ends at the first wheel.
+            // The first part of the rope ends at the first wheel.
             let from = points[points.len() - 1];
             let way = if points.len() == 1 { part(from, begin, slack) } else { vec![from, begin] };
             points.extend(&way[1..]);
@@ -64,21 +65,22 @@ impl Course {
 }
 
 impl Turn {
-    /// A wheel in the corner of a rope from `from` over `corner` to `to`, which touches both parts of the rope.
+    /// Places a wheel into the corner of a rope from `from` over `corner` to `to`, so that it touches both parts of the rope.
     fn new(from: DVec3, corner: DVec3, to: DVec3, radius: f64) -> Turn {
         let back = (from - corner).normalize_or(DVec3::NEG_Y);
         let on = (to - corner).normalize_or(DVec3::NEG_Y);
         let across = |way: DVec3| way.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
         let axis = back.cross(on).try_normalize().unwrap_or_else(|| across(back));
         let middle = (back + on).try_normalize();
-        // A straight rope lies on its wheel.
+        // A straight rope has no corner, so the wheel is placed below the rope.
         let inward = middle.unwrap_or_else(|| {
             let side = axis.cross(back);
             if side.y > 0.0 { -side } else { side }
         });
         let sine = inward.cross(back).length();
         let centre = corner + inward * (radius / sine.max(1.0 / FARTHEST));
-        // Angles about the axis, from `inward`: the rope comes from below 0, and goes around the far side.
+        // Angles are measured about the axis from the direction `inward`. The rope touches the wheel first at `begin`, and goes around the
+        // far side to `end`.
         let side = axis.cross(inward);
         let angle = |point: DVec3| {
             let way = point - centre;
@@ -96,7 +98,7 @@ impl Turn {
                 };
                 (0..=PIECES).map(at).collect()
             }
-            // An end lies within the wheel.
+            // An end of the rope is inside the wheel.
             _ => vec![corner],
         };
         Turn { centre, axis, points }
@@ -109,7 +111,7 @@ mod tests {
 
     #[test]
     fn a_rope_goes_straight_to_its_wheels_and_around_them() {
-        // Up, across, and down again: the wheels lie below the corners.
+        // The rope goes up, across and down again. The wheels are inside its corners.
         let corners = [[-1.0, 0.0], [-1.0, 2.0], [1.0, 2.0], [1.0, -3.0]];
         let course = Course::new(corners.map(|[x, y]| DVec3::new(x, y, 0.0)), 0.1);
         let centres: Vec<DVec3> = course.turns.iter().map(|turn| turn.centre).collect();
@@ -123,7 +125,7 @@ mod tests {
                 point.x.abs() > 1.0 - 1e-12 || (point.y - 2.0).abs() < 1e-12 || centres.iter().any(is_on)
             );
         }
-        // A quarter of a circle instead of each corner.
+        // Each corner is replaced by a quarter of a circle.
         let length: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let expected = 9.0 - 2.0 * (0.2 - 0.05 * std::f64::consts::PI);
         assert!((length - expected).abs() < 1e-3, "{length} {expected}");

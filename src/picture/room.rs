@@ -1,14 +1,14 @@
-//! Records which parts of a picture are taken, so that texts stand where there is room.
+//! Records which parts of a picture are taken, to place texts in free parts.
 
 use glam::DVec3;
 
 use super::screen::Screen;
 use super::text::Text;
 
-/// The width of the picture in cells.
+/// The number of cells across the picture.
 const CELLS: f64 = 48.0;
 
-/// A part of the picture, whose width is 2; the middle of the picture is 0.
+/// A rectangle in the image plane. The picture has a width of 2, and (0, 0) is in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rectangle {
     pub(super) left: f64,
@@ -17,7 +17,7 @@ pub(super) struct Rectangle {
     pub(super) top: f64,
 }
 
-/// A line across the picture, with half its width.
+/// A straight line of some width in the image plane. `half` is half of its width.
 #[derive(Clone, Copy, Debug)]
 struct Stripe {
     from: [f64; 2],
@@ -25,29 +25,28 @@ struct Stripe {
     half: f64,
 }
 
-/// The taken parts of a picture. Each cell lists the things that reach into it, so the search for a free part looks
-/// only at nearby things.
+/// The taken parts of a picture. A grid of cells lists the rectangles and lines in each cell, so that a search looks only at near ones.
 #[derive(Debug)]
 pub(super) struct Room {
-    /// The height of the picture, as part of its width.
+    /// The height of the picture, relative to its width.
     aspect: f64,
-    /// The numbers of cells across and upward.
+    /// The numbers of cells across the picture and upward.
     across: usize,
     upward: usize,
-    /// Row by row from the lower left one.
+    /// The cells row by row, from the lower left corner. Empty before the first part is taken.
     cells: Vec<Cell>,
 }
 
-/// The things in a cell.
+/// The taken parts of a cell.
 #[derive(Clone, Debug, Default)]
 struct Cell {
-    /// Rectangles in the cell, of which none is inside another.
+    /// The taken rectangles in the cell. None of them contains another.
     taken: Vec<Rectangle>,
     stripes: Vec<Stripe>,
 }
 
 impl Cell {
-    /// Takes a part of the cell.
+    /// Adds a rectangle to the taken parts of the cell.
     fn take(&mut self, part: Rectangle) {
         if !self.has_taken(part) {
             self.taken.retain(|other| !part.covers(*other));
@@ -55,14 +54,14 @@ impl Cell {
         }
     }
 
-    /// Whether a single rectangle takes all of a part of the cell.
+    /// True if a single taken rectangle contains the given rectangle.
     fn has_taken(&self, part: Rectangle) -> bool {
         self.taken.iter().any(|other| other.covers(part))
     }
 }
 
 impl Room {
-    /// A picture with no space taken.
+    /// Creates a record of a picture in which nothing is taken. `aspect` is the height of the picture, relative to its width.
     pub(super) fn new(aspect: f64) -> Room {
         let (across, upward) = (CELLS, (CELLS * aspect).ceil().clamp(1.0, CELLS));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "both are 48 at most")]
@@ -70,7 +69,7 @@ impl Room {
         Room { aspect, across, upward, cells: Vec::new() }
     }
 
-    /// Takes a part of the picture.
+    /// Takes a rectangle of the picture.
     pub(super) fn take(&mut self, part: Rectangle) {
         self.each_cell(part, |cell, place| {
             if part.overlaps(place) {
@@ -84,24 +83,24 @@ impl Room {
         self.take(text.area(self.aspect));
     }
 
-    /// Whether a text is inside the picture, on free space.
+    /// True if a text is completely inside the picture and overlaps no taken part.
     pub(super) fn has_room_for(&self, text: &Text<'_>) -> bool {
         self.is_free(text.area(self.aspect))
     }
 
-    /// The height of the picture, as part of its width.
+    /// The height of the picture, relative to its width.
     pub(super) fn aspect(&self) -> f64 {
         self.aspect
     }
 
-    /// Takes a line in the world, from one point to another with a width, m, as seen in the image plane.
+    /// Takes the image of a line between two points in the world. The width of the line is in meters.
     pub(super) fn cross(&mut self, ends: [DVec3; 2], width: f64, screen: &Screen) {
         if let [Some(from), Some(to)] = ends.map(|end| screen.spot(end)) {
             self.stripe([from.x, from.y], [to.x, to.y], width * to.metre);
         }
     }
 
-    /// Takes a line of a width.
+    /// Takes a line of some width in the image plane.
     fn stripe(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         let stripe = Stripe { from, to, half: width / 2.0 };
         self.each_cell(stripe.bounds(), |cell, place| {
@@ -111,7 +110,7 @@ impl Room {
         });
     }
 
-    /// Whether a part is inside the picture and free.
+    /// True if a rectangle is completely inside the picture and overlaps no taken part.
     pub(super) fn is_free(&self, part: Rectangle) -> bool {
         let inside =
             part.left >= -1.0 && part.right <= 1.0 && part.bottom >= -self.aspect && part.top <= self.aspect;
@@ -123,7 +122,7 @@ impl Room {
         inside && !cells.any(is_taken)
     }
 
-    /// Calls `work` with each cell that overlaps a part of the picture, and the cell's area.
+    /// Calls `work` with each cell that may overlap a rectangle, and with the area of the cell.
     fn each_cell(&mut self, part: Rectangle, mut work: impl FnMut(&mut Cell, Rectangle)) {
         if self.cells.is_empty() {
             self.cells = vec![Cell::default(); self.across * self.upward];
@@ -134,7 +133,7 @@ impl Room {
         }
     }
 
-    /// The indices of the cells that overlap a part of the picture.
+    /// The indices of the cells that may overlap a rectangle.
     fn numbers(&self, part: Rectangle) -> impl Iterator<Item = usize> + use<> {
         let across = self.across;
         let columns = range([part.left, part.right], 1.0, across);
@@ -142,7 +141,7 @@ impl Room {
         rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
     }
 
-    /// The area of a cell.
+    /// The area of the cell with this index.
     #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
     fn place(&self, number: usize) -> Rectangle {
         let (row, column) = (number / self.across, number % self.across);
@@ -156,8 +155,8 @@ impl Room {
     }
 }
 
-/// The indices of the cells between two coordinates; `count` cells lie between `-half` and `half`. One more on both
-/// sides covers rounding.
+/// The indices of the cells between two coordinates, where `count` cells lie between `-half` and `half`. One additional cell on each side
+/// covers rounding errors.
 #[allow(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -178,7 +177,7 @@ impl Rectangle {
             && other.bottom < self.top
     }
 
-    /// Its overlap with another part.
+    /// The intersection with another rectangle.
     fn within(self, other: Rectangle) -> Rectangle {
         Rectangle {
             left: self.left.max(other.left),
@@ -188,7 +187,7 @@ impl Rectangle {
         }
     }
 
-    /// Whether it contains another part.
+    /// True if this rectangle contains another one.
     fn covers(self, other: Rectangle) -> bool {
         self.left <= other.left
             && other.right <= self.right
@@ -198,7 +197,7 @@ impl Rectangle {
 }
 
 impl Stripe {
-    /// Its bounding box in the picture.
+    /// The bounding box of the line.
     fn bounds(self) -> Rectangle {
         let [low, high] =
             [f64::min, f64::max].map(|of| [0, 1].map(|axis| of(self.from[axis], self.to[axis])));
@@ -210,7 +209,7 @@ impl Stripe {
         }
     }
 
-    /// Whether it overlaps a rectangle: clips its middle line at the four edges (Liang and Barsky).
+    /// True if the line overlaps a rectangle. Clips the middle line at the four edges of the widened rectangle (Liang–Barsky algorithm).
     fn meets(self, part: Rectangle) -> bool {
         let edges = [
             (self.from[0], self.to[0], part.left - self.half, part.right + self.half),
@@ -266,7 +265,7 @@ mod tests {
         }
     }
 
-    /// The cells are only there to be fast.
+    /// The cells make the search faster. They must not change its result.
     #[test]
     fn parts_are_free_as_if_each_were_held_against_all_that_is_taken() {
         let mut state: u32 = 7;

@@ -1,5 +1,5 @@
-//! Chooses the part of a run that an automatic camera frames. This is all of it or, if the bodies would then be too
-//! small, the surroundings of the only body, or the start.
+//! Chooses the part of a run that an automatic camera frames. Usually, this part is the whole run. If the bodies would then be too small,
+//! the camera frames the start of the run or follows the only body.
 
 use super::camera::{Eye, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
@@ -7,26 +7,25 @@ use super::plan::reads_ground;
 use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
-/// The largest body is visible enough at this part of the picture's width: 4 pixels of 1280.
+/// The width at which the largest body is clearly visible, relative to the width of the picture: 4 pixels of 1280.
 const LEAST: f64 = 0.0031;
-/// If the body would be smaller in the whole run, the camera frames only so much of the start that the body is this
-/// wide: 12 pixels.
+/// The width of the largest body that a camera on the start of the run aims for, relative to the width of the picture: 12 pixels of 1280.
 const GOOD: f64 = 0.0094;
 
-/// A camera that follows a body shows it at this part of the picture's width.
+/// The width of a body that the camera follows, relative to the width of the picture.
 const ALONG: f64 = 0.05;
 
-/// The bounds that are framed for an empty scene.
+/// The bounds that are framed in an empty scene, m.
 const NOTHING: Bounds = Bounds { min: glam::DVec3::NEG_ONE, max: glam::DVec3::ONE };
 
-/// The part of a run that a camera frames.
+/// The part of a run that a camera frames, with its bounds.
 #[derive(Clone, Debug)]
 pub(super) struct Scope {
-    /// The camera. It follows the only body if that would be too small otherwise.
+    /// The camera. It follows the only body if the body would otherwise be too small.
     pub(super) camera: Camera,
-    /// The part of the run that is framed.
+    /// The space of the framed part of the run.
     pub(super) span: Span,
-    /// The box of the whole run.
+    /// The box around the whole run, m.
     pub(super) whole: Bounds,
     pub(super) part: Part,
 }
@@ -34,16 +33,16 @@ pub(super) struct Scope {
 /// The part of a run that a camera frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
-    /// All of it, or what the scene gives.
+    /// The whole run, or the view that the scene gives.
     Whole,
-    /// Its start until this time, s.
+    /// The start of the run up to this time, s.
     Start(f64),
-    /// The surroundings of the body with this number: the camera follows it.
+    /// The surroundings of the body with this index: the camera follows the body.
     AroundBody(usize),
 }
 
 impl Scope {
-    /// The part that a camera of a scene frames.
+    /// Chooses the part of a run that a camera of a scene frames.
     pub(super) fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Scope {
         let Some((all, starts)) = survey.spans.split_last() else {
             let arrows: [Reach; Quantity::COUNT] = Default::default();
@@ -62,7 +61,7 @@ impl Scope {
             let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
             width / eye.placed().width_of_view(span.bounds)
         };
-        // Few bodies of many may fly far away. The camera does not follow them.
+        // If only a few of many bodies fly far away, the camera ignores them.
         let all = survey.without_strays.as_ref().unwrap_or(all);
         let in_whole = seen(all);
         let alone = alone_over_ground(scene).filter(|body| in_whole < least_alone(scene, *body, all));
@@ -83,13 +82,14 @@ impl Scope {
     }
 }
 
-/// The time by which all bodies of the run have appeared, s. A framed start lasts at least until then.
+/// The time by which all bodies of the run have appeared, s. A framed start lasts at least until this time.
 fn all_have_come(scene: &Scene) -> f64 {
     let come = scene.bodies.iter().filter_map(|body| body.presence.first_from(0.0));
     come.filter(|time| *time <= scene.simulation.end()).fold(0.0, f64::max)
 }
 
-/// The only body besides planes, if the ground or a plane shows that it moves, and it is always present.
+/// The index of the only body besides planes. `None` if there are several, if the body is sometimes absent, or if no ground or plane makes
+/// its motion visible.
 fn alone_over_ground(scene: &Scene) -> Option<usize> {
     let is_plane = |body: &usize| scene.bodies[*body].shape.is_unbounded();
     let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
@@ -101,8 +101,8 @@ fn alone_over_ground(scene: &Scene) -> Option<usize> {
     (has_ground || !planes.is_empty()).then_some(body)
 }
 
-/// The least part of the picture that a lone body may take before the camera follows it. Without ghosts, a picture of a
-/// whole fall is empty apart from the body.
+/// The smallest width of a single body, relative to the picture's width, at which the camera does not follow it. The value is larger for a
+/// fall without ghosts, since a picture of the whole fall would be nearly empty.
 fn least_alone(scene: &Scene, body: usize, whole: &Span) -> f64 {
     let extent = whole.moving.max - whole.moving.min;
     let is_fall = extent.y > 2.0 * extent.x.max(extent.z);
@@ -110,7 +110,7 @@ fn least_alone(scene: &Scene, body: usize, whole: &Span) -> f64 {
     if is_fall && !has_ghosts { GOOD } else { LEAST }
 }
 
-/// A camera that follows a body with a width in view of `view` (m); none if the scene moves or places the camera.
+/// A camera that follows a body with a width in view of `view` (m). `None` if the scene moves or aims the camera.
 fn along_with(body: usize, view: f64, camera: &Camera, scene: &Scene) -> Option<Camera> {
     let mut camera = camera.clone();
     if camera.look_at.is_some() || camera.motion.moves() {
@@ -125,15 +125,15 @@ fn along_with(body: usize, view: f64, camera: &Camera, scene: &Scene) -> Option<
     Some(camera)
 }
 
-/// Whether the scene leaves the whole picture to the motion. A trail shows even a tiny body, so with trails the whole
-/// run is framed.
+/// True if the scene does not place the camera and shows no trails. A trail makes even a tiny body visible, so with trails the whole run
+/// is framed.
 fn is_automatic(scene: &Scene, camera: &Camera) -> bool {
     let motion = &camera.motion;
     let is_placed = camera.location.is_some() || motion.location.is_some() || motion.follow.is_some();
     !is_placed && !scene.bodies.iter().any(|body| body.showing.trail.is_some())
 }
 
-/// The largest body as drawn; none if there are only planes.
+/// The largest body in its drawn size. `None` if all bodies are planes.
 pub(super) fn largest(scene: &Scene) -> Option<&Body> {
     let sized = scene.bodies.iter().filter_map(|body| Some((half_width(body)?, body)));
     sized

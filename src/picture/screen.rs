@@ -1,12 +1,12 @@
-//! The image plane: texts on it face the viewer, have the same size everywhere, and nothing of the scene covers them.
+//! The image plane of a camera. Texts are placed on this plane: they face the viewer, and no body covers them.
 
 use glam::DVec3;
 
-/// The distance of the plane from the camera, as part of the distance to the camera's aim.
+/// The distance of the image plane from the camera, relative to the distance of the camera's aim.
 const NEAR: f64 = 0.01;
 
-/// The image plane of a camera. On it, x goes from -1 at the left edge of the picture to 1 at the right one; y has the
-/// same scale, and 0 in the middle.
+/// The image plane of a camera. On the plane, x goes from -1 at the left edge of the picture to 1 at the right edge. y is 0 in the middle,
+/// and has the same scale.
 #[derive(Clone, Copy, Debug)]
 pub struct Screen {
     location: DVec3,
@@ -15,26 +15,26 @@ pub struct Screen {
     back: DVec3,
     /// The distance of the plane from the camera, m.
     depth: f64,
-    /// Half the width of the plane, m.
+    /// Half the width of the visible part of the plane, m.
     half: f64,
-    /// The tangent of half the horizontal field of view; none without perspective.
+    /// The tangent of half the horizontal field of view. `None` for parallel rays.
     slope: Option<f64>,
 }
 
-/// A point on the plane.
+/// The image of a point on the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// How far to the right of the middle.
+    /// The horizontal position: -1 at the left edge of the picture, 1 at the right edge.
     pub x: f64,
-    /// How far above the middle.
+    /// The vertical position: 0 in the middle, in the same scale as `x`.
     pub y: f64,
-    /// The length of a metre there.
+    /// The drawn length of one meter at the depth of the point.
     pub metre: f64,
 }
 
 impl Screen {
-    /// The plane of a camera at a location that looks at a point. Its view is limited by a slope or, for parallel rays,
-    /// a width. `sharp` is the distance of sharp focus with depth of field; the plane has to lie there.
+    /// Creates the image plane of a camera at `location` that looks at `look_at`. The view is limited by the tangent `slope` of half its
+    /// angle or, for parallel rays, by a width (m). `sharp` is the point in focus; with depth of field, the plane must be at its depth.
     pub(super) fn new(
         location: DVec3,
         look_at: DVec3,
@@ -43,7 +43,7 @@ impl Screen {
         sharp: Option<DVec3>,
     ) -> Screen {
         let back = (location - look_at).normalize_or(DVec3::Z);
-        // The same rule for a vertical camera as in [`Placed`](super::Placed).
+        // A vertical camera has the same orientation as in [`Placed`](super::Placed).
         let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
         let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
         let depth = match sharp {
@@ -54,17 +54,18 @@ impl Screen {
         Screen { location, right, up: back.cross(right).normalize_or(DVec3::Y), back, depth, half, slope }
     }
 
-    /// The point of the world in the middle of the plane, m.
+    /// The point in the middle of the plane, in the world, m.
     pub fn middle(&self) -> DVec3 {
         self.location - self.back * self.depth
     }
 
-    /// The vectors in the world of the plane's units to the right, up, and towards the viewer, m.
+    /// The unit vectors of the plane in the world, m: to the right, up, and towards the viewer. Their length is half the width of the
+    /// plane.
     pub fn axes(&self) -> [DVec3; 3] {
         [self.right * self.half, self.up * self.half, self.back * self.half]
     }
 
-    /// The image of a point of the world; none if the point is not in front of the camera.
+    /// Projects a point in the world onto the plane. `None` if the point is not in front of the camera.
     pub fn spot(&self, point: DVec3) -> Option<Spot> {
         let offset = point - self.location;
         let depth = -offset.dot(self.back);
@@ -77,8 +78,8 @@ impl Screen {
         (depth > 0.0 && spot.x.is_finite() && spot.y.is_finite()).then_some(spot)
     }
 
-    /// The ray through a point on the plane: its origin, m, and its direction, whose component away from the viewer is
-    /// 1.
+    /// The ray from the viewer through a point on the plane: its origin, m, and its direction. The component of the direction along the
+    /// line of sight is 1.
     pub(super) fn ray(&self, x: f64, y: f64) -> (DVec3, DVec3) {
         let aside = self.right * x + self.up * y;
         match self.slope {

@@ -1,4 +1,4 @@
-//! The surroundings of the bodies: ground, sky and haze, as given or chosen to fit the motion.
+//! The surroundings of the bodies: ground, sky and haze, as the scene gives them, or chosen to fit the motion.
 
 use glam::DVec3;
 
@@ -8,82 +8,82 @@ use super::scope::Part;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
 
-/// The surroundings of the bodies. Lengths are in metres.
+/// The surroundings of the bodies. Lengths are in meters.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// The diagonal of the box that contains the motion.
+    /// The diagonal of the box around the framed motion, rounded up.
     pub size: f64,
-    /// The middle of that box.
+    /// The center of the box around the framed motion.
     pub center: DVec3,
-    /// The ground, if it is visible.
+    /// The ground. `None` if it is not drawn.
     pub ground: Option<StageGround>,
-    /// The edge of a tile of a checkered plane.
+    /// The edge length of a tile on checkered planes.
     pub tile: f64,
-    /// The distance from the middle over which its tiles fade.
+    /// The distance from the center over which the tiles of checkered planes fade.
     pub tiles_fade: f64,
-    /// The distance from the middle over which ground and checkered planes fade into the horizon.
+    /// The distance from the center over which the ground and checkered planes fade into the horizon.
     pub fade: f64,
-    /// The preset for everything not given.
+    /// The preset that determines everything the scene does not give.
     pub preset: Preset,
-    /// The ambient light, linear; none for the materials' default.
+    /// The ambient light, as a linear color. `None` for the default of the materials.
     pub ambient: Option<[f64; 3]>,
-    /// The color of a plain sky; none for the sky of the preset.
+    /// The color of a plain sky. `None` for the sky of the preset.
     pub sky: Option<Color>,
-    /// Whether the background is transparent.
+    /// True if the background is transparent.
     pub transparent: bool,
-    /// Whether the ground fades into haze.
+    /// True if the ground fades into haze.
     pub fog: bool,
-    /// The extent of the motion, and the sizes that follow from it.
+    /// The extent of the motion, and the sizes derived from it.
     pub scenery: Scenery,
-    /// The box of the whole run, not rounded, even if the camera frames only the start.
+    /// The exact box around the whole run, even if the camera frames only the start.
     pub whole: Bounds,
 }
 
-/// The ground. Lengths are in metres.
+/// The ground. Lengths are in meters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageGround {
-    /// Its height.
+    /// The height of the ground (y coordinate).
     pub height: f64,
-    /// The edge of one of its tiles.
+    /// The edge length of a tile on the ground.
     pub tile: f64,
-    /// The distance from the middle over which the tiles fade.
+    /// The distance from the center over which the tiles of the ground fade.
     pub tiles_fade: f64,
 }
 
-/// The extent of the motion and the sizes that follow from it, in metres.
+/// The extent of the motion and the sizes derived from it, in meters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scenery {
-    /// The box that contains the framed motion, not rounded.
+    /// The exact box around the framed motion.
     pub bounds: Bounds,
-    /// The height of the ground, or where it would be.
+    /// The height of the ground (y coordinate), even if the ground is not drawn.
     pub ground: f64,
-    /// The edge of one of its tiles.
+    /// The edge length of a tile on the ground.
     pub tile: f64,
-    /// The default edge of a tile.
+    /// The default edge length of a tile.
     pub usual_tile: f64,
-    /// The default distance between grid lines.
+    /// The default distance between two grid lines.
     pub spacing: f64,
-    /// The size of the visible scene, m: of the motion and, if the camera frames part of a fall, of the air below.
+    /// The size of the visible scene. It includes the motion and, if the camera frames a part of a fall, the air below.
     pub size: f64,
 }
 
 impl Scenery {
-    /// The sizes for a camera that frames the bounds `framed` and sees a width of `view` (m). `framed` may be only a
-    /// part of `whole`, the bounds of the run.
+    /// Computes the sizes for a camera that frames the bounds `framed` and sees a width of `view` (m). `framed` may be a part of `whole`,
+    /// the bounds of the run.
     pub(super) fn new(scene: &Scene, framed: Bounds, whole: Bounds, view: f64, part: Part) -> Scenery {
         let around = scene.environment.ground.as_ref();
         let framed_size = size(framed);
         let ground =
             around.and_then(|ground| ground.height).unwrap_or_else(|| just_under(whole.min.y, framed_size));
         let deep = || two_digits_up((framed.max.y - ground).max(framed_size));
-        // A camera that follows a body is nearly always high above the ground, and sees far.
+        // A camera that follows a body is usually high above the ground, and sees far.
         let (depth, far) = match part {
             Part::Whole => (0.0, 1.0),
             Part::Start(_) => (deep(), 1.0),
             Part::AroundBody(_) => (deep(), 2.0),
         };
         let size = far * framed_size.max(depth);
-        // A camera close to a long motion sees little of it. Then the tiles fit its picture.
+        // A camera close to a long motion sees only a part of it, so the tiles must fit the picture.
         let fit = framed_size.min(two_digits_up(view));
         let usual_tile = tile(fit.max(depth));
         let given_tile = around.and_then(|ground| ground.tile).or(ruled_tile(scene, usual_tile));
@@ -98,29 +98,29 @@ impl Scenery {
     }
 }
 
-/// The spacing of a grid on the ground, if tiles of that size would do. Its lines then lie on the edges of tiles.
+/// The spacing of a grid on the ground, if it is also suitable as the size of tiles. The grid lines then coincide with the edges of tiles.
 fn ruled_tile(scene: &Scene, usual: f64) -> Option<f64> {
     let spacing = scene.grid.filter(|grid| grid.plane == GridPlane::Ground)?.spacing?;
     (0.1 * usual..10.0 * usual).contains(&spacing).then_some(spacing)
 }
 
-/// The width of a clearly visible line in a picture `view` wide, m.
+/// The width of a clearly visible line, m, in a picture with a width in view of `view` (m).
 pub(super) fn stroke(view: f64, output: Output) -> f64 {
     STROKE.max(LEAST_STROKE / f64::from(output.width)) * view
 }
 
-/// The diagonal of a box, rounded up.
+/// The diagonal of a box, rounded up to two digits.
 fn size(bounds: Bounds) -> f64 {
     two_digits_up(framing::rounded_outward(bounds).diagonal())
 }
 
-/// The width of lines, as part of the picture's width: four pixels of 1280.
+/// The width of a clearly visible line, relative to the width of the picture: four pixels of 1280.
 const STROKE: f64 = 0.0031;
-/// The least width of lines, pixels.
+/// The smallest width of a clearly visible line, pixels.
 const LEAST_STROKE: f64 = 1.5;
 
 impl Stage {
-    /// The surroundings of a scene for a camera. `whole` contains the whole run.
+    /// Computes the surroundings of a scene for a camera. `whole` is the box around the whole run.
     pub(super) fn new(scene: &Scene, scenery: Scenery, whole: Bounds, camera: &Placed) -> Stage {
         let bounds = framing::rounded_outward(scenery.bounds);
         let (center, size, far) = (bounds.middle(), size(scenery.bounds), scenery.size);
@@ -138,7 +138,7 @@ impl Stage {
             ground,
             tile: scenery.usual_tile,
             tiles_fade: 4.5 * far,
-            // From far away, more of the ground is visible.
+            // A distant camera sees more of the ground.
             fade: 11.0 * far.max(distance / 2.0),
             preset: scene.environment.preset,
             ambient: Some(ambient(&scene.environment)).filter(|ambient| *ambient != [1.0; 3]),
@@ -154,28 +154,28 @@ impl Stage {
     }
 }
 
-/// The ambient light, linear: of the preset, or from a plain sky.
+/// The ambient light of the preset or of a plain sky, as a linear color.
 fn ambient(environment: &Environment) -> [f64; 3] {
     match environment.sky {
         Sky::Gradient => environment.preset.ambient(),
-        // A light gray plain sky is as bright as the usual one. Even a black sky leaves a little light.
+        // A light gray plain sky is as bright as the default one. Even a black sky gives a little light.
         Sky::Plain(color) => color.linear().map(|c| (0.03 + 1.6 * c).min(1.0)),
     }
 }
 
-/// A positive number rounded up to two digits.
+/// Rounds a positive number up to two digits.
 fn two_digits_up(number: f64) -> f64 {
     let step = framing::decimal_step(number) / 10.0;
     (number / step - 1e-6).ceil() * step
 }
 
-/// A height just under the lowest point of the motion.
+/// A rounded height slightly below the lowest point of the motion, m.
 fn just_under(lowest: f64, size: f64) -> f64 {
     let step = framing::decimal_step(size) / 100.0;
     (lowest / step - 0.1).floor() * step
 }
 
-/// The edge of a ground tile for a scene of the given size: 1, 2 or 5 times a power of ten.
+/// The edge length of a tile for a scene of the given size: 1, 2 or 5 times a power of ten, near a twelfth of the size.
 fn tile(size: f64) -> f64 {
     let wanted = size / 12.0;
     let decade = framing::decimal_step(wanted);

@@ -1,4 +1,4 @@
-//! Sizes follow what the camera sees, and texts stay in the picture.
+//! Tests of whole pictures: sizes must fit the view of the camera, and texts must stay inside the picture.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ fn plan(text: &str) -> (Scene, Plan) {
     (scene, plan)
 }
 
-/// A ball that flies 600 m; the camera goes along with it.
+/// A ball flies 600 m, and the camera follows it.
 fn flight(keys: &str) -> (Scene, Plan) {
     plan(&format!(
         "simulation = {{ duration = 10, gravity = [0, -9.81, 0] }}
@@ -32,7 +32,7 @@ fn a_camera_that_follows_sees_arrows_trails_and_grids_in_its_own_size() {
     for frame in frames(&scene).skip(1).step_by(25) {
         let [velocity, force] = plan.arrows(&frame)[..] else { panic!("two are asked for") };
         assert!(velocity.radius < 0.02 && velocity.from.distance(velocity.to) < 0.22, "{velocity:?}");
-        // As long as the scene says, however short that is.
+        // An arrow with a given scale has the length that the scene gives, however short.
         assert!(force.from.distance(force.to) < 0.1, "{force:?}");
         let stroke = plan.stroke(&frame);
         assert!(stroke < 0.01, "{stroke}");
@@ -65,7 +65,7 @@ fn a_camera_that_stands_still_sees_one_size_and_the_tips_of_all_arrows() {
     assert!((0.05..0.35).contains(&(longest / view)), "{longest} of {view}");
 }
 
-/// A fall of 490 m.
+/// A ball falls 490 m.
 fn fall(keys: &str) -> (Scene, Plan) {
     plan(&format!("simulation.gravity = [0, -9.81, 0]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}"))
 }
@@ -77,7 +77,7 @@ fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
     assert!((0.5..2.0).contains(&end), "{end}");
     assert!(start.too_small().is_some_and(|largest| largest.name == "ball" && largest.pixels_in_whole < 1.0));
     assert!(start.too_small().unwrap().pixels > 8.0);
-    // It goes on falling through the air: the ground is below all of it.
+    // The fall continues after the framed start, so the ground is below the whole run.
     assert!(start.stage().ground.unwrap().height < -490.0);
     for keys in [
         "trail = true",
@@ -87,7 +87,7 @@ fn where_all_of_a_fall_would_leave_a_dot_the_camera_frames_its_start() {
     ] {
         assert_eq!(fall(keys).1.part(), Part::Whole, "{keys}");
     }
-    // Nothing would show that the ball moves.
+    // Without a visible ground or with a moving camera, the camera cannot follow the ball.
     for keys in
         ["[environment]\npreset = 'space'", "[camera]\norbit.period = 9", "[output]\ntransparent = true"]
     {
@@ -110,14 +110,14 @@ fn the_camera_goes_along_with_the_only_body_where_all_of_a_fall_would_leave_a_do
             let camera = along.camera(&frame);
             let ball = frame.bodies[0].location;
             match keys.contains("floor") && ball.y < -300.0 {
-                // It has gone through the floor, at 77 m/s: 3.1 m from frame to frame.
+                // The ball has fallen through the floor at 77 m/s: it moves 3.1 m from frame to frame.
                 true => assert!((-300.2..-296.8).contains(&camera.look_at().y), "{camera:?}"),
                 false => assert_eq!(camera.look_at(), ball),
             }
             assert!(along.stage().ground.is_none_or(|ground| camera.location().y > ground.height));
         }
     }
-    // The way of a throw fills the picture, and so do ghosts.
+    // The path of a throw fills the picture, and so do ghosts. The camera then need not follow the ball.
     let part = |keys: &str| {
         let simulation = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }";
         let ball = "[body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 100, 0]";
@@ -127,7 +127,7 @@ fn the_camera_goes_along_with_the_only_body_where_all_of_a_fall_would_leave_a_do
     assert_eq!([part("velocity = [20, 0, 0]"), part("ghosts.every = 0.5")], [Part::Whole; 2]);
 }
 
-/// From where to where a text reaches, across and upward.
+/// The left, right, bottom and top of a text in the image plane.
 fn extent(text: &Text<'_>) -> [f64; 4] {
     let wide = super::text::width(&text.says, text.height);
     let left = text.x - text.align * wide;
@@ -180,7 +180,7 @@ fn texts_neither_overlap_nor_leave_the_picture() {
 
 #[test]
 fn a_grid_that_a_moving_camera_sees_fills_the_picture_and_has_its_numbers_at_the_edges() {
-    // The flight is 600 m long; in between, there is grid on all sides.
+    // The flight is 600 m long. In its middle, the grid extends to all edges of the picture.
     let (scene, plan) = flight("");
     let frame = Frames::at(&scene, 3.0).unwrap();
     let screen = plan.screen(&frame).unwrap();
@@ -197,7 +197,7 @@ fn a_grid_that_a_moving_camera_sees_fills_the_picture_and_has_its_numbers_at_the
     assert!(numbers.iter().filter(is_left).count() >= 3, "{numbers:?}");
     assert!(numbers.iter().all(|text| is_low(&text) || is_left(&text)), "{numbers:?}");
     assert_legible(&numbers, "the grid");
-    // With lines that are far apart, it has a number all the same.
+    // Even a grid with distant lines has a number in every picture.
     let coarse = "simulation = { duration = 4.5, gravity = [0, -9.81, 0] }
         [body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, 100, 0]
         [camera]\nfollow = { body = 'ball', distance = 25 }\n[grid]\nplane = 'wall'\nspacing = 10";
@@ -223,7 +223,7 @@ fn an_upright_grid_ends_at_the_ground_and_one_on_the_ground_lies_on_the_edges_of
     assert_eq!(lowest, ground);
     let (_, floor) = plan(&format!("{ball}[grid]\nspacing = 2"));
     assert_eq!(floor.stage().ground.unwrap().tile, 2.0);
-    // What is fit for no tile leaves the tiles as they are.
+    // A spacing that is unsuitable for tiles leaves the tiles unchanged.
     let (_, fine) = plan(&format!("{ball}[grid]\nspacing = 0.02"));
     assert!(fine.stage().ground.unwrap().tile >= 0.5);
 }
@@ -269,7 +269,7 @@ fn a_label_stands_beside_other_bodies_and_the_names_of_axes_beside_coils() {
         (label.x, at)
     };
     assert!(place(text).1 < 0.0, "below the ball, above which is the other");
-    // One body that fills the picture leaves the label where it is without any.
+    // If a body fills the picture, no position is free of bodies, so the label stays at its usual position.
     let wall = "\n[body.wall]\nshape.box.size = [50, 50, 1]\nlocation = [0, 0, -2]";
     assert!(place(&format!("{text}{wall}")).1 > 0.0);
 
@@ -318,7 +318,7 @@ fn a_camera_nearby_sees_small_tiles_though_the_motion_is_long() {
     assert_eq!(plan.placed().location(), DVec3::new(0.0, 1.0, 5.0));
 }
 
-/// A body that is drawn twice as large has its points twice as far from its centre.
+/// On a body that is drawn twice as large, attachment points are twice as far from the center.
 #[test]
 fn a_coil_stands_between_the_points_that_its_spring_pulls() {
     let (scene, plan) = plan(
@@ -338,7 +338,7 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
     }
 }
 
-/// A bob and an arm, to be held by joints.
+/// A scene with a bob and an arm, to which joints are added.
 const HELD: &str = "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
     [body.bob]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, -2, 0]
     [body.arm]\nshape.box.size = [2, 0.1, 0.1]\nlocation = [4, 0, 0]\nmass = 1\n";
@@ -355,7 +355,7 @@ fn a_label_tells_what_a_joint_does() {
     assert_eq!(note.says, "30.000 30.0 10.00 –4");
 }
 
-/// The force on the bob is along its rod; the scale is that of all forces.
+/// The force on the bob is along its rod. Its arrow has the common scale of all forces.
 #[test]
 fn a_joint_has_arrows_for_its_force_and_its_torque() {
     let (scene, plan) = plan(&format!(
@@ -366,10 +366,10 @@ fn a_joint_has_arrows_for_its_force_and_its_torque() {
     let frame = frames(&scene).nth(20).unwrap();
     let [string, force, torque] = plan.arrows(&frame)[..] else { panic!("three are asked for") };
     assert_eq!(string.bearer, Bearer::Joint { joint: 0, body: Some(0) });
-    // From the surface of the bob towards the pivot.
+    // The arrow begins at the surface of the bob, and points towards the pivot.
     assert!(string.from.abs_diff_eq(DVec3::new(0.0, -1.9, 0.0), 1e-9), "{string:?}");
     assert!((string.to - string.from).normalize().abs_diff_eq(DVec3::Y, 1e-9), "{string:?}");
-    // What the arm weighs, on the world; and its torque about the clamp.
+    // The force on the fixed point is the weight of the arm. Its torque is about the clamp.
     assert!((force.to - force.from).abs_diff_eq(DVec3::NEG_Y * 0.5, 1e-9), "{force:?}");
     assert!(torque.from.abs_diff_eq(DVec3::X * 3.0, 1e-9), "{torque:?}");
     assert!((torque.to - torque.from).abs_diff_eq(DVec3::NEG_Z, 1e-9), "{torque:?}");

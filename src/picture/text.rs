@@ -5,35 +5,34 @@ use std::borrow::Cow;
 use super::room::Rectangle;
 use crate::scene::{Color, Corner, Output};
 
-/// The distance of texts from the edges of the picture, whose width is 2.
+/// The distance of texts from the edges of the picture, which has a width of 2.
 pub(super) const MARGIN: f64 = 0.035;
 
-/// How far the letters reach above and below their base line, in heights of a line.
+/// The extents of letters above and below their base line, relative to the height of a line.
 const ABOVE: f64 = 0.75;
 const BELOW: f64 = 0.25;
 
-/// A line of text in the image plane. There, x goes from -1 at the left edge of the picture to 1 at the right one. Its
-/// y has the same scale.
+/// A line of text in the image plane. x goes from -1 at the left edge of the picture to 1 at the right edge; y has the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text<'a> {
-    /// The source of the text: the name of the label, `grid`, or `scale bar`.
+    /// The source of the text: the name of a label, `grid`, or `scale bar`.
     pub name: &'a str,
-    /// The words.
+    /// The words of the text.
     pub says: Cow<'a, str>,
-    /// Its horizontal position.
+    /// The horizontal position of the text's reference point, which `align` selects.
     pub x: f64,
-    /// The height of its base line.
+    /// The vertical position of the base line.
     pub y: Vertical,
-    /// The height of a line.
+    /// The height of a line of text.
     pub height: f64,
     /// The part of the text that is at `x`: 0 for its start, 0.5 for its middle, 1 for its end.
     pub align: f64,
-    /// Its color.
+    /// The color of the text.
     pub color: Color,
 }
 
 impl Text<'_> {
-    /// Its area in a picture with the given ratio of height to width.
+    /// The rectangle that the text covers, in a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
         let wide = width(&self.says, self.height);
         let (left, base) = (self.x - self.align * wide, self.y.above_middle(aspect));
@@ -46,19 +45,19 @@ impl Text<'_> {
     }
 }
 
-/// A height in a picture 2 wide. The upper and lower edges are those of the final image, whatever its shape.
+/// A vertical position in a picture with a width of 2. Distances from the upper and lower edges are independent of the picture's height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Vertical {
-    /// Above the middle.
+    /// A distance above the middle of the picture.
     Middle(f64),
-    /// Below the upper edge.
+    /// A distance below the upper edge of the picture.
     Top(f64),
-    /// Above the lower edge.
+    /// A distance above the lower edge of the picture.
     Bottom(f64),
 }
 
 impl Vertical {
-    /// The height above the middle, in a picture with the given ratio of height to width.
+    /// The distance above the middle of a picture with the given ratio of height to width.
     pub fn above_middle(self, aspect: f64) -> f64 {
         match self {
             Vertical::Middle(height) => height,
@@ -67,7 +66,7 @@ impl Vertical {
         }
     }
 
-    /// A height raised by a distance.
+    /// Moves the position up by a distance.
     #[must_use]
     pub fn raised(self, by: f64) -> Vertical {
         match self {
@@ -78,13 +77,12 @@ impl Vertical {
     }
 }
 
-/// Converts the height of a text line from pixels of the output image to units of the image plane, in which the picture
-/// is 2 wide.
+/// Converts the height of a line of text from pixels to units of the image plane, in which the picture has a width of 2.
 pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }
 
-/// The approximate width of a text on the screen for a line height: the advance widths of Times, rounded.
+/// Estimates the width of a text for a line height, from the rounded advance widths of Times.
 pub(super) fn width(says: &str, height: f64) -> f64 {
     let em = |letter: char| match letter {
         'i' | 'j' | 'l' | 't' | 'f' | '\'' | '|' | '.' | ',' | ':' | ';' | ' ' => 0.27,
@@ -106,7 +104,7 @@ pub(super) fn across(corner: Corner) -> (f64, f64) {
     }
 }
 
-/// Whether a corner is at the top of the picture.
+/// True if a corner is at the upper edge of the picture.
 pub(super) fn is_top(corner: Corner) -> bool {
     matches!(corner, Corner::TopLeft | Corner::Top | Corner::TopRight)
 }
@@ -117,7 +115,7 @@ mod tests {
 
     #[test]
     fn widths_are_about_those_of_the_font() {
-        // Measured by `max_extent` in POV-Ray 3.7 with `timrom.ttf`.
+        // The widths were measured by `max_extent` in POV-Ray 3.7 with `timrom.ttf`.
         for (says, measured) in [
             ("t = 1.20 s", 3.81),
             ("0.2", 1.24),

@@ -1,4 +1,4 @@
-//! Lines along the paths of bodies.
+//! Trails: lines along the paths of bodies.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,63 +9,63 @@ use super::{colors, decimal_step};
 use crate::scene::{Color, Scene};
 use crate::simulate::{Frame, Passed, Way};
 
-/// The color of the trail of a body that has no single color.
+/// The default color of a trail if the body has no single color.
 const AMBER: Color = Color([0.93, 0.55, 0.08]);
-/// The largest bend between visible pieces of a trail, radians.
+/// The largest angle between successive pieces of a trail, rad.
 const BEND: f64 = 0.06;
-/// The most pieces from one point of the path to the next.
+/// The largest number of straight pieces between two points of the path.
 const MOST_PIECES: f64 = 16.0;
 
-/// A trail is at least this many times as wide as the smallest visible distance. A trail is some pixels wide.
+/// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
 const FINEST: f64 = 50.0;
-/// The number of pieces in a stretch. A piece goes from one kept frame to the next.
+/// The number of pieces in a stretch. A piece connects the points of two stored frames.
 const STRETCH: usize = 32;
-/// The number of stretches of a trail in the cache: twice the most in one frame.
+/// The number of stretches of a trail in the cache: twice the largest number in a frame.
 const REMEMBERED: usize = 32;
 
-/// The trail of a body up to a moment.
+/// The trail of a body up to some time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
-    /// The number of the body.
+    /// The index of the body.
     pub body: usize,
-    /// The points of the line, m, the oldest first: two at least.
+    /// The points of the trail, m, by increasing time. There are at least two.
     pub points: Vec<DVec3>,
-    /// The stretches of the line, in order. Each is the same in all frames that contain it.
+    /// The complete stretches of the trail, in order. Each stretch is the same in all frames that contain it.
     pub stretches: Vec<Stretch>,
-    /// The largest coordinate of its points by magnitude, m.
+    /// The largest absolute value of the points' coordinates, m.
     pub reach: f64,
-    /// Half its width, m.
+    /// Half the width of the trail, m.
     pub radius: f64,
-    /// Smaller distances than this are invisible, m.
+    /// The distance below which details are invisible, m.
     pub fineness: f64,
-    /// Whether it tapers towards its end.
+    /// True if the trail tapers towards its oldest point.
     pub tapers: bool,
-    /// Its color.
+    /// The color of the trail.
     pub color: Color,
 }
 
-/// A finished part of a trail. Its points are bit-identical in all later frames, whatever the width of the trail.
-/// `stride` and `number` identify it among the stretches of its body.
+/// A complete part of a trail. Its points are bit-identical in all later frames, for any width of the trail. `stride` and `number`
+/// identify a stretch among those of the same body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stretch {
-    /// Every so many frames a point of the way is kept.
+    /// The number of frames between two stored points of the path.
     pub stride: usize,
-    /// The number of the stretch at this stride, from 0.
+    /// The index of the stretch among all stretches of this stride, from 0.
     pub number: usize,
-    /// The number of its first point in the trail.
+    /// The index of the stretch's first point in [`Trail::points`].
     pub first: usize,
-    /// The number of its last point in the trail, which may be the first of the next stretch.
+    /// The index of the stretch's last point in [`Trail::points`]. It may be the first point of the next stretch.
     pub last: usize,
 }
 
 impl Trail {
-    /// The same trail, as wide as a stroke (m) unless it has a width.
+    /// Sets the width of a trail without a given width to a stroke (m).
     fn of_width(self, stroke: f64) -> Trail {
         let radius = if self.radius > 0.0 { self.radius } else { stroke / 2.0 };
         Trail { radius, ..self }
     }
 
-    /// Half its width at one of its points, m.
+    /// Half the width of the trail at one of its points, m.
     #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub fn radius_at(&self, number: usize) -> f64 {
         match self.tapers {
@@ -78,21 +78,20 @@ impl Trail {
 /// The trails of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Trails {
-    /// In the order of their bodies.
+    /// The trails that the scene requests, in the order of bodies.
     trails: Vec<Planned>,
 }
 
 #[derive(Clone, Debug)]
 struct Planned {
-    /// The trail without points. Its radius is 0 if no width is given.
+    /// The trail without points. Its radius is 0 if the scene gives no width.
     trail: Trail,
-    /// The least distance between its points, m. It is the same in all frames, which makes stretches reusable.
+    /// The smallest distance between two points, m. It is the same in all frames, so that stretches can be reused.
     least: f64,
     stretches: Arc<Remembered>,
 }
 
-/// A cache of a trail's latest stretches, with points. Consecutive frames share nearly all stretches, and making them
-/// is most of the work.
+/// A cache of the latest stretches of a trail. Consecutive frames share nearly all stretches, and computing them is most of the work.
 #[derive(Debug, Default)]
 struct Remembered {
     made: Mutex<VecDeque<Made>>,
@@ -106,7 +105,8 @@ struct Made {
     part: Part,
 }
 
-/// The points of a part of a line, and the largest of their coordinates, m: infinite if one is not finite.
+/// The points of a part of a trail. `reach` is the largest absolute value of their coordinates, m, or infinite if a coordinate is not
+/// finite.
 #[derive(Clone, Debug)]
 struct Part {
     points: Arc<[DVec3]>,
@@ -121,7 +121,7 @@ impl Part {
 }
 
 impl Remembered {
-    /// The stretch of a stride and a number, from the cache or made now.
+    /// Returns the stretch with a stride and a number from the cache. Calls `make` if the cache does not contain it.
     fn part(&self, (stride, number): (usize, usize), make: impl FnOnce() -> Part) -> Part {
         let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let is_it = |made: &&Made| (made.stride, made.number) == (stride, number);
@@ -139,7 +139,7 @@ impl Remembered {
 }
 
 impl Trails {
-    /// The trails of a scene. The narrowest stroke of the run (m) sets the fineness of trails without a width.
+    /// Plans the trails of a scene. The narrowest stroke of the run (m) determines the fineness of trails without a given width.
     pub(super) fn new(scene: &Scene, narrowest: f64) -> Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
@@ -162,12 +162,12 @@ impl Trails {
         Trails { trails }
     }
 
-    /// All requested trails, without points. Those without a width are as wide as a stroke, m.
+    /// The requested trails without points. Those without a given width are as wide as a stroke (m).
     pub(super) fn planned(&self, stroke: f64) -> impl Iterator<Item = Trail> {
         self.trails.iter().map(move |planned| planned.trail.clone().of_width(stroke))
     }
 
-    /// The trails up to a frame. Those without a width are as wide as a stroke, m.
+    /// Computes the trails up to a frame. Those without a given width are as wide as a stroke (m).
     pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
         let trail = |way: &Way| {
             let of = self.trails.binary_search_by_key(&way.body, |planned| planned.trail.body).ok()?;
@@ -180,19 +180,19 @@ impl Trails {
     }
 }
 
-/// The points of a line along a path.
+/// The points of a trail while they are collected along a path.
 struct Line {
     points: Vec<DVec3>,
     stretches: Vec<Stretch>,
-    /// The largest of the coordinates, m: infinite if one is not finite.
+    /// The largest absolute value of the coordinates, m, or infinite if a coordinate is not finite.
     reach: f64,
-    /// The least distance from one point to the next, m.
+    /// The smallest distance between two points, m.
     least: f64,
 }
 
 impl Line {
-    /// The line along a path, with points at least a given distance apart, m. Thus the points of a stretch depend only
-    /// on its own part of the path.
+    /// Computes the points of a trail along a path, at least `least` (m) apart. The points of a stretch depend only on its own part of the
+    /// path.
     fn along(way: &Way, least: f64, remembered: &Remembered) -> Line {
         let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
         let mut rest = way.points.as_slice();
@@ -208,7 +208,7 @@ impl Line {
             line.reach = line.reach.max(reach);
             match number {
                 Some(number) if points.len() > 1 => {
-                    // If two points coincide, the first ends the previous stretch.
+                    // If both parts have a point in common, keep only one copy, in the new stretch.
                     if line.points.last() == points.first() {
                         line.points.pop();
                     }
@@ -228,7 +228,7 @@ impl Line {
         line
     }
 
-    /// Appends a point unless it is too near to the last.
+    /// Appends a point unless it is too near to the last one.
     fn put(&mut self, point: DVec3) {
         if self.points.last().is_none_or(|last| last.distance(point) > self.least) {
             self.points.push(point);
@@ -236,8 +236,8 @@ impl Line {
     }
 }
 
-/// If a whole stretch begins at the first of some points: its number, and its count of pieces. Impacts add points
-/// between those of frames.
+/// If a complete stretch begins at the first point: the number of the stretch, and the index of its last point. Points at impacts lie
+/// between those of frames and are not counted.
 fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
     let frames = stride * STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
@@ -246,15 +246,15 @@ fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
     (frame == begin + frames).then_some((begin / frames, end))
 }
 
-/// The count of pieces until a stretch may begin or the path ends: at least one.
+/// The index of the point at which a stretch may begin, or of the last point. At least 1.
 fn until_stretch(points: &[Passed], stride: usize) -> usize {
     let begins = |point: &Passed| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
     let next = points.iter().skip(1).position(begins);
     next.map_or(points.len() - 1, |next| next + 1)
 }
 
-/// The points of the line along a part of a path, at least `least` apart. Both ends are included unless the whole part
-/// is shorter.
+/// Computes the points of a trail along a part of a path, at least `least` (m) apart. Both ends are included unless the whole part is
+/// shorter.
 fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
     let mut line: Vec<DVec3> = way.first().map(|point| point.location).into_iter().collect();
     let mut put = |point: DVec3| {
@@ -272,7 +272,7 @@ fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
             piece += 1.0;
         }
     }
-    // The line ends where the next part begins.
+    // The part must end exactly where the next part begins.
     if let Some(end) = way.last().map(|point| point.location) {
         let is_near = |point: &DVec3| point.distance(end) <= least;
         while line.len() > 1 && line.last().is_some_and(is_near) {
@@ -290,7 +290,7 @@ mod tests {
     use super::*;
     use crate::simulate::Frames;
 
-    /// Frames that come in any order, and one alone, have the same trails.
+    /// The trails of a frame do not depend on the cache: frames in any order, or one frame alone, have the same trails.
     #[test]
     fn what_is_remembered_of_a_trail_changes_nothing() {
         let scene = Scene::parse(

@@ -1,4 +1,4 @@
-//! Labels beside bodies, where there is room.
+//! Places labels beside bodies, where there is room.
 
 use super::super::room::{Rectangle, Room};
 use super::super::screen::{Screen, Spot};
@@ -9,7 +9,8 @@ use crate::dynamics::BodySnapshot;
 use crate::scene::Side;
 
 impl Labels {
-    /// The position of a body or a ghost in the picture, and the area that it covers. A plane covers nothing.
+    /// The position of a body or ghost in the picture, and the rectangle that it covers. `None` if it is behind the camera. The rectangle
+    /// of a plane is empty.
     pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
         let shape = self.bodies[at.id].drawn();
         let spot = screen.spot(at.location)?;
@@ -24,9 +25,8 @@ impl Labels {
         Some((spot, area))
     }
 
-    /// A label beside a body, if the body is in the picture. The label stays inside the picture. It moves to
-    /// another side or farther away if it would cover an arrow or a text, and to another near side if it
-    /// would cover another body.
+    /// Places a label beside a body or ghost. `None` if the body is outside the picture. The label stays inside the picture. It moves to
+    /// another side or farther away if it would cover an arrow or a text, and to a near free side if it would cover another body.
     pub(super) fn beside<'a>(
         &'a self,
         planned: &'a Planned,
@@ -55,7 +55,7 @@ impl Labels {
             Side::Above | Side::Below => [side, opposite(side), Side::Right, Side::Left],
             Side::Left | Side::Right => [side, opposite(side), Side::Above, Side::Below],
         };
-        // First one line farther on its own side or the opposite one, then the other two sides.
+        // First try the requested side and the opposite side, at most one line away from the body. Then try the other two sides.
         let near = [0, 1].into_iter().flat_map(|lines| [0, 1].map(|side| (others[side], lines)));
         let far = (0..=8).flat_map(|lines| others.map(|side| (side, lines)));
         let candidates =
@@ -80,7 +80,7 @@ impl Labels {
         Some(planned.text(said.into(), (x, y), align))
     }
 
-    /// A text that would leave the picture, moved to its edge.
+    /// Moves a text to the edge of the picture if it would extend beyond this edge.
     fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
         let area = text.area(self.aspect);
         let edge = 1.0 - MARGIN / 2.0;
@@ -97,7 +97,7 @@ impl Labels {
     }
 }
 
-/// The other side of a body.
+/// The opposite side of a body.
 fn opposite(side: Side) -> Side {
     match side {
         Side::Above => Side::Below,

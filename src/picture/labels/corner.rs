@@ -1,4 +1,4 @@
-//! Labels in the corners of a picture, one line below another.
+//! Places labels in the corners of a picture, one below another.
 
 use super::super::grid;
 use super::super::text::{MARGIN, Text, Vertical, across, is_top};
@@ -7,7 +7,7 @@ use super::{LINE, Labels, Planned};
 use crate::scene::{Corner, LabelPlace};
 
 impl Labels {
-    /// A label in its corner.
+    /// Places a label in its corner. `None` for a label beside a body.
     pub(super) fn in_corner<'a>(&'a self, planned: &'a Planned, now: &Moment<'_>) -> Option<Text<'a>> {
         let LabelPlace::Corner(corner) = planned.label.place else { return None };
         let (x, align) = across(corner);
@@ -19,16 +19,16 @@ impl Labels {
     }
 }
 
-/// The space taken at the upper edge or the lower one.
+/// A rectangle that a text takes at the upper or lower edge of the picture.
 pub(super) struct Taken {
     is_top: bool,
-    /// The range across the picture.
+    /// The left and right ends of the rectangle, from -1 to 1.
     across: [f64; 2],
-    /// The range of distances from the edge.
+    /// The distances of the rectangle's near and far sides from the edge of the picture.
     inset: [f64; 2],
 }
 
-/// The space of a scale bar. Its length is at most a quarter of the picture.
+/// The rectangle of a scale bar, whose length is at most a quarter of the picture's width.
 pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
     let (x, align) = across(corner);
     let left = x - 0.5 * align;
@@ -39,8 +39,9 @@ pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
     }
 }
 
-/// The distance from the edge to the middle of a line of text in a corner: the least that overlaps no other
-/// line. No room is kept beyond the other edge of the picture, at `most`, where nothing is visible.
+/// Finds room for a line of text in a corner: the smallest distance from the edge at which the line overlaps no other. Returns the
+/// distance from the edge to the middle of the line. Beyond the opposite edge, at the distance `most`, no room is reserved, since nothing
+/// is visible.
 pub(super) fn inset_without_overlap(
     taken: &mut Vec<Taken>,
     corner: Corner,

@@ -1,4 +1,4 @@
-//! Texts in the picture, with current values.
+//! Labels: texts in the picture, with current values.
 
 mod beside;
 mod corner;
@@ -16,37 +16,37 @@ use crate::dynamics::Coordinate;
 use crate::scene::{Body, Color, Label, LabelPlace, Scene};
 use crate::simulate::{Frame, Ghost};
 
-/// The usual height of a line, as part of the picture's height.
+/// The default height of a line of text, relative to the height of the picture.
 const SIZE: f64 = 0.055;
-/// The least height of a line without a given height, pixels.
+/// The smallest default height of a line of text, pixels.
 const LEAST_PIXELS: f64 = 13.0;
-/// The distance from the base line of one line of text to the next, in heights of a line.
+/// The distance between the base lines of two successive lines of text, relative to the height of a line.
 const LINE: f64 = 1.15;
 
 /// The labels of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
-    /// The bodies of the scene, if labels show any of their values.
+    /// The bodies of the scene. Empty if the scene has no labels.
     bodies: Vec<Body>,
-    /// The coordinates of hinges and sliders, by the numbers of the joints.
+    /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
     joints: Vec<Option<Coordinate>>,
-    /// The height of the picture, as part of its width.
+    /// The height of the picture, relative to its width.
     aspect: f64,
 }
 
 #[derive(Clone, Debug)]
 struct Planned {
     label: Label,
-    /// The height of a line on the screen.
+    /// The height of a line of text in the image plane.
     height: f64,
     color: Color,
-    /// For a label in a corner of the picture: the distance from its middle to the edges.
+    /// The distance from the edge of the picture to the middle of the line. 0 for a label beside a body.
     inset: f64,
 }
 
 impl Labels {
-    /// Plans the labels for pictures of a height, as part of their width.
+    /// Plans the labels of a scene. `ink` is their default color.
     pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let mut taken: Vec<Taken> =
@@ -56,7 +56,7 @@ impl Labels {
             let mut height = label.size.map_or(usual, |size| 2.0 * aspect * size);
             let mut inset = 0.0;
             if let LabelPlace::Corner(corner) = label.place {
-                // A line wider than the picture is made smaller.
+                // A line wider than the picture gets smaller letters.
                 let wide = width(&longest(label), 1.0);
                 height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
                 inset = inset_without_overlap(&mut taken, corner, [wide * height, height], 2.0 * aspect);
@@ -69,17 +69,17 @@ impl Labels {
         Labels { labels, bodies, joints, aspect }
     }
 
-    /// The number of labels.
+    /// The number of labels in the scene.
     pub(super) fn count(&self) -> usize {
         self.labels.len()
     }
 
-    /// A picture with no space taken.
+    /// Creates an empty record of the taken parts of a picture.
     pub(super) fn room(&self) -> Room {
         Room::new(self.aspect)
     }
 
-    /// The labels in the corners of a frame, each with its number.
+    /// Returns the labels in the corners of a frame, each with its index in the scene.
     pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
         let now = Moment::now(frame);
         let labels = self.labels.iter().enumerate();
@@ -87,8 +87,8 @@ impl Labels {
         labels.filter_map(text).collect()
     }
 
-    /// The labels beside bodies in a frame, each with its number, in the image plane. They keep off taken
-    /// space.
+    /// Places the labels beside bodies in a frame, avoiding the taken parts in `room`, and takes their places there. Returns each label
+    /// with its index in the scene.
     pub(super) fn beside_bodies(
         &self,
         frame: &Frame,
@@ -118,7 +118,7 @@ impl Labels {
         texts
     }
 
-    /// The ghosts of a frame by the numbers of their bodies, if ghosts have labels.
+    /// Groups the ghosts of a frame by the indices of their bodies. Empty if ghosts have no labels.
     fn ghosts_by_body<'a>(&self, frame: &'a Frame) -> HashMap<usize, Vec<&'a Ghost>> {
         let mut by_body: HashMap<usize, Vec<&Ghost>> = HashMap::new();
         let at_ghosts =
@@ -131,7 +131,7 @@ impl Labels {
 }
 
 impl Planned {
-    /// The label, with what it says.
+    /// Creates the text of the label at a position in the image plane.
     fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
         Text { name: &self.label.name, says, x, y, height: self.height, align, color: self.color }
     }

@@ -1,4 +1,4 @@
-//! The texts of labels at a moment: their words, with the values filled in.
+//! Fills current values into the texts of labels.
 
 use super::super::number;
 use super::Labels;
@@ -6,20 +6,20 @@ use crate::dynamics::{Balance, BodyId, BodySnapshot, Reaction, find};
 use crate::scene::{Body, BodyMeasure, Format, Label, Measure, Piece, Quantity, RunMeasure};
 use crate::simulate::{Frame, Ghost, ImpactCounts, shown};
 
-/// The moment whose values a label shows.
+/// The moment at which a label's values are evaluated: a frame, or the time of a ghost.
 pub(super) struct Moment<'a> {
     time: f64,
     frame: usize,
     balance: Option<&'a Balance>,
     bodies: &'a [BodySnapshot],
-    /// The reactions of the joints; none for ghosts.
+    /// The constraint forces of the joints. Empty for a ghost.
     reactions: &'a [Reaction],
-    /// The impacts so far; none for ghosts.
+    /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
 }
 
 impl<'a> Moment<'a> {
-    /// The moment of a frame.
+    /// The moment of a frame, with all values.
     pub(super) fn now(frame: &'a Frame) -> Moment<'a> {
         Moment {
             time: frame.time,
@@ -31,7 +31,7 @@ impl<'a> Moment<'a> {
         }
     }
 
-    /// The moment of a ghost.
+    /// The moment of a ghost, with the values of its body only.
     pub(super) fn then(ghost: &'a Ghost) -> Moment<'a> {
         Moment {
             time: ghost.time,
@@ -45,7 +45,7 @@ impl<'a> Moment<'a> {
 }
 
 impl Labels {
-    /// The text of a label at a moment.
+    /// The text of a label, with its values at a moment.
     pub(super) fn said(&self, label: &Label, moment: &Moment<'_>) -> String {
         let mut said = String::new();
         for piece in &label.text {
@@ -90,7 +90,7 @@ impl Labels {
     }
 }
 
-/// A text of the greatest expected length: numbers have up to four digits before the point.
+/// A sample text of the largest expected length, in which numbers have up to four digits before the decimal point.
 pub(super) fn longest(label: &Label) -> String {
     let piece = |piece: &Piece| match piece {
         Piece::Words(words) => words.clone(),
@@ -115,7 +115,7 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
         BodyMeasure::Spin => at.angular_velocity.length(),
         BodyMeasure::Mass => mass,
         BodyMeasure::Momentum => mass * at.velocity.length(),
-        // Only frames count impacts.
+        // Impacts are counted per run, not in the state of a body.
         BodyMeasure::Impacts => f64::NAN,
         BodyMeasure::Kinetic => {
             let turned = at.orientation * body.start.principal_axes;
@@ -125,18 +125,18 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
     }
 }
 
-/// A number in the format of a label, with a real minus sign. Non-finite values are shown as such.
+/// Formats a number for a label, with a typographic minus sign. Non-finite numbers become `?`.
 fn written(value: f64, format: Format) -> String {
     if !value.is_finite() {
         return "?".to_owned();
     }
     let text = match format {
         Format::Short => short_of(value),
-        // Longer numbers are not easier to read, and some renderers accept short texts only.
+        // Numbers with more digits are no easier to read, and some renderers accept short texts only.
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };
-    // Zero gets no sign.
+    // A result that is rounded to zero gets no minus sign.
     let text = match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,
@@ -171,7 +171,7 @@ mod tests {
         }
     }
 
-    /// The kinetic energy of the only body that moves is that of the run, also while a compound tumbles.
+    /// The kinetic energy of the only moving body equals that of the whole run, even for a tumbling compound.
     #[test]
     fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
         let scene = Scene::parse(

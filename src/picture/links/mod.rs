@@ -1,6 +1,6 @@
-//! Springs and joints as drawn: coils, rods, ropes, pins and rails.
+//! The drawn parts of springs and joints: coils, rods, ropes, pins and rails.
 //!
-//! Their parts are planned once for a run (`plan`). Each frame gives their positions.
+//! The parts are planned once for a run (`plan`). For each frame, only their positions are computed.
 
 mod plan;
 
@@ -12,88 +12,88 @@ use crate::dynamics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
-/// The radius of the wire of a coil, as part of the coil's radius.
+/// The radius of a coil's wire, relative to the radius of the coil.
 const WIRE: f64 = 0.14;
 
-/// A part of a spring or of a joint, as it is drawn in a frame.
+/// A part of a spring or joint, as drawn in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link<'a> {
-    /// The name of the force or the joint in the scene.
+    /// The name of the force or joint in the scene.
     pub name: &'a str,
-    /// The form and its position.
+    /// The shape of the part, with its position and size.
     pub form: LinkForm,
-    /// Its color.
+    /// The color of the part.
     pub color: Color,
 }
 
-/// A part of a spring or of a joint, whether it is drawn in a frame or not.
+/// A part of a spring or joint, whether or not it is drawn in a particular frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedLink<'a> {
-    /// The name of the force or the joint in the scene.
+    /// The name of the force or joint in the scene.
     pub name: &'a str,
-    /// Its kind.
+    /// The kind of the part's shape.
     pub kind: LinkKind,
-    /// Its color.
+    /// The color of the part.
     pub color: Color,
 }
 
-/// The kind of a part of a spring or a joint.
+/// The kind of the shape of a spring's or joint's part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkKind {
     /// A ball.
     Pin,
     /// A coil.
     Coil {
-        /// The number of its turns.
+        /// The number of turns.
         turns: u32,
-        /// The radius of its wire, in radii of the coil.
+        /// The radius of the wire, relative to the radius of the coil.
         wire: f64,
     },
-    /// A straight bar.
+    /// A straight rod.
     Rod,
     /// A rope.
     Rope,
 }
 
-/// The form of a part of a spring or a joint. Lengths are in metres.
+/// The shape of a spring's or joint's part. Lengths and positions are in meters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkForm {
-    /// A ball: a pin, or the end of a spring or a rod at a point of the world.
+    /// A ball: the pin of a joint, or the end of a spring, rod or rope at a fixed point.
     Pin {
-        /// Its centre.
+        /// The center of the ball.
         at: DVec3,
-        /// Its radius.
+        /// The radius of the ball.
         radius: f64,
     },
     /// The coil of a spring.
     Coil {
-        /// Its two ends.
+        /// The two ends of the coil.
         ends: [DVec3; 2],
-        /// Its radius.
+        /// The radius of the coil.
         radius: f64,
-        /// The radius of its wire.
+        /// The radius of the wire.
         wire: f64,
-        /// The number of its turns.
+        /// The number of turns.
         turns: u32,
     },
-    /// A straight bar: a rod, a straight spring, the axle of a hinge, a rail.
+    /// A straight cylinder: a rod, a straight spring, an axle, a rail or a wheel.
     Rod {
-        /// Its two ends.
+        /// The two ends of the cylinder's axis.
         ends: [DVec3; 2],
-        /// Its radius.
+        /// The radius of the cylinder.
         radius: f64,
     },
-    /// A rope through points; two points if it is taut.
+    /// A rope. A taut rope has two points.
     Rope {
-        /// Its points.
+        /// The points that the rope passes through.
         points: Vec<DVec3>,
-        /// Its radius.
+        /// The radius of the rope.
         radius: f64,
     },
 }
 
 impl Link<'_> {
-    /// The straight lines along which it lies, m: for a coil, its axis; none for a pin.
+    /// The line segments along the part's middle, m. For a coil, the segment of its axis; for a pin, none.
     pub(super) fn lines(&self) -> impl Iterator<Item = [DVec3; 2]> {
         let points: &[DVec3] = match &self.form {
             LinkForm::Pin { .. } => &[],
@@ -103,7 +103,7 @@ impl Link<'_> {
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
 
-    /// How far it extends from these lines, m.
+    /// The distance of the part's surface from its middle line, m.
     pub(super) fn reach(&self) -> f64 {
         match self.form {
             LinkForm::Coil { radius, wire, .. } => radius + wire,
@@ -114,35 +114,36 @@ impl Link<'_> {
     }
 }
 
-/// The springs and joints of a scene that are drawn.
+/// The drawn springs and joints of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Links {
-    /// In the order of the forces, their links, and the joints. The parts of each are adjacent.
+    /// The parts of all springs and joints, in the order of the forces, their links, and the joints. All parts of a spring or joint are
+    /// adjacent.
     parts: Vec<Part>,
-    /// The drawn shapes of bodies, by their numbers.
+    /// The drawn shape of each body, indexed by body. Empty without parts.
     shapes: Vec<Shape>,
-    /// The factors by which bodies are drawn larger, by their numbers.
+    /// The factor by which each body is drawn larger, indexed by body.
     scales: Vec<f64>,
-    /// The direction of gravity, a unit vector.
+    /// The direction of gravity, a unit vector in world axes. `None` without gravity.
     down: Option<DVec3>,
-    /// Pairs of a body's number and the number of a part fastened to it, in order.
+    /// The index of a body with the index of a part fastened to it, for all such pairs, sorted.
     of_bodies: Vec<(usize, usize)>,
-    /// The thickness of the springs, in the order of the forces and their links.
+    /// The thickness of the drawn springs, in the order of the forces and their links.
     springs: Vec<SpringSize>,
 }
 
-/// The thickness of a spring.
+/// The thickness of a drawn spring.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpringSize {
-    /// Its radius, m.
+    /// The radius of the spring, m.
     pub(super) radius: f64,
-    /// The least distance between its ends at which it is drawn, m.
+    /// The distance between the ends up to which the spring is not drawn, m.
     pub(super) room: f64,
-    /// Whether it is a coil, and not a straight line.
+    /// True for a coil, false for a straight line.
     pub(super) is_coil: bool,
 }
 
-/// A part of a spring or of a joint. It is drawn while both ends of the spring or the joint exist.
+/// A part of a spring or joint. It is drawn while the bodies at both ends of the spring or joint are present.
 #[derive(Clone, Debug)]
 struct Part {
     name: String,
@@ -151,23 +152,23 @@ struct Part {
     color: Color,
 }
 
-/// The form of a part in any frame. Lengths are in metres.
+/// The shape of a part, relative to the bodies that it is fastened to. Lengths are in meters.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     /// A ball at a point.
     Pin { at: Anchor, radius: f64 },
-    /// A coil from end to end.
+    /// A coil between the two ends of the spring.
     Coil { radius: f64, turns: u32 },
-    /// A rod. An end at the centre of a body starts at the body's surface.
+    /// A rod between two points. If a point is the center of a body, the rod starts at the surface of the body.
     Rod { between: [Anchor; 2], radius: f64 },
-    /// A rod through a point. The direction is a unit vector in the axes of the point's body; `reach` is its extent
-    /// along that direction.
+    /// A rod through a point. `along` is its direction, a unit vector in the axes of the point's body. `reach` holds the positions of its
+    /// two ends along this direction.
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
     /// A rope of a given length. It hangs if it is slack.
     Rope { between: [Anchor; 2], length: f64, radius: f64 },
-    /// The rope of a pulley, over its wheels.
+    /// The rope of a pulley, over wheels with the radius `wheel`.
     OverWheels { pulley: Pulley, wheel: f64, radius: f64 },
-    /// One of the wheels of a pulley; its radius and half its width.
+    /// One of the wheels of a pulley, with its radius `wheel` and half of its width.
     Wheel { pulley: Pulley, number: usize, wheel: f64, half_width: f64 },
 }
 
@@ -186,24 +187,24 @@ impl Links {
         Links { parts, shapes, scales, down, of_bodies, springs: plan::springs(scene) }
     }
 
-    /// The thickness of the springs, in the order of the forces and their links.
+    /// The thickness of the drawn springs, in the order of the forces and their links.
     pub(super) fn springs(&self) -> &[SpringSize] {
         &self.springs
     }
 
-    /// The parts that are fastened to a body, in a frame.
+    /// The parts that are fastened to a body, as drawn in a frame.
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
         its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
     }
 
-    /// The parts that are drawn in a frame.
+    /// All parts, as drawn in a frame.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
     }
 
-    /// All parts, drawn or not.
+    /// All parts of the run, including those that are not drawn in some frames.
     pub(super) fn planned(&self) -> impl Iterator<Item = PlannedLink<'_>> {
         self.parts.iter().map(|part| PlannedLink {
             name: &part.name,
@@ -217,14 +218,14 @@ impl Links {
         })
     }
 
-    /// For each part, its link in a frame; `None` if it is not drawn.
+    /// For each part, in the order of [`planned`](Self::planned), its shape in a frame. `None` if the part is not drawn.
     pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
         self.parts.iter().map(|part| self.link(part, frame))
     }
 
-    /// A part in a frame. `None` while one of its ends is absent, or if touching bodies leave no room for it.
+    /// Computes the shape of a part in a frame. `None` while one of its bodies is absent, or if the bodies at its ends leave no room.
     fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Link<'a>> {
-        // A point of the world is always present.
+        // A fixed point is always present.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
         if !part.between.into_iter().all(is_there) {
             return None;
@@ -260,14 +261,15 @@ impl Links {
         Some(Link { name: &part.name, form, color: part.color })
     }
 
-    /// The course of the rope of a pulley with wheels of the given radius, m.
+    /// The path of a pulley's rope over wheels with the given radius, m.
     fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> Course {
         let [from, to] = pulley.between.map(|end| self.place(end, frame));
         let [first, second] = pulley.over.map(|end| self.place(end, frame));
         Course::new([from, first, second, to], wheel)
     }
 
-    /// The position at which an end is drawn, m. On a body drawn larger, it is farther from the centre in proportion.
+    /// The drawn position of an anchor in the world, m. On a body that is drawn larger, the anchor is proportionally farther from the
+    /// center.
     fn place(&self, end: Anchor, frame: &Frame) -> DVec3 {
         let drawn = match end {
             Anchor::Body { id, at } => Anchor::Body { id, at: at * self.scales[id.index()] },
@@ -279,13 +281,13 @@ impl Links {
         })
     }
 
-    /// The visible part of a straight line between two ends, m. It begins at the surface of a body that holds it by its
-    /// centre. `None` if less than `room` is left.
+    /// The visible part of a straight line between two anchors, m. At an anchor in the center of a body, it starts at the body's surface.
+    /// `None` if the visible part is no longer than `room`.
     fn span(&self, between: [Anchor; 2], frame: &Frame, room: f64) -> Option<[DVec3; 2]> {
         let [from, to] = between.map(|end| self.place(end, frame));
         let along = (to - from).normalize_or_zero();
         let depth = |end: Anchor, direction: DVec3| match end {
-            // Start a little below the surface, so that no gap is seen where the surface is curved.
+            // Start slightly below the surface, so that there is no gap where the surface is curved.
             Anchor::Body { id, .. } if end.is_centre() => {
                 0.95 * surface(&self.shapes[id.index()], turn(end, frame), direction)
             }
@@ -297,13 +299,13 @@ impl Links {
     }
 }
 
-/// The rotation that takes the axes of an end to those of the world.
+/// The rotation from the axes of an anchor's body to world axes.
 fn turn(end: Anchor, frame: &Frame) -> DQuat {
     let body = end.body().and_then(|id| frame.body(id.index()));
     body.map_or(DQuat::IDENTITY, |body| body.orientation)
 }
 
-/// The least length of a coil of a given radius, m.
+/// The length that a coil of a given radius must exceed to be drawn, m.
 fn room_for(radius: f64) -> f64 {
     4.0 * WIRE * radius
 }

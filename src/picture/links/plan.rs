@@ -1,4 +1,4 @@
-//! The parts of springs and joints, and their sizes.
+//! Plans the parts of springs and joints, and their sizes.
 
 use glam::{DQuat, DVec3};
 
@@ -7,12 +7,12 @@ use crate::dynamics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
 use crate::simulate::{Asked, AskedSlider, surface};
 
-/// The usual color of springs and joints.
+/// The default color of springs and joints.
 const STEEL: Color = Color([0.62, 0.64, 0.67]);
-/// The usual color of ropes.
+/// The default color of ropes.
 const HEMP: Color = Color([0.76, 0.64, 0.45]);
 
-/// The parts of all springs and joints that are drawn.
+/// Plans the parts of all drawn springs and joints.
 pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
     let mut parts = Vec::new();
     for force in &scene.forces {
@@ -27,7 +27,7 @@ pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
     parts
 }
 
-/// The thickness of the springs that are drawn, in the order of the forces and their links.
+/// Computes the thickness of the drawn springs, in the order of the forces and their links.
 pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
     let forces = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(look) } => Some((links, look)),
@@ -41,7 +41,7 @@ pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
     forces.flat_map(|(links, look)| links.iter().map(move |link| size(link, look))).collect()
 }
 
-/// The parts of a spring: itself, and a ball at each end that is a point of the world.
+/// Adds the parts of a spring: the coil or line, and a ball at each end that is a fixed point.
 fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &mut Vec<Part>) {
     let (radius, free) = spring_size(scene, link, look);
     let between = link.between;
@@ -58,8 +58,9 @@ fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &m
     parts.push(part(form));
 }
 
-/// The radius of a spring, m, and its length at rest or, failing that, between the bodies at the start, m. A coil is
-/// about half as wide as the smaller body at its ends. A straight line is thinner than a rod.
+/// Computes the radius of a spring, m, and the length of its visible part at rest, m: the rest length or the initial length, whichever is
+/// larger, without the parts inside bodies. By default, the radius of a coil is at most half the half-width of the smaller body at its
+/// ends; a straight line is much thinner.
 fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
     let [from, to] = link.between.map(|end| start(scene, end));
     let along = to - from;
@@ -86,24 +87,24 @@ fn spring_size(scene: &Scene, link: &Spring, look: &SpringLook) -> (f64, f64) {
         SpringLine::Straight => (0.06, 1.0 / 100.0),
     };
     let radius = look.radius.unwrap_or_else(|| (of_body * smallest).min(of_length * free));
-    // For bodies that coincide, with a spring of zero length.
+    // The length is 0 if the bodies coincide and the spring has no rest length.
     let radius = if radius > 0.0 { radius } else { of_body * smallest.min(1.0) };
     (radius, free)
 }
 
-/// The usual number of turns.
+/// Rounds the default number of turns to a number from 4 to 24.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped before")]
 fn usual_turns(usual: f64) -> u32 {
     usual.round().clamp(4.0, 24.0) as u32
 }
 
-/// The parts of a joint.
+/// Adds the parts of a joint. `travel` is the distance that a slider covers in the run.
 fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSlider>, parts: &mut Vec<Part>) {
     let between = joint.kind.between();
     let is_rope = matches!(joint.kind, JointKind::Rope(_) | JointKind::Pulley(_));
     let color = look.color.unwrap_or(if is_rope { HEMP } else { STEEL });
     let mut add = |form: Form| {
-        // The wheels of a rope are not made of hemp.
+        // The wheels of a pulley have another color than its rope.
         let color = if matches!(form, Form::Wheel { .. }) { STEEL } else { color };
         parts.push(Part { name: joint.name.clone(), between, form, color });
     };
@@ -139,13 +140,13 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
             }
             add(Form::OverWheels { pulley: *pulley, wheel, radius });
         }
-        // The wheels are bodies already.
+        // The wheels of a gear are drawn as bodies.
         JointKind::Gear(_) => {}
         JointKind::Slider(slider) => rail(scene, slider, look, travel).for_each(add),
     }
 }
 
-/// A ball at each end that is a point of the world.
+/// Adds a ball at each end that is a fixed point.
 fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = Form> {
     between.into_iter().filter(|end| end.body().is_none()).map(move |at| Form::Pin { at, radius })
 }
@@ -153,30 +154,30 @@ fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = Form> {
 /// Half the thickness of the thinner of the bodies at two ends, m.
 fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
     let thickness = |end: Anchor| scene.bodies[end.body()?.index()].drawn().half_thickness();
-    // Everything that moves has a thickness, except triangles without one.
+    // All bodies that move have a thickness, except flat meshes.
     between.into_iter().filter_map(thickness).reduce(f64::min).unwrap_or(0.05)
 }
 
-/// The radius of a rod: a fifth of the half-thickness of the thinner body, and at most a thirtieth of its length.
+/// The default radius of a rod, m: a fifth of the half-thickness of the thinner body, but at most a thirtieth of the rod's length.
 fn rod_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.2 * thinnest(scene, between)).min(length / 30.0)
 }
 
-/// The radius of a rope: a tenth of the half-thickness of the thinner body, and at most a hundredth of its length.
+/// The default radius of a rope, m: a tenth of the half-thickness of the thinner body, but at most a hundredth of the rope's length.
 fn rope_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.1 * thinnest(scene, between)).min(length / 100.0)
 }
 
-/// Rods from bodies to the point of a joint, if it lies outside them.
+/// Rods from the centers of bodies to the point of a joint, for each body that does not contain this point.
 fn arms(scene: &Scene, between: [Anchor; 2], look: JointLook) -> impl Iterator<Item = Form> {
     between.into_iter().filter_map(move |end| arm(scene, end, between, look))
 }
 
-/// A rod from the centre of a body to a point outside its shape.
+/// A rod from the center of a body to a point. `None` if the point is inside the body's shape.
 fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Option<Form> {
     let Anchor::Body { id, at } = end else { return None };
     let drawn = scene.bodies[id.index()].drawn();
-    // A plane has no centre for an arm to begin in.
+    // A plane has no center from which a rod could start.
     drawn.half_thickness()?;
     let at = at * scene.bodies[id.index()].look.scale;
     let length = at.length();
@@ -186,7 +187,7 @@ fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Opt
     is_outside.then_some(Form::Rod { between: [Anchor::centre(id), end], radius })
 }
 
-/// The axle of a hinge: thicker than its arms, and a little longer than the bodies are thick.
+/// The axle of a hinge. It is thicker than the rods to the bodies, and a little longer than the bodies are thick.
 fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     let thickest = arms.iter().fold(0.0_f64, |most, arm| match arm {
         Form::Rod { radius, .. } => most.max(*radius),
@@ -207,9 +208,8 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
     Form::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
 }
 
-/// The rail of a slider. It extends to the limits or, without limits, over the slider's travel in the run. It is
-/// fastened to the world if one end is there, else to the end that moves less. If the rail misses the moving body, an
-/// arm joins them.
+/// The rail of a slider. It extends over the limits of the slider or, without limits, over its travel in the run. It is fastened to a
+/// fixed end if there is one. If the rail does not pass through the sliding body, a rod connects them.
 fn rail(
     scene: &Scene,
     slider: &Slider,
@@ -227,7 +227,8 @@ fn rail(
     let travel = travel.map(|travel| [travel.least, travel.most]).filter(|[least, most]| least <= most);
     let [least, most] = slider.freedom.limits.or(travel).unwrap_or([0.0; 2]);
     let direction = in_world(scene, base, along);
-    // The point of the rail nearest to the sliding body's centre, how far the rail extends beyond it, and the arm.
+    // `foot` is the position on the rail that is nearest to the center of the sliding body, `beyond` the additional length of the rail at
+    // both ends, and `arm` the rod between rail and body.
     let (foot, beyond, arm) = match rider {
         Anchor::Point(_) => (0.0, 0.0, None),
         Anchor::Body { id, at } => {
@@ -243,7 +244,7 @@ fn rail(
     arm.into_iter().chain([Form::Bar { at: base, along, reach, radius }])
 }
 
-/// The place of an end at the start, m.
+/// The initial position of an anchor, m.
 fn start(scene: &Scene, end: Anchor) -> DVec3 {
     end.place(|id| {
         let start = &scene.bodies[id.index()].start;
@@ -251,7 +252,7 @@ fn start(scene: &Scene, end: Anchor) -> DVec3 {
     })
 }
 
-/// A direction in the axes of an end, in the world at the start.
+/// Rotates a direction from the axes of an anchor's body to world axes, at the start of the run.
 fn in_world(scene: &Scene, end: Anchor, direction: DVec3) -> DVec3 {
     let turn = end.body().map_or(DQuat::IDENTITY, |id| scene.bodies[id.index()].start.orientation);
     turn * direction

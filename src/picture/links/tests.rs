@@ -1,4 +1,4 @@
-//! Springs and joints are drawn where the bodies are that they are fastened to.
+//! Tests of the drawn parts of springs and joints: they must be where the bodies are.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use crate::picture::Plan;
 use crate::scene::Scene;
 use crate::simulate::{Frames, survey};
 
-/// The forms of springs and joints in a frame of a scene.
+/// The shapes of all springs and joints in a frame of a scene.
 fn forms(text: &str, frame: usize) -> Vec<LinkForm> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
     let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
@@ -49,7 +49,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     let found = forms(bar, 0);
     let [LinkForm::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
     assert!((radius - 0.35 * 0.05).abs() < 1e-12, "{radius}");
-    // Half the thickness of the bar, and twice the radius more.
+    // The axle extends by half the thickness of the bar plus twice its own radius.
     let half = 0.05 + 2.0 * radius;
     assert!(near(from, 0.0, 0.0, -half) && near(to, 0.0, 0.0, half), "{from} {to}");
 
@@ -65,7 +65,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     assert_eq!(forms(&format!("{bob}\nlook = 'none'"), 0), []);
 }
 
-/// From rest at x = 1, under 2 m/s² for 1 s: to x = 2 but for the error of the method.
+/// The cart starts at rest at x = 1 m. With 2 m/s² for 1 s, it reaches x = 2 m, except for the error of the method.
 #[test]
 fn a_rail_is_as_long_as_the_way_of_what_slides() {
     let scene = |between: &str| {

@@ -1,4 +1,4 @@
-//! Moves arrows in front of what would hide them.
+//! Moves arrows in front of the planes, springs and joints that would hide them.
 
 use super::Plan;
 use crate::picture::arrows::{Arrow, Bearer};
@@ -6,8 +6,7 @@ use crate::picture::in_front::lift_from_link;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
-    /// The arrows of a frame. Those behind the ground or a spring move towards the camera, and their picture stays the
-    /// same.
+    /// The arrows of a frame. Arrows behind the ground or a spring are moved towards the camera; their picture stays the same.
     pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
         let mut arrows = self.arrows(frame);
         if !arrows.is_empty() {
@@ -26,7 +25,7 @@ impl Plan {
         arrows
     }
 
-    /// The arrows of a ghost, in front of the ground.
+    /// The arrows of a ghost, moved in front of the ground.
     pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         let mut arrows = self.ghost_arrows(frame, ghost);
         let camera = self.eye.at(frame);

@@ -1,4 +1,4 @@
-//! The size of the largest body in the picture. A warning reports a body too small to be seen.
+//! The size of the largest body in the picture, to warn if no body is large enough to be seen.
 
 use super::super::camera::{Eye, half_width};
 use super::super::framing;
@@ -7,22 +7,22 @@ use super::reads_ground;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
-/// A body less wide than this, in pixels, is a dot.
+/// The width below which a body looks like a dot, pixels.
 const SMALLEST_SEEN: f64 = 4.0;
 
-/// The largest body, and its size in the picture.
+/// The largest body of a scene, and its size in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Largest {
-    /// Its name.
+    /// The name of the body.
     pub name: String,
-    /// Its greatest width in the picture, pixels.
+    /// The largest width of the body in any picture, pixels.
     pub pixels: f64,
-    /// Its width if the camera framed the whole run, pixels.
+    /// The width that the body would have if the camera framed the whole run, pixels.
     pub pixels_in_whole: f64,
 }
 
 impl Largest {
-    /// The largest body of a scene, with its size as a camera sees it.
+    /// Finds the largest body of a scene, and computes its size as seen by a camera. `None` without bodies other than planes.
     pub(super) fn seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?;
@@ -36,7 +36,8 @@ impl Largest {
         })
     }
 
-    /// Whether it is too small to be seen, or would be if the camera framed the whole run.
+    /// True if a warning is needed. If the camera frames the whole run, the body must be too small; if it frames the start, always; if it
+    /// follows a body, the body must be too small in the whole run.
     pub(super) fn is_too_small(&self, part: Part) -> bool {
         match part {
             Part::Whole => self.pixels < SMALLEST_SEEN,
@@ -46,7 +47,7 @@ impl Largest {
     }
 }
 
-/// The narrowest view of a camera in a run within the given bounds, m. A moving camera is sampled at 33 times.
+/// The smallest width in view of a camera during the run, m. A moving camera is sampled at 33 times.
 pub(super) fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
     let times = if eye.moves() { 32 } else { 0 };
     let views = (0..=times).map(|number| {

@@ -1,4 +1,4 @@
-//! The plan of a run's pictures, which then gives the picture of each frame.
+//! Plans the pictures of a run. The plan then gives the contents of each frame's picture.
 
 mod in_front;
 mod largest;
@@ -30,7 +30,7 @@ use super::{colors, framing};
 use crate::scene::{Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
-/// The part common to all frames of a run for one camera. It is made once.
+/// The things that all pictures of a run by one camera have in common. The plan is made once, and gives the contents of each picture.
 #[derive(Clone, Debug)]
 pub struct Plan {
     stage: Stage,
@@ -44,13 +44,13 @@ pub struct Plan {
     ghosts: Ghosts,
     trails: Trails,
     ruler: Option<Ruler>,
-    /// The whole grid, if the camera stands still.
+    /// The grid of all frames. `None` without a grid, or if the camera moves.
     ruled: Option<Ruled>,
     bar: Option<ScaleBars>,
     labels: Labels,
-    /// The image plane at the start, if anything is written on it.
+    /// The image plane at the start. `None` if the pictures have no texts.
     screen: Option<Screen>,
-    /// The sizes of things drawn beside the bodies, for the camera at the start.
+    /// The sizes of arrows and lines for the camera at the start.
     sizes: Sizes,
     largest: Option<Largest>,
     /// The part of the run that the camera frames.
@@ -58,7 +58,7 @@ pub struct Plan {
     not_drawn: Vec<NotDrawn>,
 }
 
-/// The sizes of things in a picture.
+/// The sizes of arrows and lines in a picture.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     /// The width in view of the camera, m.
@@ -68,26 +68,26 @@ struct Sizes {
     arrows: ArrowSizes,
 }
 
-/// Whether a scene writes anything into its pictures.
+/// True if the pictures of a scene have texts: labels, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
     !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
-/// Whether the ground has numbers.
+/// True if the scene has a grid on the ground.
 pub(super) fn reads_ground(scene: &Scene) -> bool {
     scene.grid.is_some_and(|grid| grid.plane == GridPlane::Ground)
 }
 
 impl Plan {
-    /// The plan of a surveyed scene for one of its cameras.
+    /// Plans the pictures of a scene by one of its cameras.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
         let towards = framing::towards_camera(span.moving, reads_ground(scene));
         let eye_on =
             |bounds: Bounds| Eye::new(&scope.camera, framing::rounded_outward(bounds), towards, scene);
-        // Arrows and grid get the size that suits a camera that sees the bodies. Then the camera is placed so that it
-        // sees their ends, too.
+        // The sizes of arrows and grid are chosen for a camera that sees the bodies. The final camera also sees the ends of arrows and
+        // grid.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
         let ink = colors::ink(scene);
@@ -104,7 +104,7 @@ impl Plan {
             seen = seen.union(grid.bounds());
         }
         let eye = match scope.part {
-            // Do not follow a body below the ground it fell through.
+            // If the body falls through the ground, the camera stops above.
             Part::AroundBody(_) => eye_on(seen).within(span.bounds),
             Part::Whole | Part::Start(_) => eye_on(seen),
         };
@@ -115,10 +115,10 @@ impl Plan {
         let sizes = Sizes {
             view: early,
             stroke: width,
-            // The camera has made room for these round scales.
+            // The camera was placed for these rounded scales.
             arrows: arrows.still_sizes(scales, early, width),
         };
-        // The ground is placed for the bodies. Arrows and axes do not lower it.
+        // The ground is placed below the bodies. Arrows and axes may extend below the ground.
         let stage = Stage::new(scene, scenery, whole, placed);
         let distance = placed.location().distance(stage.center);
         let lights = Lights::new(scene, stage.center, stage.size.max(distance));
@@ -149,7 +149,7 @@ impl Plan {
         }
     }
 
-    /// The sizes of things drawn beside the bodies of a frame: constant for a fixed camera.
+    /// The sizes of arrows and lines in a frame. They are constant for a fixed camera.
     fn sizes(&self, frame: &Frame) -> Sizes {
         if !self.eye.moves() {
             return self.sizes;
@@ -159,17 +159,17 @@ impl Plan {
         Sizes { view, stroke, arrows: self.arrows.sizes(view, stroke) }
     }
 
-    /// The surroundings of the bodies.
+    /// The surroundings of the bodies: ground, sky and haze.
     pub fn stage(&self) -> &Stage {
         &self.stage
     }
 
-    /// The camera of a frame, moving or not.
+    /// The camera of a frame.
     pub fn camera(&self, frame: &Frame) -> Placed {
         self.eye.at(frame)
     }
 
-    /// Names a camera or light with a non-finite position at a moment. Formulas are checked at the times of frames
+    /// Names the camera or a light if its position in a frame is not finite. Formulas for positions were checked at the times of frames
     /// only.
     pub(crate) fn lost(&self, frame: &Frame) -> Option<String> {
         let is_lost = |camera: &Placed| !camera.location().is_finite() || !camera.look_at().is_finite();
@@ -183,92 +183,92 @@ impl Plan {
             .map(|light| format!("the light `{}`", light.name))
     }
 
-    /// The camera before it moves; if it is fixed, the camera of all frames.
+    /// The camera before it moves. A fixed camera is the same in all frames.
     pub fn placed(&self) -> &Placed {
         self.eye.placed()
     }
 
-    /// Whether the camera moves.
+    /// True if the camera moves.
     pub fn camera_moves(&self) -> bool {
         self.eye.moves()
     }
 
-    /// The lights of the scene at a time (s). If there are none, the default lights shine.
+    /// The lights of the scene at a time (s). If the list is empty, renderers use the default lights.
     pub fn lights(&self, time: f64) -> Vec<PlacedLight> {
         self.lights.at(time)
     }
 
-    /// The default lights of the surroundings. They never move.
+    /// The default lights, which never move.
     pub fn usual_lights(&self) -> Vec<PlacedLight> {
         lights::usual_lights(&self.stage)
     }
 
-    /// Whether the lights change between frames.
+    /// True if any light of the scene moves.
     pub fn lights_move(&self) -> bool {
         self.lights_move
     }
 
-    /// The arrows of a frame, in the order of the bodies, and then of the joints.
+    /// The arrows of a frame: first those of bodies, then those of joints.
     pub fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
         self.arrows.arrows(frame, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
-    /// The axes that are drawn on bodies of a frame, in the order of the bodies.
+    /// The coordinate axes that are drawn in a frame, in the order of the bodies.
     pub fn axes(&self, frame: &Frame) -> Vec<Axes> {
         self.arrows.axes(frame)
     }
 
-    /// The drawn parts of springs and joints, in a frame.
+    /// The parts of springs and joints that are drawn in a frame.
     pub fn links(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.links.at(frame)
     }
 
-    /// All parts of springs and joints, drawn or not.
+    /// All parts of springs and joints, including those that are not drawn in some frames.
     pub fn planned_links(&self) -> impl Iterator<Item = PlannedLink<'_>> {
         self.links.planned()
     }
 
-    /// For each of these parts, its link in a frame; `None` if it is not drawn.
+    /// For each part of [`planned_links`](Self::planned_links), its shape in a frame. `None` if the part is not drawn.
     pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
         self.links.each(frame)
     }
 
-    /// The visible ghosts of a frame: those that are not at their bodies.
+    /// The visible ghosts of a frame: those with another pose than their body.
     pub fn ghosts<'a>(&self, frame: &'a Frame) -> impl Iterator<Item = &'a Ghost> {
         self.ghosts.drawn(frame)
     }
 
-    /// The arrows of a ghost in the picture of a frame, if its body has any.
+    /// The arrows of a ghost in the picture of a frame. Empty if the ghosts of its body have no arrows.
     pub fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
-    /// The trails up to a frame.
+    /// The trails of bodies up to a frame.
     pub fn trails(&self, frame: &Frame) -> Vec<Trail> {
         self.trails.up_to(frame, self.stroke(frame))
     }
 
-    /// The width of a clearly visible line in a frame, m. Trails without a width have it.
+    /// The width of a clearly visible line in a frame, m. It is the default width of trails.
     pub fn stroke(&self, frame: &Frame) -> f64 {
         self.sizes(frame).stroke
     }
 
-    /// The requested trails, without points, with their widths at the start.
+    /// The requested trails without points, with their widths at the start.
     pub fn planned_trails(&self) -> Vec<Trail> {
         self.trails.planned(self.sizes.stroke).collect()
     }
 
-    /// The lines of the grid if they are the same in all frames, as with a fixed camera.
+    /// The lines of the grid for a fixed camera, the same in all frames. `None` if the camera moves.
     pub fn still_grid(&self) -> Option<&Grid> {
         self.ruled.as_ref().map(Ruled::grid)
     }
 
-    /// The lines of the grid in a frame.
+    /// The lines of the grid in a frame. `None` without a grid.
     pub fn grid(&self, frame: &Frame) -> Option<Grid> {
         Some(self.ruled(frame)?.grid().clone())
     }
 
-    /// The grid in a frame. With a moving camera, it surrounds the camera's aim.
+    /// The grid with its numbers in a frame. For a moving camera, only the part around the camera's aim.
     fn ruled(&self, frame: &Frame) -> Option<Cow<'_, Ruled>> {
         if let Some(ruled) = &self.ruled {
             return Some(Cow::Borrowed(ruled));
@@ -278,18 +278,19 @@ impl Plan {
         self.ruler.as_ref().map(|ruler| Cow::Owned(ruler.seen_by(&camera, sizes.stroke, sizes.view)))
     }
 
-    /// The spacing that the scene gives the grid and the drawn one, m, if the first would make too many lines.
+    /// The grid spacing that the scene gives and the drawn spacing, m. `None` if they are equal; the drawn one is larger if there would be
+    /// too many lines.
     pub fn too_fine_grid(&self) -> Option<(f64, f64)> {
         self.ruler.as_ref()?.too_fine()
     }
 
-    /// The scale bar of a frame.
+    /// The scale bar of a frame. `None` if the scene has none, or if its reference point is behind the camera.
     pub fn bar(&self, frame: &Frame) -> Option<Bar> {
         let bar = self.bar.as_ref()?;
         Some(bar.on(&self.screen(frame)?)?.0)
     }
 
-    /// The image plane of a frame's camera, if there are texts on it.
+    /// The image plane of a frame's camera. `None` if the pictures have no texts.
     pub fn screen(&self, frame: &Frame) -> Option<Screen> {
         self.screen.map(|still| if self.camera_moves() { self.camera(frame).screen() } else { still })
     }
@@ -304,7 +305,7 @@ impl Plan {
         &self.not_drawn
     }
 
-    /// The largest body, if it is too small to be seen, or would be if the camera framed the whole run.
+    /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be in the whole run.
     pub fn too_small(&self) -> Option<&Largest> {
         self.largest.as_ref().filter(|largest| largest.is_too_small(self.part))
     }

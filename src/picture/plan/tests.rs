@@ -1,4 +1,4 @@
-//! The contents of a frame by its plan.
+//! Tests of the contents of pictures.
 
 use glam::DVec3;
 
@@ -41,7 +41,7 @@ fn lengths_are_metres_whatever_the_unit_of_scripts_is() {
     assert!((1.0..5.0).contains(&plan.stage().size));
 }
 
-/// A ghost keeps the forces of its own time.
+/// The arrows of a ghost show the contact forces at the time of the ghost.
 #[test]
 fn ghosts_have_the_arrows_of_what_touched_them() {
     let text = "[simulation]\nduration = 0.5\ngravity = [0, -10, 0]\ncontacts = 'event-driven'

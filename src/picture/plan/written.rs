@@ -10,31 +10,31 @@ use crate::picture::screen::Screen;
 use crate::picture::text::Text;
 use crate::simulate::Frame;
 
-/// The texts of a frame.
+/// The texts of a frame, by kind.
 #[derive(Clone, Debug)]
 pub struct Written<'a> {
-    /// The image plane on which they stand.
+    /// The image plane that the texts lie in.
     pub screen: Screen,
-    /// The names and numbers of the grid.
+    /// The axis names and numbers of the grid.
     pub grid: Vec<Text<'a>>,
-    /// The scale bar, and its number.
+    /// The scale bar and its number.
     pub bar: Option<(Bar, Text<'a>)>,
     /// The labels, in the order of the scene.
     pub labels: Vec<Text<'a>>,
 }
 
 impl Plan {
-    /// The texts of a frame: the numbers of the grid, the length of the scale bar, the labels.
+    /// The texts of a frame in a single list: axis names and numbers of the grid, the number of the scale bar, the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
         let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
         grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
     }
 
-    /// The texts of a frame, by kind. `None` if there are none.
+    /// Places the texts of a frame. `None` if the scene has no texts.
     ///
-    /// Labels in corners and the scale bar have fixed positions. The names of the grid's axes come next, then the
-    /// labels beside bodies, then the numbers of the grid, each where there is room. No text covers a spring or a
-    /// joint, except an axis name without another position.
+    /// Labels in corners and the scale bar have fixed positions. The axis names of the grid are placed next, then the labels beside
+    /// bodies, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
+    /// another free position.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
@@ -67,7 +67,7 @@ impl Plan {
         Some(Written { screen, grid, bar, labels })
     }
 
-    /// The lines of a frame that texts avoid, each with its width, m: arrows, axes, springs and joints.
+    /// The lines that labels avoid in a frame, each with its width, m: arrows, coordinate axes, springs and joints.
     fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let mut arrows = self.arrows(frame);
         arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, ghost)));
