@@ -1,4 +1,4 @@
-//! The look of a checked scene: materials, cameras, lights, surroundings, and settings for POV-Ray.
+//! The look of a scene: materials, cameras, lights, environment, and settings for POV-Ray.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,21 +10,21 @@ use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
 use crate::dynamics::Surface;
 
-/// A material of bodies.
+/// A named material that bodies can have.
 #[derive(Clone, Debug)]
 pub struct Material {
-    /// The name of the material, from the scene's file or from the palette.
+    /// The name of the material: from the scene, the library or the palette, or the name of the body that the material belongs to.
     pub name: String,
-    /// The look of the material.
+    /// The color, pattern and finish of the material.
     pub look: Look,
 }
 
-/// The look of a material.
+/// The look of a material: its color, pattern and finish.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
     /// A single color with a finish.
     Plain {
-        /// The color.
+        /// The color of the material.
         color: Color,
         /// How the surface reflects light.
         finish: Finish,
@@ -33,19 +33,19 @@ pub enum Look {
     Library {
         /// The material of the library.
         material: &'static LibraryMaterial,
-        /// The color. `None` if the material has its own colors.
+        /// The color that the material is given. `None` if the material has fixed colors.
         color: Option<Color>,
     },
-    /// The checkered look of the ground, the default for planes.
+    /// The checkered pattern of the ground, which is the default for planes.
     Checkered,
-    /// A texture that an include file declares, by its name.
+    /// The name of a POV-Ray texture that an include file declares.
     Texture(Arc<str>),
-    /// POV-Ray code.
+    /// POV-Ray code for the material.
     Sdl(Arc<str>),
 }
 
 impl Look {
-    /// Whether this look has no pattern, so that turning a ball of it changes nothing in the picture.
+    /// Returns whether the look has no pattern, so that rotating a ball with this look changes nothing in the picture.
     pub fn is_uniform(&self) -> bool {
         match self {
             Look::Plain { .. } => true,
@@ -54,7 +54,7 @@ impl Look {
         }
     }
 
-    /// Whether the look gives light by itself. A lamp inside a body with such a look must shine through the surface.
+    /// Returns whether the look emits light. A lamp inside a body with such a look must shine through the surface.
     pub fn glows(&self) -> bool {
         match self {
             Look::Plain { finish, .. } => *finish == Finish::Luminous,
@@ -67,17 +67,17 @@ impl Look {
 /// How a surface reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
-    /// Like chalk.
+    /// Like chalk: no highlight.
     Matte,
-    /// Like eggshell.
+    /// Like eggshell: a soft highlight.
     Satin,
-    /// Like enamel. The default.
+    /// Like enamel: a sharp highlight. This is the default.
     Glossy,
-    /// Like polished, colored metal.
+    /// Like polished metal of the material's color.
     Metal,
     /// Like a mirror.
     Mirror,
-    /// Gives light by itself.
+    /// Emits light evenly.
     Luminous,
 }
 
@@ -86,12 +86,12 @@ impl Finish {
     pub const ALL: [Finish; 6] =
         [Finish::Matte, Finish::Satin, Finish::Glossy, Finish::Metal, Finish::Mirror, Finish::Luminous];
 
-    /// The finish with this name.
+    /// Returns the finish with this name. `None` for an unknown name.
     pub fn named(name: &str) -> Option<Finish> {
         Finish::ALL.into_iter().find(|finish| finish.name() == name)
     }
 
-    /// The name of the finish in scenes and templates.
+    /// Returns the name of the finish in scenes and templates.
     pub fn name(self) -> &'static str {
         match self {
             Finish::Matte => "matte",
@@ -103,7 +103,7 @@ impl Finish {
         }
     }
 
-    /// A description of the finish, in one line.
+    /// Returns a short description of the finish.
     pub fn summary(self) -> &'static str {
         match self {
             Finish::Matte => "Like chalk",
@@ -116,51 +116,51 @@ impl Finish {
     }
 }
 
-/// A camera. jabuka derives missing values from the motion.
+/// A camera. If a location or target is missing, jabuka derives it from the motion of the bodies.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    /// The location of the camera, m.
+    /// The initial location of the camera, m. `None` for a location that jabuka derives.
     pub location: Option<DVec3>,
-    /// The point that the camera looks at, in the middle of the picture, m.
+    /// The initial target of the camera, m: the point in the middle of the picture. `None` for a target that jabuka derives.
     pub look_at: Option<DVec3>,
     /// The motion of the camera.
     pub motion: CameraMotion,
     /// The projection of the camera.
     pub projection: Projection,
-    /// The blur of things out of focus. `None` if everything is sharp.
+    /// The blur of objects that are out of focus. `None` if all objects are sharp.
     pub blur: Option<Blur>,
-    /// The shutter, for motion blur. `None` for sharp frames.
+    /// The shutter, which gives motion blur. `None` for frames without motion blur.
     pub shutter: Option<Shutter>,
 }
 
-/// The motion of a camera. Missing values stay as at the start.
+/// The motion of a camera. A quantity that is `None` keeps its initial value.
 #[derive(Clone, Debug, Default)]
 pub struct CameraMotion {
-    /// The location of the camera, m.
+    /// The location of the camera as a function of time, m.
     pub location: Option<TimedVector>,
-    /// The point that the camera looks at, in the middle of the picture, m.
+    /// The target of the camera as a function of time, m: the point in the middle of the picture.
     pub look_at: Option<TimedVector>,
-    /// The horizontal field of view of a perspective camera, degrees.
+    /// The horizontal field of view of a perspective camera as a function of time, degrees.
     pub angle: Option<Timed>,
-    /// The body that the camera follows.
+    /// The body that the camera follows. `None` if the camera follows no body.
     pub follow: Option<Follow>,
-    /// The time of one turn about the vertical axis through the point that the camera looks at, s.
+    /// The period of the camera's orbit about the vertical axis through its target, s.
     pub orbit: Option<f64>,
 }
 
-/// A camera that follows a body.
+/// The settings of a camera that follows a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Follow {
-    /// The index of the body.
+    /// The index of the body that the camera follows.
     pub body: usize,
-    /// The distance of the camera from the body, m. `None` to keep the distance at the start.
+    /// The distance of the camera from the body, m. `None` to keep the initial distance.
     pub distance: Option<f64>,
-    /// The delay of the camera, s: it follows the body's earlier position.
+    /// The delay of the camera behind the body, s: the time constant of a first-order lag. `None` if the camera has no delay.
     pub lag: Option<f64>,
 }
 
 impl CameraMotion {
-    /// Whether the camera changes from frame to frame.
+    /// Returns whether the camera changes from frame to frame.
     pub fn moves(&self) -> bool {
         self.location.is_some()
             || self.look_at.is_some()
@@ -173,40 +173,40 @@ impl CameraMotion {
 /// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Perspective, as in human vision: farther things look smaller.
+    /// A perspective projection, in which distant objects look smaller.
     Perspective {
         /// The horizontal field of view, degrees, as in POV-Ray.
         angle: f64,
     },
-    /// Parallel rays, as in a technical drawing: distance does not change the size.
+    /// A parallel projection, as in a technical drawing, in which the distance does not change the size.
     Orthographic {
-        /// The width of the view, m. `None` to fit the motion.
+        /// The width of the visible area, m. `None` for a width that fits the motion.
         width: Option<f64>,
     },
 }
 
-/// The blur of things out of focus.
+/// The blur of objects that are out of focus.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
-    /// The diameter of the lens, m.
+    /// The diameter of the camera's lens, m.
     pub aperture: f64,
-    /// The point in focus, m. `None` for the point that the camera looks at.
+    /// The point in focus, m. `None` for the camera's target.
     pub focus: Option<DVec3>,
-    /// The number of rays per pixel.
+    /// The number of rays per pixel with which POV-Ray computes the blur.
     pub samples: u32,
 }
 
 /// Motion blur: an image is the mean of several moments while the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
-    /// The time for which the shutter is open, s, greater than 0. It opens at the time of the frame.
+    /// The time for which the shutter is open, s. It is greater than 0. The shutter opens at the time of the frame.
     pub open: f64,
-    /// The number of moments in one image.
+    /// The number of moments that are averaged in one image.
     pub samples: u32,
 }
 
 impl Light {
-    /// Whether the light moves.
+    /// Returns whether the light moves.
     pub fn moves(&self) -> bool {
         match &self.kind {
             LightKind::Point { location } | LightKind::Area { location, .. } => location.changes(),
@@ -216,48 +216,48 @@ impl Light {
 }
 
 impl Shutter {
-    /// The times of the moments in an image, s. `begin` is the time at which the shutter opens. Each moment is in the
-    /// middle of an equal part of the open time.
+    /// Returns the times of the moments in one image, s. `begin` is the time at which the shutter opens. Each moment is in the middle of
+    /// one of `samples` equal intervals.
     pub fn moments(self, begin: f64) -> impl ExactSizeIterator<Item = f64> {
         (0..self.samples).map(move |i| begin + self.open * (f64::from(i) + 0.5) / f64::from(self.samples))
     }
 }
 
-/// An additional camera.
+/// An additional camera, from `[view.NAME]`.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// The name of the view, unique among views: letters, digits, `-` and `_`.
+    /// The name of the view, unique among views. It consists of letters, digits, `-` and `_`.
     pub name: String,
-    /// The camera. Missing values are taken from `[camera]`.
+    /// The camera of the view. Values that the view does not give come from `[camera]`.
     pub camera: Camera,
 }
 
-/// A light.
+/// A light source of the scene.
 #[derive(Clone, Debug)]
 pub struct Light {
     /// The name of the light, unique among lights.
     pub name: String,
-    /// The kind of the light.
+    /// The kind of the light, with its location or direction.
     pub kind: LightKind,
     /// The color of the light.
     pub color: Color,
-    /// The brightness. At 1, a white surface that faces the light looks white.
+    /// The brightness of the light. At 1, a white surface that faces the light looks white.
     pub intensity: f64,
-    /// Whether it casts shadows and highlights.
+    /// Whether the light casts shadows and highlights.
     pub shadows: bool,
 }
 
 /// The kinds of lights.
 #[derive(Clone, Debug)]
 pub enum LightKind {
-    /// A point light.
+    /// A point light, which shines in all directions.
     Point {
-        /// The location of the light, m.
+        /// The location of the light as a function of time, m.
         location: TimedVector,
     },
-    /// A light with a size, and so with soft shadows.
+    /// A light with a size, which gives soft shadows.
     Area {
-        /// The centre of the light, m.
+        /// The center of the light as a function of time, m.
         location: TimedVector,
         /// The diameter of the light, m.
         size: f64,
@@ -269,21 +269,21 @@ pub enum LightKind {
     },
 }
 
-/// The ground, the sky and fog.
+/// The surroundings of a scene: ground, sky and fog.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// The preset, which supplies missing values.
+    /// The preset, which supplies the values that the scene does not give.
     pub preset: Preset,
-    /// The ground. `None` if there is none.
+    /// The checkered ground. `None` if the scene has no ground.
     pub ground: Option<Ground>,
-    /// The sky.
+    /// The look of the sky.
     pub sky: Sky,
     /// Whether the ground fades into haze at the horizon.
     pub fog: bool,
 }
 
 impl Environment {
-    /// Whether the sky is dark, so that texts before it are light.
+    /// Returns whether the sky is dark. Text in front of a dark sky must be light.
     pub fn is_dark(&self) -> bool {
         match self.sky {
             Sky::Gradient => matches!(self.preset, Preset::Night | Preset::Blackboard | Preset::Space),
@@ -292,109 +292,109 @@ impl Environment {
     }
 }
 
-/// The checkered ground. jabuka derives missing values from the motion.
+/// The checkered ground. If a value is missing, jabuka derives it from the motion of the bodies.
 #[derive(Clone, Debug, Default)]
 pub struct Ground {
-    /// The height of the ground, m.
+    /// The y coordinate of the ground, m. `None` for a height that jabuka derives.
     pub height: Option<f64>,
-    /// The edge length of one tile, m.
+    /// The edge length of one tile, m. `None` for a length that jabuka derives.
     pub tile: Option<f64>,
-    /// The restitution and friction of the ground. `None` if bodies pass through the ground.
+    /// The contact properties of the ground. `None` if bodies pass through the ground.
     pub surface: Option<Surface>,
 }
 
-/// The sky.
+/// The look of the sky.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Sky {
-    /// The gradient of the preset.
+    /// The color gradient of the preset.
     Gradient,
-    /// One color for the whole sky.
+    /// A single color for the whole sky.
     Plain(Color),
 }
 
-/// POV-Ray code and settings of the scene.
+/// The POV-Ray code of a scene, and its settings for POV-Ray.
 #[derive(Clone, Debug)]
 pub struct PovRay {
-    /// Include files.
+    /// The include files of the scene's POV-Ray code.
     pub include: Vec<Include>,
-    /// Files that the POV-Ray code of the scene reads.
+    /// The assets: files in the scene's folder that its POV-Ray code reads. They are copied beside the scripts.
     pub assets: Vec<Asset>,
-    /// Other files that the trusted POV-Ray code of the scene reads: the kind of each file, and its name as in the
-    /// code.
+    /// The files that the POV-Ray code of a trusted scene names: the kind of each file, and its name in the code.
     pub reads: Vec<(FileKind, String)>,
-    /// POV-Ray code before the bodies.
+    /// The POV-Ray code that scripts contain before the bodies.
     pub sdl: Option<String>,
-    /// The length of one POV-Ray unit, m. `None` to derive the unit from the size of the scene.
+    /// The length of one POV-Ray unit, m. `None` for a unit that jabuka derives from the size of the scene.
     pub unit: Option<f64>,
     /// The number of significant digits of numbers in scripts.
     pub digits: usize,
-    /// The user's templates, which replace built-in templates of the same names.
+    /// The user's templates. They replace the built-in templates with the same names.
     pub templates: Vec<OwnTemplate>,
 }
 
-/// A file that scripts read. A copy of the file is placed beside the scripts.
+/// A file that the scripts read. jabuka places a copy of the file beside the scripts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Asset {
-    /// The path of the copy, relative to the folder of all copies, with `/`. Scripts use this path.
+    /// The path of the copy in scripts, relative to the folder of all copies, with `/` as separator.
     pub name: String,
     /// The path of the original file.
     pub path: PathBuf,
 }
 
-/// A template of the user.
+/// A script template of the user.
 #[derive(Clone, Debug)]
 pub struct OwnTemplate {
-    /// The name of the template: `frame.pov`.
+    /// The name of the template, such as `frame.pov`.
     pub name: String,
-    /// The path of the template's file, for messages.
+    /// The path of the template's file, for diagnostics.
     pub path: String,
     /// The text of the template.
     pub text: String,
 }
 
-/// An include file.
+/// An include file of the scene's POV-Ray code.
 #[derive(Clone, Debug)]
 pub enum Include {
-    /// An include file of POV-Ray's standard library.
+    /// An include file of POV-Ray's standard library, by its name.
     Standard(String),
-    /// An include file that was found beside the scene.
+    /// An include file in the scene's folder.
     Text {
-        /// The name of the file, as in the scene.
+        /// The name of the file in the scene.
         name: String,
         /// The text of the file.
         text: String,
     },
 }
 
-/// The size and kind of the images.
+/// The settings for the images, the scripts and the video.
 #[derive(Clone, Copy, Debug)]
 pub struct Output {
     /// The width of an image, pixels.
     pub width: u32,
     /// The height of an image, pixels.
     pub height: u32,
-    /// The place of the code that all scripts share.
+    /// Where the code that all scripts share is written.
     pub layout: Layout,
-    /// Whether images have a transparent background: no sky, no ground.
+    /// Whether images have a transparent background instead of the sky and the ground.
     pub transparent: bool,
-    /// The frame rate of a video, frames per second. `None` to derive it from the frame rate of the simulation.
+    /// The frame rate of the video, frames per second. `None` for the frame rate of the simulation, or for 25 if that rate is not from 1
+    /// to 120.
     pub video_rate: Option<f64>,
 }
 
-/// The place of the code that all scripts share.
+/// Where the code that all scripts share is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
-    /// In each script, so that a computer of a cluster needs only one file.
+    /// The shared code is in each script, so that a computer of a cluster needs only one file.
     SelfContained,
-    /// In a separate file, which each script includes.
+    /// The shared code is in a separate file that each script includes.
     Shared,
 }
 
 impl Layout {
-    /// All layouts.
+    /// All script layouts.
     pub const ALL: [Layout; 2] = [Layout::SelfContained, Layout::Shared];
 
-    /// The name of the layout in scenes.
+    /// Returns the name of the layout in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Layout::SelfContained => "self-contained",

@@ -1,9 +1,8 @@
-//! Reads the text of a scene into a checked scene.
+//! Reads the text of a scene into a checked [`Scene`].
 //!
-//! This takes four steps. [`source`] parses the text into a tree. `expand` replaces formulas by numbers (with
-//! [`expression`]). `check::validate` checks the tree against the description of the language in [`grammar`]. `check`
-//! makes the [`Scene`]: it resolves names, fills in defaults, and converts to SI units and radians. One run reports all
-//! mistakes of all steps.
+//! Reading takes four steps. [`source`] parses the text into a tree. `expand` replaces formulas by numbers (with [`expression`]).
+//! `check::validate` checks the tree against the grammar of the scene language in [`grammar`]. `check` makes the [`Scene`]: it resolves
+//! names, fills in defaults, and converts to SI units and radians. One run reports the mistakes that all steps find.
 
 mod check;
 mod color;
@@ -61,7 +60,7 @@ pub use source::Override;
 use crate::diagnostic::Report;
 use crate::dynamics::Surface;
 
-/// Whether a scene can have this number of frames.
+/// Returns whether a scene can have this number of frames.
 #[must_use]
 pub fn is_possible_number_of_frames(frames: usize) -> bool {
     #[allow(clippy::cast_precision_loss, reason = "the limit is far below 2^53")]
@@ -69,64 +68,64 @@ pub fn is_possible_number_of_frames(frames: usize) -> bool {
     possible
 }
 
-/// A checked scene: complete, and without mistakes.
+/// A scene that has been read and checked. It is complete and has no errors.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The file name of the scene without its ending; `scene` for a text without a file.
+    /// The file name of the scene without its extension. The name is `scene` if the scene was not read from a file.
     pub name: String,
-    /// The title of the scene.
+    /// The title of the scene. `None` if the scene gives no title.
     pub title: Option<String>,
     /// The settings of the simulation.
     pub simulation: Simulation,
-    /// The bodies, in the order of the file.
+    /// The bodies, in the order of the file. A copy made by `repeat` is a body of its own.
     pub bodies: Vec<Body>,
-    /// The forces, in the order of the file. The constant force on one body is part of the body.
+    /// The forces, in the order of the file. The `force` key of a single body is part of that body instead.
     pub forces: Vec<Force>,
-    /// The joints, in the order of the file.
+    /// The joints, in the order of the file, but with all gears last.
     pub joints: Vec<Joint>,
     /// The particle emitters, in the order of the file.
     pub emitters: Vec<Emitter>,
-    /// The materials: first those of the file, in its order, then those of single bodies, the library and the palette.
+    /// The materials: first those of the file in its order, then those of single bodies, the library and the palette.
     pub materials: Vec<Material>,
     /// The main camera.
     pub camera: Camera,
     /// The additional cameras, in the order of the file.
     pub views: Vec<View>,
-    /// The lights. If the list is empty, the scene has the lights of its preset.
+    /// The lights, in the order of the file. If the list is empty, the lights of the preset are used.
     pub lights: Vec<Light>,
-    /// The ground, the sky and fog.
+    /// The surroundings: ground, sky and fog.
     pub environment: Environment,
-    /// The pairs of bodies whose impacts the labels count, the smaller index first. The number of bodies stands for the
-    /// ground.
+    /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. The number of bodies stands
+    /// for the ground.
     pub pairs: Vec<[usize; 2]>,
-    /// The labels, in the order of the file.
+    /// The labels in the picture, in the order of the file.
     pub labels: Vec<Label>,
-    /// The scale bar. `None` if there is none.
+    /// The scale bar in the picture. `None` if the scene has no scale bar.
     pub scale_bar: Option<ScaleBar>,
-    /// The grid. `None` if there is none.
+    /// The grid in the picture. `None` if the scene has no grid.
     pub grid: Option<Grid>,
-    /// POV-Ray code and settings of the scene.
+    /// The POV-Ray code of the scene, and its settings for POV-Ray.
     pub povray: PovRay,
-    /// The size and kind of the images.
+    /// The settings for the images, the scripts and the video.
     pub output: Output,
-    /// A digest (SHA-256, in hexadecimal) of all texts and meshes of the scene.
+    /// The SHA-256 digest, in hexadecimal, of all texts and other files that the scene was read from.
     pub digest: String,
-    /// Places in the scene's text, for the errors of a run. The texts themselves are in `warnings`.
+    /// The source spans of names and values, for errors during a run. The texts themselves are in `warnings`.
     pub places: Places,
-    /// The values that replaced values of the file, as written: `simulation.step=0.001`.
+    /// The `--set` arguments that replaced values of the file, as written: `simulation.step=0.001`.
     pub overrides: Vec<String>,
-    /// The warnings about the scene.
+    /// The warnings about the scene, with the source texts that they refer to.
     pub warnings: Report,
 }
 
-/// Options for reading a scene.
+/// The options for reading a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Values that replace values of the file.
+    /// The values that replace values of the scene's file, as with `--set`.
     pub overrides: Vec<Override>,
-    /// A folder of templates. They replace the built-in templates and the templates that the scene names.
+    /// The folder of the user's templates, which replace the built-in templates. `None` for the templates that the scene names.
     pub templates: Option<PathBuf>,
-    /// Whether the scene may contain POV-Ray code that opens, writes or includes files, and paths outside its folder.
+    /// Whether the scene is trusted: its POV-Ray code may open, write and include files, and its paths may lead out of its folder.
     pub trust: bool,
 }
 
@@ -134,7 +133,7 @@ impl Scene {
     /// Reads and checks the scene in a file.
     ///
     /// # Errors
-    /// All mistakes of the scene with their places, or the reason why the file cannot be read.
+    /// All mistakes of the scene with their source positions, or the reason why the file cannot be read.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Scene, Report> {
         Scene::from_path_with(path, &Options::default())
     }
@@ -142,7 +141,7 @@ impl Scene {
     /// Like [`Scene::from_path`], with options.
     ///
     /// # Errors
-    /// All mistakes of the scene with their places, or the reason why the file cannot be read.
+    /// All mistakes of the scene with their source positions, or the reason why the file cannot be read.
     pub fn from_path_with(path: impl AsRef<Path>, options: &Options) -> Result<Scene, Report> {
         let path = path.as_ref();
         let text = source::load(path)?;
@@ -161,21 +160,21 @@ impl Scene {
         )
     }
 
-    /// The height of the ground, m, and its surface. `None` if bodies pass through the ground.
+    /// Returns the height of the ground (m) and its contact properties. `None` if bodies pass through the ground.
     pub fn ground_that_stops(&self) -> Option<(f64, Surface)> {
         let ground = self.environment.ground.as_ref()?;
         Some((ground.height?, ground.surface?))
     }
 
-    /// The files of the scene: its own file, and all files that it names.
+    /// Returns the paths of the scene's own file and of all files that the scene names.
     pub fn files(&self) -> &[PathBuf] {
         self.warnings.sources.files()
     }
 
-    /// Reads and checks the text of a scene. A text has no folder, so the scene cannot include other files of the user.
+    /// Reads and checks the text of a scene. Without a folder, such a scene cannot include other files of the user.
     ///
     /// # Errors
-    /// All mistakes of the scene with their places.
+    /// All mistakes of the scene with their source positions.
     pub fn parse(text: &str) -> Result<Scene, Report> {
         Scene::parse_with(text, &Options::default())
     }
@@ -183,7 +182,7 @@ impl Scene {
     /// Like [`Scene::parse`], with options.
     ///
     /// # Errors
-    /// All mistakes of the scene with their places.
+    /// All mistakes of the scene with their source positions.
     pub fn parse_with(text: &str, options: &Options) -> Result<Scene, Report> {
         check::check(
             &check::Input { name: "scene", shown: "scene.toml", path: None, folder: None, text },

@@ -1,4 +1,4 @@
-//! The physics of a checked scene: the simulation settings and the bodies.
+//! The simulation settings and the bodies of a scene.
 
 use std::sync::Arc;
 
@@ -11,24 +11,24 @@ use crate::dynamics::{Method, Presence, RigidBody, Shape};
 /// The settings of the simulation.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// The duration that the scene asks for, s.
+    /// The duration of the simulation, s. The time of the last frame may differ, because it is rounded to a whole number of frames.
     pub duration: f64,
     /// The frame rate, frames per second.
     pub frame_rate: f64,
-    /// The largest timestep, s. Infinite if the method chooses its own timesteps.
+    /// The largest timestep, s. Infinite for an adaptive integrator, which chooses its own timesteps.
     pub step: f64,
-    /// The error tolerance of one step of an adaptive method.
+    /// The error tolerance of one timestep of an adaptive integrator.
     pub tolerance: f64,
-    /// The integrator.
+    /// The integrator, with its properties.
     pub method: &'static Method,
-    /// The gravitational acceleration of all free bodies, m/s².
+    /// The uniform gravitational acceleration of all free bodies, m/s², in world axes.
     pub gravity: DVec3,
     /// The contact law. `None` if bodies pass through each other.
     pub contacts: Option<ContactLaw>,
 }
 
 impl Simulation {
-    /// The number of frames, including the frame at time 0 and the last frame.
+    /// Returns the number of frames, including the first frame at time 0 and the last frame.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -38,18 +38,18 @@ impl Simulation {
         (self.duration * self.frame_rate).round() as usize + 1
     }
 
-    /// The time of a frame, s.
+    /// Returns the time of the frame with the index `frame`, s.
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     pub fn time(&self, frame: usize) -> f64 {
         frame as f64 / self.frame_rate
     }
 
-    /// The time of the last frame, s.
+    /// Returns the time of the last frame, s.
     pub fn end(&self) -> f64 {
         self.time(self.frames() - 1)
     }
 
-    /// The time of the nearest frame, s, if `time` differs from it only by rounding; else `time`.
+    /// Returns the time of the nearest frame, s, if `time` differs from that time only by rounding. Otherwise returns `time`.
     pub fn nearest_frame(&self, time: f64) -> f64 {
         let frame = (time * self.frame_rate).round();
         let at_frame = frame / self.frame_rate;
@@ -57,54 +57,54 @@ impl Simulation {
     }
 }
 
-/// A rigid body and its look.
+/// A rigid body, with its look and its contact properties.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// The name of the body, unique among bodies.
     pub name: Arc<str>,
     /// The shape of the body.
     pub shape: Shape,
-    /// The state of the body at the start.
+    /// The initial state and the mass properties of the body.
     pub start: RigidBody,
-    /// The magnetic moment, A m², in the body's axes.
+    /// The magnetic moment, A·m², in body axes.
     pub magnetic_moment: DVec3,
-    /// The times between which the body is present. A body that appears later begins with its start state.
+    /// The intervals of time in which the body is present. A body that appears later starts with its initial state.
     pub presence: Presence,
-    /// The prescribed motion. `None` if forces move the body.
+    /// The prescribed motion of the body. `None` if forces move the body.
     pub motion: Option<Arc<BodyMotion>>,
-    /// The contact properties. `None` if other bodies pass through the body.
+    /// The contact properties of the body. `None` if other bodies pass through the body.
     pub collider: Option<Arc<Collider>>,
-    /// The index of the body's material. `None` for axes, which have their own colors, and for a POV-Ray object without
-    /// a material.
+    /// The index of the body's material in the scene. `None` for axes, which have fixed colors, and for a POV-Ray object without a
+    /// material.
     pub material: Option<usize>,
-    /// The differences between the drawn body and the simulated body.
+    /// The scale and the POV-Ray code with which the body is drawn.
     pub look: Arc<BodyLook>,
-    /// The physics drawn with the body. Copies of a body share it.
+    /// The physical quantities that are drawn with the body, such as arrows and trails. Copies of a body share this value.
     pub showing: Arc<Showing>,
 }
 
-/// The differences between the drawn body and the simulated body.
+/// The scale and the POV-Ray code with which a body is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyLook {
-    /// The factor by which the body is drawn larger.
+    /// The factor by which the drawn body is larger than the simulated body.
     pub scale: f64,
-    /// The object to draw, as POV-Ray code with lengths in metres. `None` to draw the shape of the body.
+    /// POV-Ray code for the object to draw, with lengths in meters. `None` to draw the shape of the body.
     pub object: Option<Arc<str>>,
-    /// POV-Ray code inside the object, before its transform.
+    /// POV-Ray code that is inserted in the body's object before its transformation.
     pub sdl_before: Option<Arc<str>>,
-    /// POV-Ray code inside the object, after its transform.
+    /// POV-Ray code that is inserted in the body's object after its transformation.
     pub sdl_after: Option<Arc<str>>,
 }
 
 impl BodyLook {
-    /// Whether the body has its own POV-Ray code.
+    /// Returns whether the body has POV-Ray code from the scene.
     pub fn has_sdl(&self) -> bool {
         self.object.is_some() || self.sdl_before.is_some() || self.sdl_after.is_some()
     }
 }
 
 impl Body {
-    /// The shape in the picture. If POV-Ray code draws the body, it is the shape that stands for this code.
+    /// Returns the shape of the body scaled as it is drawn. If POV-Ray code draws the body, this is the shape that stands in for the code.
     pub fn drawn(&self) -> Shape {
         self.shape.scaled(self.look.scale)
     }

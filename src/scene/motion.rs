@@ -1,4 +1,4 @@
-//! Prescribed motion: the scene gives the path of a body, and forces do not change it.
+//! The prescribed motion of bodies, which forces do not change.
 
 use std::sync::Arc;
 
@@ -7,22 +7,22 @@ use glam::{DQuat, DVec3};
 use super::timed::{Timed, TimedVector};
 use crate::dynamics::{Kinematics, Motion, Track};
 
-/// A prescribed motion.
+/// The prescribed motion of a body.
 #[derive(Clone, Debug)]
 pub enum BodyMotion {
-    /// Formulas of the time.
+    /// A motion given by formulas of the time.
     Formula {
-        /// The location of the centre of mass, m.
+        /// The location of the center of mass as a function of time, m.
         location: TimedVector,
-        /// The orientation of the body.
+        /// The orientation of the body as a function of time.
         orientation: TimedOrientation,
     },
-    /// Interpolation between known positions.
+    /// A motion interpolated between the keyframes of a track.
     Track(Arc<Track>),
 }
 
 impl BodyMotion {
-    /// The location of the centre of mass, m, and the orientation at a time (s).
+    /// Returns the location of the center of mass (m) and the orientation at time `t` (s).
     pub fn place(&self, t: f64) -> (DVec3, DQuat) {
         match self {
             BodyMotion::Formula { location, orientation } => (location.at(t), orientation.at(t).0),
@@ -62,21 +62,21 @@ impl Motion for BodyMotion {
 /// An orientation that may change with time.
 #[derive(Clone, Debug)]
 pub enum TimedOrientation {
-    /// Rotations about the world's x axis, then y, then z, degrees.
+    /// Rotations about the world's x axis, then y, then z. The angles are in degrees.
     Euler(TimedVector),
-    /// A rotation about one axis.
+    /// A rotation about a fixed axis.
     Axis {
-        /// The axis of the rotation, a unit vector.
+        /// The axis of the rotation, a unit vector in world axes.
         axis: DVec3,
-        /// The angle of the rotation, degrees.
+        /// The angle of the rotation as a function of time, degrees.
         angle: Timed,
     },
-    /// A constant orientation.
+    /// An orientation that does not change.
     Constant(DQuat),
 }
 
 impl TimedOrientation {
-    /// The orientation at a time (s), and the angular velocity, rad/s, in world axes.
+    /// Returns the orientation and the angular velocity (rad/s, in world axes) at time `t` (s).
     pub fn at(&self, t: f64) -> (DQuat, DVec3) {
         match self {
             TimedOrientation::Constant(orientation) => (*orientation, DVec3::ZERO),
@@ -89,14 +89,14 @@ impl TimedOrientation {
                 let (angles, rates) = (radians(angles.at(t)), radians(angles.rate(t)));
                 let z = DQuat::from_rotation_z(angles.z);
                 let zy = z * DQuat::from_rotation_y(angles.y);
-                // The later rotations also turn the axes of the earlier rotations.
+                // The rotations about y and z also rotate the axes of the rotations before them.
                 let spin = DVec3::Z * rates.z + z * (DVec3::Y * rates.y) + zy * (DVec3::X * rates.x);
                 (zy * DQuat::from_rotation_x(angles.x), spin)
             }
         }
     }
 
-    /// The angular acceleration at a time (s), rad/s², in world axes.
+    /// Returns the angular acceleration at time `t` (s), rad/s², in world axes.
     pub fn angular_acceleration(&self, t: f64) -> DVec3 {
         match self {
             TimedOrientation::Constant(_) => DVec3::ZERO,
@@ -108,8 +108,8 @@ impl TimedOrientation {
                 let z = DQuat::from_rotation_z(turned.z);
                 let y_axis = z * DVec3::Y;
                 let x_axis = z * (DQuat::from_rotation_y(turned.y) * DVec3::X);
-                // The later rotations also turn the axes of the earlier rotations, and this adds to the angular
-                // acceleration.
+                // The rotations about y and z also rotate the axes of the rotations before them. The derivatives of these axes add to the
+                // angular acceleration.
                 let z_spin = DVec3::Z * rates.z;
                 let zy_spin = z_spin + y_axis * rates.y;
                 DVec3::Z * curvatures.z

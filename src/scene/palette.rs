@@ -5,8 +5,7 @@ use std::collections::HashMap;
 use super::{Color, Finish, LibraryMaterial, Look, Material};
 use crate::dynamics::Shape;
 
-/// The default colors, in the order in which bodies get them. Neighbouring colors are easy to tell apart, also for
-/// color-blind people.
+/// The default colors, in the order in which bodies get them. Neighboring colors are easy to distinguish, also for color-blind people.
 const COLORS: [(&str, Color); 8] = [
     ("red", Color([0.80, 0.07, 0.10])),
     ("blue", Color([0.08, 0.31, 0.72])),
@@ -18,30 +17,30 @@ const COLORS: [(&str, Color); 8] = [
     ("slate", Color([0.15, 0.18, 0.24])),
 ];
 
-/// Materials that the scene does not declare. Each is made when a body first needs it.
+/// The materials that the scene does not declare. Each material is made when a body first needs it.
 #[derive(Default)]
 pub(super) struct Palette {
-    /// The number of bodies that have used up a place in the sequence of colors, copies included.
+    /// The number of bodies that have advanced the sequence of default colors. Copies count as well.
     turns: usize,
-    /// The index of the material of each color, if the material exists already.
+    /// The index of the material for each default color. `None` if no body has needed the color yet.
     colors: [Option<usize>; COLORS.len()],
     checkered: Option<usize>,
-    /// The indices of the library materials that bodies use, by name.
+    /// The index of the material for each library material in use, by name.
     by_name: HashMap<&'static str, usize>,
 }
 
 /// The default look of a body without a material.
 #[derive(Clone, Copy)]
 pub(super) enum Usual {
-    /// A default color, by its index.
+    /// A default color, by its index in the palette.
     Color(usize),
-    /// The checkered look of the ground.
+    /// The checkered pattern of the ground, for planes.
     Checkered,
 }
 
 impl Palette {
-    /// The default look of the next body, in the order of the file. A new body at the end of the file changes no other
-    /// body's color.
+    /// Returns the default look of the next body in the order of the file. If a user adds a body at the end of the file, the colors of the
+    /// other bodies stay the same.
     pub(super) fn next(&mut self, shape: &Shape) -> Usual {
         if matches!(shape, Shape::Plane { .. }) {
             return Usual::Checkered;
@@ -50,7 +49,7 @@ impl Palette {
         Usual::Color((self.turns - 1) % COLORS.len())
     }
 
-    /// The index of a library material. Makes the material when it is first needed.
+    /// Returns the index of a library material in `materials`. Adds the material when it is first needed.
     pub(super) fn of_library(
         &mut self,
         material: &'static LibraryMaterial,
@@ -62,7 +61,7 @@ impl Palette {
         })
     }
 
-    /// The index of the material for a default look. Makes the material when it is first needed.
+    /// Returns the index in `materials` of the material for a default look. Adds the material when it is first needed.
     pub(super) fn material(&mut self, usual: Usual, materials: &mut Vec<Material>) -> usize {
         let made = match usual {
             Usual::Color(number) => &mut self.colors[number],

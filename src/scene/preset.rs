@@ -1,20 +1,20 @@
-//! Presets: named surroundings of a scene.
+//! Presets: named combinations of sky, ground and light.
 
-/// A named set of sky, ground, default lights and ambient light.
+/// A named combination of sky, ground, default lights and ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
-    /// A blue sky over light tiles. The default.
+    /// A blue sky over light tiles. This is the default.
     #[default]
     Daylight,
-    /// A photographer's room: white and seamless, with soft lights.
+    /// A photographer's studio: white and seamless, with soft lights.
     Studio,
     /// Stars, a dim glow at the horizon, and the light of the moon.
     Night,
-    /// Dark and even, for bright bodies.
+    /// A dark, even background for bright bodies.
     Blackboard,
-    /// White and even, for print.
+    /// A white, even background for print.
     Paper,
-    /// Stars all around, one hard sun, no ground.
+    /// Stars all around, one hard sun, and no ground.
     Space,
 }
 
@@ -23,12 +23,12 @@ impl Preset {
     pub const ALL: [Preset; 6] =
         [Preset::Daylight, Preset::Studio, Preset::Night, Preset::Blackboard, Preset::Paper, Preset::Space];
 
-    /// The preset with this name.
+    /// Returns the preset with this name. `None` for an unknown name.
     pub fn named(name: &str) -> Option<Preset> {
         Preset::ALL.into_iter().find(|preset| preset.name() == name)
     }
 
-    /// The name of the preset in scenes and templates.
+    /// Returns the name of the preset in scenes and templates.
     pub fn name(self) -> &'static str {
         match self {
             Preset::Daylight => "daylight",
@@ -40,7 +40,7 @@ impl Preset {
         }
     }
 
-    /// A description of the preset, in one line.
+    /// Returns a short description of the preset.
     pub fn meaning(self) -> &'static str {
         match self {
             Preset::Daylight => "A blue sky over light tiles: the usual one",
@@ -52,13 +52,13 @@ impl Preset {
         }
     }
 
-    /// Whether the preset has a ground.
+    /// Returns whether the preset has a ground.
     pub fn has_ground(self) -> bool {
         self != Preset::Space
     }
 
-    /// The ambient light of the preset, linear: red, green and blue, relative to daylight. Materials are made for
-    /// daylight.
+    /// Returns the ambient light of the preset relative to daylight: red, green and blue in linear RGB. The library's materials are
+    /// designed for daylight.
     pub fn ambient(self) -> [f64; 3] {
         match self {
             Preset::Daylight | Preset::Studio => [1.0; 3],

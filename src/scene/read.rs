@@ -1,6 +1,6 @@
-//! Reads one value and checks it against its description.
+//! Reads single values of a scene and checks them against the grammar.
 //!
-//! Each function has two uses: the validation keeps the errors, and the later reading keeps the values.
+//! Each function is called twice: the validation uses its errors, and the later check uses its values.
 
 use glam::DVec3;
 
@@ -12,18 +12,18 @@ use crate::scene::law::OfBody;
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
-/// The smallest allowed magnitude other than 0. Squares, and products of three such numbers, do not underflow.
+/// The smallest allowed magnitude of a nonzero number. Squares, and products of three such numbers, do not underflow.
 const SMALLEST: f64 = 1e-100;
-/// The largest allowed magnitude. Squares, and products of three such numbers, do not overflow.
+/// The largest allowed magnitude of a number. Squares, and products of three such numbers, do not overflow.
 const LARGEST: f64 = 1e100;
 
-/// The error for a value of the wrong type.
+/// Returns the error for a value of the wrong type.
 pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
     let message = format!("expected {}, found {}", expected.in_words(), node.in_words());
     Diagnostic::error(Code::WrongType, message).at(node.span, "")
 }
 
-/// A number as in a scene, for messages. Very large and very small numbers get an exponent.
+/// Formats a number for messages, as it would be written in a scene. Very large and very small numbers get an exponent.
 pub(super) fn figure(number: f64) -> String {
     if number.is_nan() {
         "nan".to_owned()
@@ -53,7 +53,7 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
     Ok(number)
 }
 
-/// Reads an integer from `low` to `high`.
+/// Reads an integer from `low` to `high`, both inclusive.
 pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnostic> {
     match node.value {
         Value::Integer(number) if (low..=high).contains(&number) => Ok(number),
@@ -71,7 +71,7 @@ pub(super) fn integer(node: &Node, low: i64, high: i64) -> Result<i64, Diagnosti
     }
 }
 
-/// Reads the items of a list that has from `min` to `max` items.
+/// Returns the items of a list. Returns an error if the list has fewer than `min` or more than `max` items.
 fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<&'a [Node], Diagnostic> {
     let Value::Array(items) = &node.value else { return Err(wrong_type(node, expected)) };
     if (min..=max).contains(&items.len()) {
@@ -85,7 +85,7 @@ fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<
     Err(Diagnostic::error(Code::WrongLength, message).at(node.span, ""))
 }
 
-/// The items of a list. The items themselves are not checked yet.
+/// Returns the items of a list of the given kind. Checks the number of items, but not the items themselves.
 pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagnostic> {
     match kind {
         Kind::List { min, max, .. } => items(node, kind, *min, *max),
@@ -93,7 +93,7 @@ pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagno
     }
 }
 
-/// Reads `N` numbers. Each wrong number gives its own error.
+/// Reads a list of `N` numbers within a bound. Returns one error for each wrong number.
 pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64; N], Vec<Diagnostic>> {
     let items = items(node, &Kind::Numbers(N, bound), N, N).map_err(|error| vec![error])?;
     let (mut numbers, mut errors) = ([0.0; N], Vec::new());
@@ -106,8 +106,7 @@ pub(super) fn numbers<const N: usize>(node: &Node, bound: Bound) -> Result<[f64;
     if errors.is_empty() { Ok(numbers) } else { Err(errors) }
 }
 
-/// Reads a number within a bound, or a formula of the time. The values of a formula are checked later, when the times
-/// are known.
+/// Reads a number within a bound, or a formula of the time. Does not check the values of a formula, because the times are not known yet.
 pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
     match &node.value {
         Value::Formula(formula) => Ok(Timed::Formula(formula.clone())),
@@ -116,8 +115,7 @@ pub(super) fn timed(node: &Node, bound: Bound) -> Result<Timed, Diagnostic> {
     }
 }
 
-/// Reads a number within a bound, or a formula with random numbers. The values of a formula are checked later, where it
-/// is used.
+/// Reads a number within a bound, or a formula with random numbers. Does not check the values of a formula.
 pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
     match &node.value {
         Value::Drawn(formula) => Ok(Drawn::Formula(formula.clone())),
@@ -126,7 +124,7 @@ pub(super) fn drawn(node: &Node, bound: Bound) -> Result<Drawn, Diagnostic> {
     }
 }
 
-/// Reads three numbers within a bound, or formulas of the time. Each wrong item gives its own error.
+/// Reads a list of three items: numbers within a bound, or formulas of the time. Returns one error for each wrong item.
 pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec<Diagnostic>> {
     let items = items(node, &Kind::TimedNumbers(3, bound), 3, 3).map_err(|error| vec![error])?;
     let mut errors = Vec::new();
@@ -140,7 +138,7 @@ pub(super) fn timed_vector(node: &Node, bound: Bound) -> Result<TimedVector, Vec
     if errors.is_empty() { Ok(vector) } else { Err(errors) }
 }
 
-/// Reads a number, or a formula of a body's quantities. The values of a formula are checked later, where it is used.
+/// Reads a number, or a formula of a body's quantities. Does not check the values of a formula.
 pub(super) fn of_body(node: &Node, names: &'static [&'static str]) -> Result<OfBody, Diagnostic> {
     match &node.value {
         Value::OfBody(formula) => Ok(OfBody::Formula(formula.clone())),
@@ -149,7 +147,7 @@ pub(super) fn of_body(node: &Node, names: &'static [&'static str]) -> Result<OfB
     }
 }
 
-/// Reads three numbers, or formulas of a body's quantities. Each wrong item gives its own error.
+/// Reads a list of three items: numbers, or formulas of a body's quantities. Returns one error for each wrong item.
 pub(super) fn list_of_body(
     node: &Node,
     names: &'static [&'static str],
@@ -166,7 +164,7 @@ pub(super) fn list_of_body(
     if errors.is_empty() { Ok(list) } else { Err(errors) }
 }
 
-/// Checks that a list has `count` formulas or numbers. Each wrong item gives its own error.
+/// Checks that a list has `count` items that are formulas or numbers. Returns one error for each wrong item.
 pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>> {
     let items = items(node, &Kind::Formulas(count), count, count).map_err(|error| vec![error])?;
     let is_formula = |item: &&Node| matches!(item.value, Value::String(_) | Value::Invalid);
@@ -176,7 +174,7 @@ pub(super) fn formulas(node: &Node, count: usize) -> Result<(), Vec<Diagnostic>>
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Reads a direction and returns it as a unit vector. The numbers must not all be zero.
+/// Reads a direction and returns it as a unit vector. Returns an error if all numbers are 0.
 pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Diagnostic>> {
     let numbers = numbers::<N>(node, Bound::Any)?;
     // Divide by the largest number first, so that the squares neither overflow nor underflow.
@@ -191,7 +189,7 @@ pub(super) fn direction<const N: usize>(node: &Node) -> Result<[f64; N], Vec<Dia
     Ok(scaled.map(|n| n / length))
 }
 
-/// Reads a color.
+/// Reads a color: a hexadecimal code, a CSS name, or a list of three numbers from 0 to 1.
 pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     match &node.value {
         Value::String(text) => Color::parse(text).ok_or_else(|| {
@@ -221,7 +219,7 @@ pub(super) fn color(node: &Node) -> Result<Color, Vec<Diagnostic>> {
     }
 }
 
-/// Reads a color, or a list of one or more colors. Each wrong color gives its own error.
+/// Reads a color, or a list of one or more colors. Returns the errors of all wrong colors.
 pub(super) fn colors(node: &Node) -> Result<Vec<Color>, Vec<Diagnostic>> {
     let Value::Array(items) = &node.value else { return color(node).map(|color| vec![color]) };
     if items.first().is_none_or(|item| item.as_number().is_some()) {
@@ -237,7 +235,7 @@ pub(super) fn colors(node: &Node) -> Result<Vec<Color>, Vec<Diagnostic>> {
     if errors.is_empty() { Ok(colors) } else { Err(errors) }
 }
 
-/// The three numbers of a color that was written with numbers from 0 to 255. `None` for other lists.
+/// Returns the red, green and blue of a color that was written with numbers from 0 to 255. `None` for other lists.
 fn bytes(items: &[Node]) -> Option<[u8; 3]> {
     let byte = |node: &Node| match node.as_number() {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within 0 and 255")]
@@ -250,7 +248,7 @@ fn bytes(items: &[Node]) -> Option<[u8; 3]> {
     }
 }
 
-/// Reads an identifier of POV-Ray.
+/// Reads an identifier for POV-Ray: letters, digits and underscores, with at most 255 characters.
 pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
     let text = node.as_str().ok_or_else(|| wrong_type(node, &Kind::Identifier))?;
     let starts_well = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
@@ -261,7 +259,7 @@ pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
     Err(Diagnostic::error(Code::BadIdentifier, message).at(node.span, ""))
 }
 
-/// Reads three numbers as a vector. `None` if a number is wrong.
+/// Reads a vector of three numbers within a bound. `None` if a number is wrong.
 pub(super) fn vector(node: &Node, bound: Bound) -> Option<DVec3> {
     numbers::<3>(node, bound).ok().map(DVec3::from_array)
 }

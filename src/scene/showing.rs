@@ -1,31 +1,32 @@
-//! The physics drawn in a checked scene: arrows, axes, ghosts, trails and springs.
+//! The physical quantities that are drawn in a scene: arrows, axes, ghosts, trails and springs.
 
 use glam::DVec3;
 
 use super::Color;
 
-/// The physics drawn with a body.
+/// The physical quantities that are drawn with a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Showing {
-    /// Arrows for the vectors of the body, in the order of [`Quantity::OF_BODIES`].
+    /// The arrows for the velocity, the acceleration and the net force of the body, in the order of [`Quantity::OF_BODIES`]. `None` for an
+    /// arrow that is not drawn.
     pub arrows: [Option<Arrow>; 3],
-    /// Arrows for the body's weight and contact forces, in the order of [`Quantity::OF_LOADS`].
+    /// The arrows for the body's weight and contact forces, in the order of [`Quantity::OF_LOADS`]. `None` for an arrow that is not drawn.
     pub loads: [Option<Arrow>; 3],
-    /// The axes of the body.
+    /// The drawn body axes. `None` if they are not drawn.
     pub axes: Option<BodyAxes>,
-    /// The ghosts of the body: earlier poses at regular intervals.
+    /// The ghosts of the body: its earlier poses at regular intervals. `None` if they are not drawn.
     pub ghosts: Option<Ghosts>,
-    /// The trail of the body: its path so far.
+    /// The trail of the body: its path so far. `None` if it is not drawn.
     pub trail: Option<Trail>,
 }
 
 impl Showing {
-    /// Whether the body has any arrow.
+    /// Returns whether the body has any arrow.
     pub fn has_arrows(&self) -> bool {
         self.arrows.iter().chain(&self.loads).any(Option::is_some)
     }
 
-    /// Whether the body has an arrow for its weight or a contact force.
+    /// Returns whether the body has an arrow for its weight or for a contact force.
     pub fn has_loads(&self) -> bool {
         self.loads.iter().any(Option::is_some)
     }
@@ -36,46 +37,47 @@ impl Showing {
 pub enum Quantity {
     /// The velocity of a body, m/s.
     Velocity,
-    /// The net force on a body divided by its mass, m/s².
+    /// The acceleration of a body, m/s²: the net force divided by the mass.
     Acceleration,
-    /// The net force on a body, or the force of a joint on its second end, N.
+    /// The net force on a body, or the reaction force of a joint on its second end, N.
     Force,
-    /// The torque of a joint on its second end, N m.
+    /// The reaction torque of a joint on its second end, N·m.
     Torque,
     /// The weight of a body, N.
     Weight,
-    /// The normal force of a touching body, N.
+    /// The normal force at a contact of a body, N.
     Normal,
-    /// The friction force of a touching body, N.
+    /// The friction force at a contact of a body, N.
     Friction,
 }
 
 impl Quantity {
-    /// The number of scales.
+    /// The number of arrow scales. Weight, normal force and friction share one scale.
     pub const COUNT: usize = 5;
-    /// The number of colors.
+    /// The number of arrow colors, one for each quantity.
     pub const COLORS: usize = 7;
 
-    /// The vectors of a body.
+    /// The quantities for the arrows of a body, without its loads.
     pub const OF_BODIES: [Quantity; 3] = [Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
 
-    /// The weight of a body, and the forces of touching bodies.
+    /// The quantities for the arrows of a body's loads: its weight and its contact forces.
     pub const OF_LOADS: [Quantity; 3] = [Quantity::Weight, Quantity::Normal, Quantity::Friction];
 
-    /// The vectors of a joint.
+    /// The quantities for the arrows of a joint.
     pub const OF_JOINTS: [Quantity; 2] = [Quantity::Force, Quantity::Torque];
 
-    /// The index of the scale. Weight, normal force and friction share a scale, so that their arrows can be compared.
+    /// Returns the index of the quantity's arrow scale. Weight, normal force and friction share a scale, so that their arrows can be
+    /// compared.
     pub fn number(self) -> usize {
         self.color().min(Self::COUNT - 1)
     }
 
-    /// The index of the color, in the order of the enum.
+    /// Returns the index of the quantity's arrow color, in the order of the enum.
     pub fn color(self) -> usize {
         self as usize
     }
 
-    /// The name of the quantity in scenes.
+    /// Returns the name of the quantity in scenes.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::Velocity => "velocity",
@@ -89,57 +91,57 @@ impl Quantity {
     }
 }
 
-/// An arrow.
+/// The scale and the color of an arrow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arrow {
-    /// The length of the arrow per unit of its quantity, m. `None` for a common scale of all such arrows of the
-    /// quantity, at which the longest arrow of the run is easy to see.
+    /// The length of the arrow in meters per unit of its quantity. `None` for a common scale of all such arrows, at which the longest
+    /// arrow of the run is easy to see.
     pub scale: Option<f64>,
-    /// The color of the arrow. `None` for the color of its quantity.
+    /// The color of the arrow. `None` for the default color of its quantity.
     pub color: Option<Color>,
 }
 
-/// The axes drawn on a body.
+/// The body axes as they are drawn on a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyAxes {
-    /// The length of each axis, m. `None` for twice the reach of the body.
+    /// The length of each drawn axis, m. `None` for twice the radius of the body's bounding sphere.
     pub length: Option<f64>,
 }
 
-/// Earlier poses of a body at regular intervals, as under a stroboscope.
+/// Earlier poses of a body that are drawn at regular intervals, as under a stroboscope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghosts {
-    /// The interval between two ghosts, s. The first ghost is at time 0.
+    /// The interval of time between two ghosts, s. The first ghost is at time 0.
     pub every: f64,
     /// Whether each ghost has the arrows of the body.
     pub arrows: bool,
 }
 
-/// A line along the path of a body.
+/// A line that is drawn along the path of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Trail {
-    /// The time that the trail covers, s. `None` for the time since the start.
+    /// The time that the trail covers, s. `None` for the whole time since the start.
     pub duration: Option<f64>,
     /// The width of the trail, m. `None` for a width that is easy to see.
     pub width: Option<f64>,
     /// The color of the trail. `None` for the color of the body.
     pub color: Option<Color>,
-    /// The point of the body that draws the trail, m, from the centre of mass, in the body's axes.
+    /// The point of the body whose path is drawn, m, relative to the center of mass in body axes.
     pub at: DVec3,
 }
 
 /// The look of a spring. jabuka derives missing values from the length and the ends of the spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringLook {
-    /// The form of the drawn spring.
+    /// Whether the spring is drawn as a coil or as a straight line.
     pub line: SpringLine,
-    /// The radius of the coil or of the straight line, m.
+    /// The radius of the drawn coil or straight line, m. `None` for a radius that jabuka derives.
     pub radius: Option<f64>,
-    /// The color of the spring.
+    /// The color of the spring. `None` for the default color.
     pub color: Option<Color>,
 }
 
-/// The form of a drawn spring.
+/// The line with which a spring is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpringLine {
     /// A coil of wire.

@@ -1,4 +1,4 @@
-//! Numbers that may change with time.
+//! Numbers and vectors that may change with time.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -9,63 +9,63 @@ use super::expression::{Code, Constants, ExpressionError, Resolved};
 use crate::diagnostic::Span;
 use crate::dynamics::{Motion, Track};
 
-/// A number, or a formula of the time.
+/// A constant number, or a formula of the time.
 #[derive(Clone, Debug)]
 pub enum Timed {
-    /// A constant number.
+    /// A number that does not change.
     Constant(f64),
     /// A formula of the time.
     Formula(Arc<TimeFormula>),
 }
 
-/// A formula of the time `t`, and its first two derivatives.
+/// A formula of the time `t`, with its first and second derivatives.
 ///
-/// Formulas of a body's copies differ only in their numbers, so they share their programs.
+/// The formulas of a body's copies differ only in their constants, so the copies share the compiled programs.
 pub struct TimeFormula {
     programs: Arc<Programs>,
     written: Arc<Written>,
-    /// The numbers of the formula. They are inputs of the programs, after the time.
+    /// The constants of the formula. They are inputs of the programs, after the time.
     constants: Box<[f64]>,
 }
 
 impl std::fmt::Debug for TimeFormula {
-    // Leave the derivatives out: they follow from the formula.
+    // Omit the derivatives, because they follow from the formula.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let formula = self.programs.formula.at(&self.written.ranges);
         f.debug_tuple("TimeFormula").field(&formula).field(&self.constants).finish()
     }
 }
 
-/// The programs of a formula and its first two derivatives. Their inputs are the time and the numbers of the formula.
+/// The compiled programs of a formula and its first and second derivatives. Their inputs are the time and the constants of the formula.
 struct Programs {
     value: Code,
     rate: Code,
     curvature: Code,
-    /// The formula, which explains a non-finite value.
+    /// The formula as a tree, from which errors about non-finite values are explained.
     formula: Resolved,
-    /// The number of operations of the three programs together.
+    /// The total number of operations of the three programs.
     operations: u64,
 }
 
-/// The text of a formula.
+/// The text of a formula as written in the scene.
 #[derive(Debug, PartialEq)]
 struct Written {
     text: Arc<str>,
-    /// The range of each part of the formula in the text, bytes.
+    /// The byte range in the text of each subexpression: its start and its end.
     ranges: Box<[[u32; 2]]>,
 }
 
-/// The formulas of the time that have been read. Equal formulas share memory.
+/// All formulas of the time that have been read. Equal formulas share memory.
 #[derive(Default)]
 pub(super) struct Formulas {
-    /// The programs, by the words of their formulas.
+    /// The compiled programs, by the encodings of their formulas.
     programs: HashMap<Vec<u64>, Arc<Programs>>,
-    /// The last formula that was read at each place. All copies of a body read their formulas at the same place.
+    /// The formula that was last read at each source span. All copies of a body read their formulas at the same span.
     last: HashMap<Span, Arc<TimeFormula>>,
 }
 
 impl Formulas {
-    /// Compiles a formula. The time is its only unresolved name, in slot 0.
+    /// Compiles a formula and its first two derivatives. The time is the formula's only input, in slot 0.
     ///
     /// # Errors
     /// If the formula is nested too deeply, or its derivatives are too long.
@@ -75,7 +75,7 @@ impl Formulas {
         span: Span,
         resolved: &Resolved,
     ) -> Result<Arc<TimeFormula>, ExpressionError> {
-        /// The largest number of operations in a derivative; enough for formulas of up to a thousand characters.
+        /// The maximum number of operations in a derivative. This is enough for formulas of up to a thousand characters.
         const MOST: u64 = 100_000;
         let rate = resolved.derivative(0);
         let curvature = if rate.operations() > MOST { None } else { Some(rate.derivative(0)) };
@@ -120,17 +120,17 @@ fn bits(numbers: &[f64]) -> impl Iterator<Item = u64> {
 }
 
 impl TimeFormula {
-    /// The formula as written.
+    /// Returns the formula as written in the scene.
     pub fn text(&self) -> &str {
         &self.written.text
     }
 
-    /// The number of operations of the formula and its first two derivatives together.
+    /// Returns the total number of operations of the formula and its first two derivatives.
     pub(super) fn operations(&self) -> u64 {
         self.programs.operations
     }
 
-    /// Explains why the formula has no finite value at a time (s). `None` if the value is finite.
+    /// Explains why the formula has no finite value at time `t` (s). `None` if the value is finite.
     pub fn explain_non_finite(&self, t: f64) -> Option<ExpressionError> {
         if self.value(t).is_finite() {
             return None;
@@ -145,7 +145,7 @@ impl TimeFormula {
 }
 
 impl Timed {
-    /// The value at a time (s). It may be non-finite.
+    /// Returns the value at time `t` (s), which may be non-finite.
     pub fn at(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(value) => *value,
@@ -153,7 +153,7 @@ impl Timed {
         }
     }
 
-    /// The first derivative at a time (s), per second.
+    /// Returns the first derivative with respect to time at time `t` (s).
     pub fn rate(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -161,7 +161,7 @@ impl Timed {
         }
     }
 
-    /// The second derivative at a time (s), per second squared.
+    /// Returns the second derivative with respect to time at time `t` (s).
     pub fn curvature(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -169,23 +169,23 @@ impl Timed {
         }
     }
 
-    /// Whether the number changes with time.
+    /// Returns whether the number is a formula, so that it may change with time.
     pub fn changes(&self) -> bool {
         matches!(self, Timed::Formula(_))
     }
 }
 
-/// Three numbers that may change with time.
+/// A vector of three components that may change with time.
 #[derive(Clone, Debug)]
 pub enum TimedVector {
-    /// Three numbers or formulas.
+    /// A number or a formula for each component.
     Each([Timed; 3]),
-    /// The location on a track.
+    /// The location on a track of keyframes.
     Track(Arc<Track>),
 }
 
 impl TimedVector {
-    /// The value at a time (s).
+    /// Returns the vector at time `t` (s).
     pub fn at(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].at(t))),
@@ -193,7 +193,7 @@ impl TimedVector {
         }
     }
 
-    /// The first derivative at a time (s), per second.
+    /// Returns the first derivative with respect to time at time `t` (s).
     pub fn rate(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].rate(t))),
@@ -201,7 +201,7 @@ impl TimedVector {
         }
     }
 
-    /// The second derivative at a time (s), per second squared.
+    /// Returns the second derivative with respect to time at time `t` (s).
     pub fn curvature(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].curvature(t))),
@@ -209,7 +209,7 @@ impl TimedVector {
         }
     }
 
-    /// Whether any component changes with time.
+    /// Returns whether any component may change with time.
     pub fn changes(&self) -> bool {
         match self {
             TimedVector::Each(each) => each.iter().any(Timed::changes),

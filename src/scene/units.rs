@@ -1,6 +1,6 @@
-//! Units that people write after numbers, with factors to the units of the scene language.
+//! Converts units that people write after numbers to the units of the scene language.
 
-/// A unit: its names, the scene language's unit of the same quantity, and the factor to this unit.
+/// A unit of measurement: its names, the scene language's unit for the same quantity, and the factor that converts to the latter.
 struct Unit {
     names: &'static [&'static str],
     of: &'static str,
@@ -11,11 +11,11 @@ const fn unit(names: &'static [&'static str], of: &'static str, factor: f64) -> 
     Unit { names, of, factor }
 }
 
-/// A Julian year, s.
+/// The length of a Julian year, s.
 const YEAR: f64 = 365.25 * 86_400.0;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// The known units. For each quantity, the unit of the scene language comes first: it is the default.
+/// The known units, grouped by quantity. The unit of the scene language comes first in each group.
 static UNITS: &[Unit] = &[
     unit(&["s", "sec", "second", "seconds"], "s", 1.0),
     unit(&["ns"], "s", 1e-9),
@@ -37,16 +37,16 @@ static UNITS: &[Unit] = &[
     unit(&["km"], "m", 1e3),
     unit(&["in", "inch"], "m", 0.0254),
     unit(&["ft", "foot", "feet"], "m", 0.3048),
-    // Resolution B2 of the IAU, 2012.
+    // The value of the astronomical unit is from resolution B2 of the IAU, 2012.
     unit(&["AU", "au", "ua"], "m", 149_597_870_700.0),
     unit(&["ly"], "m", 299_792_458.0 * YEAR),
-    // 648000/π astronomical units: resolution B2 of the IAU, 2015.
+    // A parsec is 648000/π astronomical units (resolution B2 of the IAU, 2015).
     unit(&["pc"], "m", 149_597_870_700.0 * 648_000.0 / std::f64::consts::PI),
     unit(&["kg"], "kg", 1.0),
     unit(&["mg"], "kg", 1e-6),
     unit(&["g", "gram", "grams"], "kg", 1e-3),
     unit(&["t", "ton", "tons"], "kg", 1e3),
-    // CODATA 2022.
+    // The value of the atomic mass unit is from CODATA 2022.
     unit(&["u", "Da"], "kg", 1.660_539_068_92e-27),
     unit(&["m/s", "m s^-1", "mps"], "m/s", 1.0),
     unit(&["mm/s"], "m/s", 1e-3),
@@ -74,7 +74,7 @@ static UNITS: &[Unit] = &[
     unit(&["uC", "µC", "μC"], "C", 1e-6),
     unit(&["nC"], "C", 1e-9),
     unit(&["pC"], "C", 1e-12),
-    // Exact by definition of the coulomb.
+    // The elementary charge is exact since the SI of 2019.
     unit(&["e"], "C", 1.602_176_634e-19),
     unit(&["T"], "T", 1.0),
     unit(&["mT"], "T", 1e-3),
@@ -89,29 +89,31 @@ static UNITS: &[Unit] = &[
     unit(&["px", "pixel", "pixels"], "pixels", 1.0),
 ];
 
-/// The factor from a unit to a unit of the scene language. `None` if the two measure different quantities.
+/// Returns the factor that converts `unit` to the unit `of`, which is a unit of the scene language. `None` if the two units measure
+/// different quantities.
 pub(super) fn factor(unit: &str, of: &str) -> Option<f64> {
     let is_it = |known: &&Unit| known.of == of && known.names.contains(&unit);
     UNITS.iter().find(is_it).map(|known| known.factor)
 }
 
-/// Whether a word is probably meant as a unit.
+/// Returns whether a word is probably meant as a unit.
 pub(super) fn is_unit(word: &str) -> bool {
     UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "J" | "W" | "Pa" | "K" | "V" | "A")
 }
 
-/// The factor to the scene language's unit, for unit names that are unlikely as names of variables.
+/// Returns the factor that converts a unit to the scene language's unit. `None` for unknown units, and for names of one letter, which are
+/// more likely names of variables.
 pub(super) fn of_several_letters(name: &str) -> Option<f64> {
     let is_it = |unit: &&Unit| unit.names.contains(&name);
     if name.len() < 2 { None } else { UNITS.iter().find(is_it).map(|unit| unit.factor) }
 }
 
-/// The usual names of the units of a quantity, the unit of the scene language first.
+/// Returns the most common name of each unit that converts to the unit `of`, beginning with `of` itself.
 pub(super) fn usual(of: &str) -> Vec<&'static str> {
     UNITS.iter().filter(|unit| unit.of == of).map(|unit| unit.names[0]).collect()
 }
 
-/// Splits a number and its unit: `2.5 km` → `2.5` and `km`. `None` for other texts.
+/// Splits a text such as `2.5 km` into the number and the unit. `None` for other texts.
 pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let mut bytes = text.bytes().enumerate().peekable();
@@ -134,19 +136,19 @@ pub(super) fn quantity(text: &str) -> Option<(f64, &str)> {
     is_unit(unit).then_some((number, unit))
 }
 
-/// Converts a number to the unit of a key, as text for a scene. For a key without a unit, converts to the scene
-/// language's unit of the quantity.
+/// Converts a number from `unit` to the unit `of` of a key, and returns its TOML text. If `of` is empty, converts to the scene language's
+/// unit for the same quantity. `None` if the units measure different quantities.
 pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
     let factor = match (factor(unit, of), of) {
         (None, "") => UNITS.iter().find(|known| known.names.contains(&unit)).map(|known| known.factor),
-        // For an angular velocity, degrees stand for degrees per second.
+        // For an angular velocity, read degrees as degrees per second.
         (None, "rad/s") => factor(unit, "degrees").map(|degrees| degrees * DEGREE),
         (factor, _) => factor,
     };
     factor.map(|factor| written(number * factor))
 }
 
-/// A number as text for a scene, without the rounding error of a conversion in its last digits.
+/// Formats a number as TOML, rounded to 13 significant digits, which removes the rounding error of a conversion.
 pub(super) fn written(number: f64) -> String {
     let rounded = format!("{number:.12e}").parse::<f64>().unwrap_or(number);
     if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {

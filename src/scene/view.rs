@@ -1,4 +1,4 @@
-//! Reads the values of a table by the names of the keys.
+//! Reads the values of a table by their keys.
 
 use std::sync::Arc;
 
@@ -13,15 +13,15 @@ use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
-/// A table with its description, for reading values. A missing or invalid value reads as its default; the validation
-/// has reported the invalid ones. A value without a default reads as `None`.
+/// A table with its grammar, from which values are read by key. A missing or invalid value reads as its default, or as `None` if the key
+/// has no default. The validation has already reported invalid values.
 #[derive(Clone, Copy)]
 pub(in crate::scene) struct View<'a> {
     spec: &'static TableSpec,
     table: Option<&'a Table>,
 }
 
-/// A named table. If it is a copy of another table, it is made only when it is read.
+/// A named table, such as `[body.ball]`. If it is a copy made by `repeat`, its table is only made when it is read.
 #[derive(Clone, Copy)]
 pub(super) struct NamedTable<'a> {
     spec: &'static TableSpec,
@@ -33,12 +33,12 @@ impl<'a> NamedTable<'a> {
         &self.entry.name.text
     }
 
-    /// The place of the table's name.
+    /// Returns the source span of the table's name.
     pub(super) fn span(self) -> Span {
         self.entry.name.span
     }
 
-    /// Makes the table, and passes a view of it to `work`.
+    /// Makes the table if it is a copy, and calls `work` with a view of the table.
     pub(super) fn look<T>(self, work: impl FnOnce(&View<'_>) -> T) -> T {
         let table = self.entry.node.table();
         work(&View { spec: self.spec, table: table.as_deref() })
@@ -50,13 +50,14 @@ impl<'a> View<'a> {
         View { spec, table }
     }
 
-    /// The value of a key, as in the text. `None` if the key is missing.
+    /// Returns the value of a key as it stands in the tree. `None` if the key is missing.
     pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
         self.table?.get(name).map(|entry| &entry.node)
     }
 
-    /// The kind of a key that `is` accepts. A key with several kinds has the kind that fits.
+    /// Returns the kind of value that a key takes, if `is` accepts the kind. If the key takes several kinds, returns the first that `is`
+    /// accepts.
     fn kind_of(&self, name: &str, is: impl Fn(&Kind) -> bool) -> Option<&'static Kind> {
         let Key { kind, .. } = self.spec.key(name)?;
         let found = match kind {
@@ -67,28 +68,29 @@ impl<'a> View<'a> {
         found
     }
 
-    /// The place of a key's value.
+    /// Returns the source span of a key's value. `None` if the key is missing.
     pub(in crate::scene) fn span(&self, name: &str) -> Option<Span> {
         self.node(name).map(|node| node.span)
     }
 
-    /// The place of a key.
+    /// Returns the source span of a key. `None` if the key is missing.
     pub(in crate::scene) fn key_span(&self, name: &str) -> Option<Span> {
         self.table?.get(name).map(|entry| entry.name.span)
     }
 
-    /// Whether the table has a key that its description does not contain.
+    /// Returns whether the table has a key that its grammar does not contain.
     pub(super) fn has_unknown(&self) -> bool {
         let mut entries = self.table.iter().flat_map(|table| table.entries.iter());
         entries.any(|entry| self.spec.key(&entry.name.text).is_none())
     }
 
-    /// Whether the table has the key, with a valid value or not.
+    /// Returns whether the table has the key, with a valid or an invalid value.
     pub(in crate::scene) fn has(&self, name: &str) -> bool {
         self.node(name).is_some()
     }
 
-    /// Reads a value, or the default of the key. If the key allows several kinds and the value has another one, `None`.
+    /// Reads a value, or returns the default of the key. Returns `None` if the key takes several kinds of values and the value has another
+    /// kind.
     fn read<T>(
         &self,
         name: &str,
@@ -116,7 +118,7 @@ impl<'a> View<'a> {
         self.read(name, |node| read::integer(node, *low, *high).ok(), DefaultValue::integer)
     }
 
-    /// Reads an integer that counts something.
+    /// Reads a nonnegative integer.
     pub(in crate::scene) fn count(&self, name: &str) -> Option<u32> {
         self.integer(name).and_then(|count| u32::try_from(count).ok())
     }
@@ -128,7 +130,7 @@ impl<'a> View<'a> {
         self.read(name, |node| read::vector(node, *bound), default)
     }
 
-    /// Reads a number that may change with time.
+    /// Reads a number or a formula of the time.
     pub(super) fn timed(&self, name: &str) -> Option<Timed> {
         let Kind::Timed(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Timed(_)))? else {
             return None;
@@ -137,7 +139,8 @@ impl<'a> View<'a> {
         self.read(name, |node| read::timed(node, *bound).ok(), default)
     }
 
-    /// Reads a number that each particle draws for itself. `None` if the key is missing and has no default.
+    /// Reads a number, or a formula with random numbers that is sampled for each particle. `None` if the key is missing and has no
+    /// default.
     pub(super) fn drawn(&self, name: &str) -> Option<Drawn> {
         let Kind::Drawn(bound) = self.kind_of(name, |kind| matches!(kind, Kind::Drawn(_)))? else {
             return None;
@@ -153,7 +156,7 @@ impl<'a> View<'a> {
         read::of_body(self.node(name)?, names).ok()
     }
 
-    /// Reads three numbers, or formulas of a body's quantities.
+    /// Reads a list of three items: numbers, or formulas of a body's quantities.
     pub(super) fn list_of_body(&self, name: &str) -> Option<[OfBody; 3]> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::ListOfBody(3, _)))?;
         let Kind::ListOfBody(_, names) = kind else { return None };
@@ -166,7 +169,7 @@ impl<'a> View<'a> {
         read::colors(self.node(name)?).ok()
     }
 
-    /// Reads a vector that may change with time.
+    /// Reads a list of three items: numbers, or formulas of the time.
     pub(super) fn timed_vector(&self, name: &str) -> Option<TimedVector> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::TimedNumbers(3, _)))?;
         let Kind::TimedNumbers(_, bound) = kind else { return None };
@@ -174,12 +177,12 @@ impl<'a> View<'a> {
         read::timed_vector(node, *bound).ok()
     }
 
-    /// The value of a key, unchecked.
+    /// Returns the value of a key as it stands in the tree, without checking it.
     pub(super) fn raw(&self, name: &str) -> Option<&'a Node> {
         self.node(name)
     }
 
-    /// Reads a direction as a unit vector.
+    /// Reads a direction, and returns it as a unit vector.
     pub(in crate::scene) fn direction<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
         self.kind_of(name, |kind| matches!(kind, Kind::Direction(n) if *n == N))?;
         self.read(name, |node| read::direction(node).ok(), DefaultValue::numbers)
@@ -199,12 +202,12 @@ impl<'a> View<'a> {
         self.read(name, |node| read::color(node).ok(), |default| default.word().and_then(Color::parse))
     }
 
-    /// Reads a text.
+    /// Reads a string.
     pub(in crate::scene) fn text(&self, name: &str) -> Option<&'a str> {
         self.read(name, |node| node.as_str(), DefaultValue::word)
     }
 
-    /// Reads a word, and returns the item of `all` with this name.
+    /// Reads a word, and returns the item of `all` that has this name. An unknown word reads as the default of the key.
     pub(in crate::scene) fn choice<T: Copy, const N: usize>(
         &self,
         name: &str,
@@ -212,11 +215,11 @@ impl<'a> View<'a> {
         word_of: impl Fn(T) -> &'static str,
     ) -> T {
         let named = |word: &str| all.into_iter().find(|one| word_of(*one) == word);
-        // A test checks that the default in the grammar is one of the items.
+        // The default in the grammar is always one of the items, as a test checks.
         self.read(name, |node| named(node.as_str()?), |default| named(default.word()?)).unwrap_or(all[0])
     }
 
-    /// Like [`View::text`], but in memory that all copies of a body share.
+    /// Like [`View::text`], but returns a string that all copies of a body share in memory.
     pub(in crate::scene) fn shared_text(&self, name: &str) -> Option<Arc<str>> {
         match &self.node(name)?.value {
             Value::String(text) => Some(text.clone()),
@@ -224,12 +227,12 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The table itself. The clone shares its memory with the original.
+    /// Returns the table itself. `None` if the view is empty. The clone shares its memory with the original.
     pub(super) fn to_table(self) -> Option<Table> {
         self.table.cloned()
     }
 
-    /// Whether this view shows the table `other`, so that all values are equal.
+    /// Returns whether this view shows the same table in memory as `other`. If so, all values are equal.
     pub(super) fn is_same(&self, other: Option<&Table>) -> bool {
         match (self.table, other) {
             (Some(one), Some(two)) => one.entries.is_same(&two.entries),
@@ -237,13 +240,13 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The items of a list.
+    /// Returns the items of a list. `None` if the key is missing or the list has a wrong length.
     pub(in crate::scene) fn list(&self, name: &str) -> Option<&'a [Node]> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { .. }))?;
         read::list(self.node(name)?, kind).ok()
     }
 
-    /// Reads a list of integers. `None` if one of them is invalid.
+    /// Reads a list of integers. `None` if an integer is invalid.
     pub(in crate::scene) fn integers(&self, name: &str) -> Option<Vec<i64>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Integer(..), .. }))?;
         let Kind::List { of: Kind::Integer(low, high), .. } = kind else { return None };
@@ -251,7 +254,7 @@ impl<'a> View<'a> {
         self.read(name, |_| self.list(name)?.iter().map(whole).collect(), DefaultValue::integers)
     }
 
-    /// Reads a list of numbers of any length. `None` if one of them is invalid.
+    /// Reads a list of numbers. `None` if a number is invalid.
     pub(in crate::scene) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Number(_), .. }))?;
         let Kind::List { of: Kind::Number(bound), .. } = kind else { return None };
@@ -259,14 +262,14 @@ impl<'a> View<'a> {
         items.iter().map(|item| read::number(item, *bound).ok()).collect()
     }
 
-    /// Reads a list of vectors. `None` if one of them is invalid.
+    /// Reads a list of vectors. `None` if a vector is invalid.
     pub(in crate::scene) fn vectors(&self, name: &str) -> Option<Vec<DVec3>> {
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Numbers(3, _), .. }))?;
         let Kind::List { of: Kind::Numbers(_, bound), .. } = kind else { return None };
         self.list(name)?.iter().map(|item| read::vector(item, *bound)).collect()
     }
 
-    /// A view of a table inside this table. The view is empty if the key is missing.
+    /// Returns a view of an inner table. The view is empty if the key is missing.
     pub(in crate::scene) fn table(&self, name: &str) -> View<'a> {
         let spec = match self.kind_of(name, |kind| matches!(kind, Kind::Table(_))) {
             Some(Kind::Table(spec)) => *spec,
@@ -275,13 +278,13 @@ impl<'a> View<'a> {
         View { spec, table: self.node(name).and_then(Node::as_table) }
     }
 
-    /// A view of a table inside this table. `None` if the key is missing or its value is not a table.
+    /// Returns a view of an inner table. `None` if the key is missing or its value is not a table.
     pub(in crate::scene) fn variant(&self, name: &str) -> Option<View<'a>> {
         let view = self.table(name);
         view.table.is_some().then_some(view)
     }
 
-    /// Views of the tables in a list.
+    /// Returns a view of each table in a list of tables.
     pub(in crate::scene) fn tables(&self, name: &str) -> Vec<View<'a>> {
         let Some(Kind::List { of: Kind::Table(spec), .. }) =
             self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Table(_), .. }))
@@ -292,14 +295,14 @@ impl<'a> View<'a> {
         items.iter().map(|node| View { spec, table: node.as_table() }).collect()
     }
 
-    /// The variables of the scene that have a value, with their values.
+    /// Returns the name and the value of each variable of the scene that has a value.
     pub(super) fn variables(&self) -> impl Iterator<Item = (&'a str, f64)> {
         let table = self.node("variables").and_then(Node::as_table);
         let entries = table.map_or(&[][..], |table| &table.entries);
         entries.iter().filter_map(|entry| Some((&*entry.name.text, entry.node.as_number()?)))
     }
 
-    /// The bodies of the scene, including copies.
+    /// Returns the tables of all bodies of the scene, including copies.
     pub(super) fn bodies(&self) -> impl ExactSizeIterator<Item = NamedTable<'a>> + use<'a> {
         let spec = match self.kind_of("body", |kind| matches!(kind, Kind::Named(_))) {
             Some(Kind::Named(spec)) => *spec,
@@ -309,7 +312,7 @@ impl<'a> View<'a> {
         entries.iter().map(move |entry| NamedTable { spec, entry })
     }
 
-    /// The named tables under a key: name, place of the name, table. Bodies are read by `bodies` instead.
+    /// Returns the name, the source span of the name, and a view of each named table under a key. Use [`View::bodies`] for bodies instead.
     pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
             return Vec::new();
