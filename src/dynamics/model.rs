@@ -1,4 +1,4 @@
-//! Everything that is constant in time: the masses of the bodies, and the forces on them.
+//! The model: all quantities that are constant in time, such as the masses of the bodies and the forces on them.
 
 mod away;
 
@@ -14,8 +14,8 @@ use super::{
     RigidBody, Shape, State,
 };
 
-/// The constants of the motion: masses, inertia and forces. With a [`State`] it determines the equations of motion,
-/// x' = v, v' = F/m, L' = τ and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
+/// The constants of the equations of motion: masses, inertia and forces. With a [`State`], the model determines x' = v, v' = F/m, L' = τ
+/// and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
 #[derive(Clone, Default)]
 pub struct Model {
     mass: Vec<f64>,
@@ -26,88 +26,88 @@ pub struct Model {
     principal_axes: Sparse<DQuat>,
     shapes: Vec<Shape>,
     movable: Vec<bool>,
-    /// The inverse masses and moments of the bodies held at rest.
+    /// For each body held at rest, its inverse mass and inverse moments of inertia. They return when the body is released.
     frozen: BTreeMap<usize, (f64, DVec3)>,
-    /// The bodies that no load moves.
+    /// The indices of the bodies that no load moves: fixed, guided, absent, or held at rest.
     unmoved: Vec<usize>,
-    /// The constants of absent bodies. Bodies after the last absent one take no memory.
+    /// The constants of absent bodies, one entry per body; `None` for present ones. The list ends at the last absent body, to save memory.
     away: Vec<Option<Box<Away>>>,
-    /// The given motions, with the bodies that follow them.
+    /// The given motions, each with the index of the body that follows it.
     motions: Vec<(usize, Arc<dyn Motion>)>,
     force: Sparse<DVec3>,
     torque: Sparse<DVec3>,
-    /// The bodies whose constant torque is not zero. They are few, and the only ones whose constant torque does work.
+    /// The indices of the bodies with a nonzero constant torque. They are few, and only their constant torques do work.
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
     constraints: Vec<Arc<dyn Constraint>>,
     effort: Effort,
-    /// The bodies that are advanced at present; `None` for all.
+    /// The indices of the bodies that are advanced at present; `None` if all are.
     focus: Option<Vec<usize>>,
 }
 
 impl Model {
-    /// The number of bodies.
+    /// Returns the number of bodies in the model.
     #[must_use]
     pub fn len(&self) -> usize {
         self.mass.len()
     }
 
-    /// Whether there is no body.
+    /// Returns true if the model has no bodies.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mass.is_empty()
     }
 
-    /// The masses of the bodies, kg.
+    /// Returns the mass of each body, kg.
     #[must_use]
     pub fn mass(&self) -> &[f64] {
         &self.mass
     }
 
-    /// The electric charges of the bodies, C.
+    /// Returns the electric charge of each body, C.
     #[must_use]
     pub fn charge(&self) -> &[f64] {
         &self.charge
     }
 
-    /// 1/m of each body, 1/kg; 0 for a body that does not move.
+    /// Returns the inverse mass 1/m of each body, 1/kg; 0 for a body that forces cannot move.
     #[must_use]
     pub fn inverse_mass(&self) -> &[f64] {
         &self.inverse_mass
     }
 
-    /// The principal moments of inertia of each body, kg m².
+    /// Returns the principal moments of inertia of each body, kg m².
     #[must_use]
     pub fn inertia(&self) -> &[DVec3] {
         &self.inertia
     }
 
-    /// 1/I of each body's principal moments, 1/(kg m²); 0 if a body does not rotate.
+    /// Returns the inverse principal moments of inertia of each body, 1/(kg m²). 0 for an axis about which torques cannot rotate the body.
     #[must_use]
     pub fn inverse_inertia(&self) -> &[DVec3] {
         &self.inverse_inertia
     }
 
-    /// The rotation from a body's principal axes of inertia to its frame.
+    /// Returns the rotation from a body's principal axes of inertia to its body axes.
     #[must_use]
     pub fn principal_axes(&self, body: usize) -> DQuat {
         self.principal_axes.get(body)
     }
 
-    /// The shape of a body for contacts, if it has been set.
+    /// Returns the shape of a body for contacts; `None` if it has not been set.
     #[must_use]
     pub fn shape(&self, body: usize) -> Option<&Shape> {
         self.shapes.get(body)
     }
 
-    /// Whether each body can change its position: its motion is given, or it is not fixed and its mass is positive.
+    /// Returns, for each body, whether its position can change: its motion is given, or it is not fixed and its mass is positive.
     #[must_use]
     pub fn movable(&self) -> &[bool] {
         &self.movable
     }
 
-    /// Whether bodies that do not meet can be advanced one after another: no force or constraint couples bodies, and no work is counted
-    /// as it is done.
+    /// Returns true if bodies that do not meet can be advanced one after another: no force or constraint couples bodies, and no work has
+    /// to be integrated.
     pub(super) fn is_local(&self) -> bool {
         self.constraints.is_empty()
             && self.motions.is_empty()
@@ -115,50 +115,51 @@ impl Model {
             && self.forces.iter().all(|force| force.is_local())
     }
 
-    /// From now on, only these bodies, in rising order, are advanced; `None` for all. Methods may leave the others unchanged.
+    /// Restricts the integration to these bodies from now on; their indices are in ascending order. `None` stands for all bodies. Methods
+    /// may leave the other bodies unchanged.
     pub(super) fn focus(&mut self, bodies: Option<Vec<usize>>) {
         self.focus = bodies;
     }
 
-    /// The bodies that are advanced at present, in rising order; `None` for all.
+    /// Returns the indices of the bodies that are advanced at present, in ascending order; `None` if all are.
     pub(super) fn in_focus(&self) -> Option<&[usize]> {
         self.focus.as_deref()
     }
 
-    /// Whether some force depends on velocities, or does work without a potential. A step then needs more than its value at the
-    /// positions.
+    /// Returns true if any force depends on velocities, or does work without a potential. Methods must then evaluate forces at more than
+    /// the positions.
     pub(super) fn depends_on_motion(&self) -> bool {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
     }
 
-    /// Whether something can change the angular momentum of a body.
+    /// Returns true if any force or torque can change the angular momentum of a body.
     pub(super) fn turns_bodies(&self) -> bool {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.turns_bodies())
     }
 
-    /// Newton's gravitation, if it is among the forces.
+    /// Returns Newton's gravitation between bodies, if it is among the forces.
     pub(super) fn gravitation(&self) -> Option<&Gravitation> {
         self.forces.iter().find_map(|force| force.gravitation())
     }
 
-    /// Whether a present body follows a given motion.
+    /// Returns true if any present body follows a given motion.
     pub(super) fn has_guided(&self) -> bool {
         self.guided().next().is_some()
     }
 
-    /// Whether no body, present or absent, is moved by forces.
+    /// Returns true if forces move no body at all, present or absent.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()
             && self.inverse_mass.iter().all(|&inverse| inverse == 0.0)
             && self.away.iter().flatten().all(|away| away.is_given())
     }
 
-    /// Whether loads move a body when it is not held at rest.
+    /// Returns true if loads can move a body. A body held at rest counts as movable.
     pub(super) fn can_move(&self, body: usize) -> bool {
         self.inverse_mass[body] != 0.0 || self.frozen.contains_key(&body)
     }
 
-    /// Holds a body at rest: no load moves it until it is released.
+    /// Holds a body at rest: loads do not move it until it is released.
     pub(super) fn freeze(&mut self, body: usize, state: &mut State) {
         let constants = (self.inverse_mass[body], self.inverse_inertia[body]);
         self.frozen.insert(body, constants);
@@ -167,7 +168,7 @@ impl Model {
         self.unmoved.push(body);
     }
 
-    /// Releases a body that was held at rest.
+    /// Releases a body held at rest: loads move it again.
     pub(super) fn thaw(&mut self, body: usize) {
         if let Some(constants) = self.frozen.remove(&body) {
             (self.inverse_mass[body], self.inverse_inertia[body]) = constants;
@@ -175,25 +176,25 @@ impl Model {
         }
     }
 
-    /// A body's own constant force, N.
+    /// Returns the constant force on a body, world axes, N.
     #[must_use]
     pub fn constant_force(&self, body: usize) -> DVec3 {
         self.force.get(body)
     }
 
-    /// A body's own constant torque, N m.
+    /// Returns the constant torque on a body, world axes, N m.
     #[must_use]
     pub fn constant_torque(&self, body: usize) -> DVec3 {
         self.torque.get(body)
     }
 
-    /// The forces, except the constant ones of the bodies.
+    /// Returns all forces except the constant forces of single bodies.
     #[must_use]
     pub fn forces(&self) -> &[Arc<dyn Force>] {
         &self.forces
     }
 
-    /// Adds the cause of a breakdown, if a force without a finite value is behind it.
+    /// Replaces a breakdown by its cause, if a force without a finite value is the cause.
     pub(super) fn cause(&self, breakdown: Breakdown) -> Breakdown {
         let (Breakdown::Diverged { .. } | Breakdown::Stalled { .. }) = breakdown else { return breakdown };
         let undefined = |(force, it): (usize, &Arc<dyn Force>)| it.undefined().map(|at| (force, at));
@@ -203,18 +204,18 @@ impl Model {
         }
     }
 
-    /// The constraints between bodies.
+    /// Returns the constraints between bodies, in the order in which they were added.
     #[must_use]
     pub fn constraints(&self) -> &[Arc<dyn Constraint>] {
         &self.constraints
     }
 
-    /// The given motion of a body, if there is one.
+    /// Returns the given motion of a body; `None` if forces move it or it is fixed.
     pub(super) fn motion(&self, body: usize) -> Option<Arc<dyn Motion>> {
         self.motions.iter().find(|(other, _)| *other == body).map(|(_, motion)| motion.clone())
     }
 
-    /// The counter of pair interactions.
+    /// Returns the counter of computed pair interactions, for progress bars.
     pub(super) fn effort(&self) -> &Effort {
         &self.effort
     }
@@ -223,7 +224,7 @@ impl Model {
         self.effort = effort;
     }
 
-    /// Reserves memory for more bodies.
+    /// Reserves memory for this many more bodies.
     pub(super) fn reserve(&mut self, bodies: usize) {
         self.mass.reserve_exact(bodies);
         self.charge.reserve_exact(bodies);
@@ -233,13 +234,13 @@ impl Model {
         self.movable.reserve_exact(bodies);
     }
 
-    /// Adds a body. Its entry in `state` is made at the same time, so that both always agree.
+    /// Adds a body to the model and to `state`, so that both always have the same number of bodies.
     pub(super) fn push(&mut self, body: &RigidBody, state: &mut State) {
         let index = self.len();
         let movable = !body.fixed && body.mass > 0.0;
         let inverse = |x: f64| if movable && x > 0.0 { 1.0 / x } else { 0.0 };
         let inverse_inertia = body.inertia.map(inverse);
-        // Without a rotation, the product differs only in signs of zeros.
+        // If the principal axes are the body axes, the product would change only the signs of zeros.
         let turned = body.principal_axes != DQuat::IDENTITY;
         let orientation = if turned { body.orientation * body.principal_axes } else { body.orientation };
         let orientation = orientation.normalize();
@@ -257,8 +258,8 @@ impl Model {
         self.force.set(index, body.force);
         self.set_constant_torque(index, body.torque);
 
-        // A body that does not move starts at rest. Zero loads keep it there, so no integration method needs a special case for such
-        // bodies.
+        // A body that cannot move starts at rest, and zero loads keep it at rest. Integration methods therefore need no special case for
+        // it.
         let (velocity, angular_momentum) = if movable {
             let in_body = orientation.conjugate() * body.angular_velocity;
             (body.velocity, orientation * (body.inertia * in_body))
@@ -271,7 +272,7 @@ impl Model {
         state.angular_momentum.push(angular_momentum);
     }
 
-    /// From now on, a body follows a given motion. Its inverse mass becomes 0, so that nothing else moves it.
+    /// Makes a body follow a given motion from now on. Its inverse mass becomes 0, so that loads do not move it.
     pub(super) fn drive(&mut self, body: usize, motion: Arc<dyn Motion>) {
         let is_fixed = !self.movable[body];
         let is_driven = !is_fixed && self.inverse_mass[body] == 0.0;
@@ -283,30 +284,30 @@ impl Model {
         self.motions.push((body, motion));
         self.movable[body] = true;
         self.inverse_mass[body] = 0.0;
-        // The angular velocity is computed from the angular momentum with this.
+        // The inverse moments stay: the angular velocity is computed from them and the angular momentum.
         self.inverse_inertia[body] =
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }
 
-    /// The present bodies with a given motion.
+    /// Returns the present bodies with a given motion, each with its motion.
     fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
         let present = self.motions.iter().filter(|(i, _)| self.is_present(*i));
         present.map(|(i, motion)| (*i, &**motion))
     }
 
-    /// Sets the forces on bodies with a given motion to m a, the force that this motion requires.
+    /// Sets the force on each body with a given motion to m a, the force that this motion requires.
     pub(super) fn guide(&self, t: f64, loads: &mut Loads) {
         for (i, motion) in self.guided() {
             loads.force[i] = self.mass[i] * motion.at(t).acceleration;
         }
     }
 
-    /// Places all present bodies with a given motion at time `t`.
+    /// Places all present bodies with a given motion where they are at time `t`, s.
     pub fn place(&self, t: f64, state: &mut State) {
         self.guided().for_each(|(i, motion)| self.place_body(i, &motion.at(t), state));
     }
 
-    /// Sets the position and motion of one body to `given`.
+    /// Sets the position, orientation and velocities of one body to those of `given`.
     pub(super) fn place_body(&self, i: usize, given: &Kinematics, state: &mut State) {
         let orientation = (given.orientation * self.principal_axes.get(i)).normalize();
         let in_body = orientation.conjugate() * given.angular_velocity;
@@ -320,7 +321,7 @@ impl Model {
         self.forces.push(force);
     }
 
-    /// Sets the shape of the next body without one.
+    /// Sets the shape of the first body that has none yet.
     pub(super) fn push_shape(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
@@ -343,17 +344,17 @@ impl Model {
         }
     }
 
-    /// Sums up all forces and torques at `time` in `loads`, and replaces its contents. Constraint forces are not included:
+    /// Computes the sums of all forces and torques at `time`, s, and writes them to `loads`. Constraint forces are not included:
     /// [`System::evaluate`](super::System::evaluate) adds them.
     ///
-    /// Loads on bodies that do not move are zero: whatever holds the body balances them.
+    /// The loads on bodies that do not move are zero, because the support of the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
         self.sum(time, state, loads);
         self.bear(state, loads);
     }
 
-    /// Sums up the forces on a range of bodies only, including bodies that no load moves; torques and work are unchanged. Returns false
-    /// if some force can only be evaluated for all bodies; the loads are then invalid.
+    /// Computes the sums of the forces on a range of bodies, including bodies that no load moves. Torques and power are not changed.
+    /// Returns false if any force can only be evaluated for all bodies; the loads are then invalid.
     pub(super) fn sum_part(&self, bodies: Range<usize>, time: f64, state: &State, loads: &mut Loads) -> bool {
         loads.force.resize(self.len(), DVec3::ZERO);
         self.force.write_part(&mut loads.force, bodies.clone());
@@ -361,7 +362,7 @@ impl Model {
         self.forces.iter().all(|force| force.apply_to(bodies.clone(), &moment, loads))
     }
 
-    /// The sum of all forces and torques, including those on bodies that no load moves.
+    /// Computes the sums of all forces and torques, including those on bodies that no load moves.
     pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
         if self.sum_in_focus(time, state, loads) {
             return;
@@ -378,8 +379,8 @@ impl Model {
         }
     }
 
-    /// The same for the bodies in focus; the loads on others are then invalid. Returns false if all bodies are advanced, or some force
-    /// can only be evaluated for all.
+    /// Computes the loads only on the bodies that are advanced at present; those on other bodies become invalid. Returns false if all
+    /// bodies are advanced, or if any force can only be evaluated for all bodies.
     fn sum_in_focus(&self, time: f64, state: &State, loads: &mut Loads) -> bool {
         let Some(bodies) = self.in_focus().filter(|_| !self.turns_bodies() && !self.depends_on_motion())
         else {
@@ -395,10 +396,10 @@ impl Model {
         })
     }
 
-    /// Removes the loads on bodies that no load moves, since their support or guide bears them.
+    /// Sets the loads on bodies that no load moves to zero, because a support or a guide bears them.
     pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
-            // The guide of a body bears the loads on it, and does their work with the opposite sign.
+            // The guide of a body exerts the opposite forces, so its work has the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
             loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }
@@ -408,7 +409,7 @@ impl Model {
         }
     }
 
-    /// The potential energy of all forces that have one, J; that of a constant force is −F·x.
+    /// Computes the potential energy of all forces that have one, J. A constant force has the potential −F·x.
     #[must_use]
     pub fn potential(&self, time: f64, state: &State) -> f64 {
         let mut potential = 0.0;
@@ -419,7 +420,7 @@ impl Model {
         self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
     }
 
-    /// The velocity and the angular velocity that a body gets from an impulse and its moment about the centre of mass.
+    /// Returns the changes of velocity (m/s) and angular velocity (rad/s) of a body by an impulse and its moment about the center of mass.
     pub(super) fn respond(&self, i: usize, state: &State, (push, moment): (DVec3, DVec3)) -> (DVec3, DVec3) {
         let inverse_mass = self.inverse_mass[i];
         if inverse_mass == 0.0 {
@@ -429,20 +430,21 @@ impl Model {
         (inverse_mass * push, turn * (inverse * (turn.conjugate() * moment)))
     }
 
-    /// The orientation of a body (`world_from_body`). A state stores that of its principal axes.
+    /// Returns the orientation of a body: the rotation from body axes to world axes. (A state stores the orientation of the principal
+    /// axes.)
     #[must_use]
     pub fn world_from_body(&self, body: usize, state: &State) -> DQuat {
         let (orientation, axes) = (state.orientation[body], self.principal_axes(body));
         if axes == DQuat::IDENTITY { orientation } else { orientation * axes.conjugate() }
     }
 
-    /// The angular velocity of body `i`, ω = R I⁻¹ Rᵀ L, world axes, rad/s.
+    /// Returns the angular velocity of body `i`, ω = R I⁻¹ Rᵀ L, world axes, rad/s.
     #[must_use]
     pub fn angular_velocity(&self, i: usize, state: &State) -> DVec3 {
         let inverse = self.inverse_inertia[i];
         let angular_momentum = state.angular_momentum[i];
         if is_isotropic(inverse) {
-            // With equal moments, all axes are principal axes, so R cancels.
+            // If all moments are equal, all axes are principal axes, and R cancels.
             return inverse.x * angular_momentum;
         }
         let world_from_body = state.orientation[i];
@@ -450,16 +452,16 @@ impl Model {
     }
 }
 
-/// Whether all three moments are the same, as those of a sphere or a cube.
+/// Returns true if all three principal moments are equal, as for a sphere or a cube.
 pub(super) fn is_isotropic(moments: DVec3) -> bool {
     moments.x == moments.y && moments.y == moments.z
 }
 
-/// A quantity that most bodies do not have. Bodies after the last one with it take no memory.
+/// A quantity that has its default value for most bodies. The list ends at the last body with another value, to save memory.
 #[derive(Clone, Default)]
 struct Sparse<T>(Vec<T>);
 
-/// The default value of a quantity.
+/// A type with a default value for [`Sparse`] lists.
 trait Nothing: Copy + PartialEq {
     const NOTHING: Self;
 }
@@ -486,13 +488,13 @@ impl<T: Nothing> Sparse<T> {
         }
     }
 
-    /// Writes the values of the first `bodies` bodies.
+    /// Writes the values of bodies 0 to `bodies` − 1 to `out`, and replaces its contents.
     fn write(&self, out: &mut Vec<T>, bodies: usize) {
         out.clone_from(&self.0);
         out.resize(bodies, T::NOTHING);
     }
 
-    /// Writes the values of the bodies of a range.
+    /// Writes the values of a range of bodies to the same range of `out`.
     fn write_part(&self, out: &mut [T], bodies: Range<usize>) {
         let known = self.0.len().clamp(bodies.start, bodies.end);
         out[known..bodies.end].fill(T::NOTHING);

@@ -1,4 +1,4 @@
-//! Bodies, forces, an integration method and a clock.
+//! The world: bodies and forces, an integration method, and a clock.
 
 mod advance;
 mod apart;
@@ -26,12 +26,12 @@ use super::{
     System,
 };
 
-/// The default for the longest timestep, s.
+/// The default longest time step of a world, s.
 const DEFAULT_STEP: f64 = 1.0 / 240.0;
 
 /// Bodies that move under forces, advanced by one of the [`METHODS`].
 ///
-/// A world does not know its initial state: to reset it, build it again. A clone continues exactly as the original would, and the two are
+/// A world does not store its initial state: to reset it, build it again. A clone continues exactly as the original would, and the two are
 /// independent.
 #[derive(Clone)]
 pub struct World {
@@ -42,32 +42,32 @@ pub struct World {
     method: &'static Method,
     integrator: Box<dyn Integrator>,
     solver: Solver,
-    /// Whether the state satisfies the constraints.
+    /// True if the state satisfies the constraints and nothing has been changed since.
     is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// Contacts between bodies, if bodies collide.
+    /// The search for contacts between bodies; `None` if bodies do not collide.
     collider: Option<Collider>,
-    /// The bodies held at rest.
+    /// The bodies held at rest, with their contacts.
     rest: Rest,
-    /// The contacts of bodies under time-stepping, only filled when a snapshot is taken.
+    /// The contacts of bodies under time-stepping. Only filled in the copy of a world from which a snapshot is taken.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
     /// Working memory for the loads at one moment.
     loads: Loads,
-    /// The end of the present step, s.
+    /// The time at which the present step ends, s.
     end: f64,
-    /// Whether the modes of all contacts are decided; false after a step in groups.
+    /// True if the modes of all contacts are decided; false after a step in separate groups.
     is_decided: bool,
-    /// The solvers of the groups' contacts.
+    /// The contact solvers of the groups in the last step, one per group with contacts.
     parts: Vec<Solver>,
-    /// The number of steps until groups are searched again.
+    /// The number of steps in which all bodies are advanced together, before groups are searched again.
     together: u32,
-    /// Working memory for the state before a step, for moments within it.
+    /// The state at the start of the present piece of a step, to repeat the piece and to compute moments within it.
     before: State,
 }
 
-/// The parts of a world, except its method and its constraints.
+/// The parts of a world that another engine takes over: all except the method and the constraint solver.
 pub(super) struct Parts {
     pub(super) time: f64,
     pub(super) step: f64,
@@ -78,7 +78,7 @@ pub(super) struct Parts {
 }
 
 impl World {
-    /// An empty world at time 0, with the default method and a longest step of 1/240 s.
+    /// Creates an empty world at time 0, with the default method and a longest step of 1/240 s.
     #[must_use]
     pub fn new() -> Self {
         let method = &METHODS[0];
@@ -106,42 +106,42 @@ impl World {
         }
     }
 
-    /// Its parts, for another engine.
+    /// Returns the parts of the world for another engine.
     pub(super) fn into_parts(self) -> Parts {
         let World { time, step, model, state, ledger, calendar, .. } = self;
         Parts { time, step, model, state, ledger, calendar }
     }
 
-    /// Reserves memory for more bodies.
+    /// Reserves memory for this many more bodies.
     pub fn reserve(&mut self, bodies: usize) {
         self.model.reserve(bodies);
         self.state.reserve(bodies);
     }
 
-    /// Adds a body. This is allowed at any time.
+    /// Adds a body at any time, and returns its id.
     pub fn add(&mut self, body: RigidBody) -> BodyId {
         self.about_to_change();
         self.model.push(&body, &mut self.state);
         BodyId::new(self.model.len() - 1)
     }
 
-    /// Adds the shapes of bodies, in the order in which the bodies were added.
+    /// Sets the shapes of bodies, in the order in which the bodies were added.
     pub fn add_shapes(&mut self, shapes: impl IntoIterator<Item = Shape>) {
         shapes.into_iter().for_each(|shape| self.model.push_shape(shape));
     }
 
-    /// From now on, a body follows a given motion; it still acts on others. Its kinetic energy and momentum are not counted, and its
-    /// guide does work.
+    /// Makes a body follow a given motion from now on. The body still acts on other bodies. Its kinetic energy and momentum are not
+    /// counted, and the guide that moves it does work.
     pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
         self.follow(body, Arc::new(motion));
     }
 
-    /// Like [`World::drive`], with a motion that can be shared.
+    /// Makes a body follow a given motion from now on, as [`World::drive`] does. The motion can be shared.
     pub fn follow(&mut self, body: BodyId, motion: Arc<dyn Motion>) {
         self.about_to_change();
         let (i, is_present) = (body.index(), self.model.is_present(body.index()));
         if is_present {
-            // Only this body: placing all guided bodies here would take n² placements for n bodies.
+            // Places only this body. Placing all guided bodies for each new one would take n² placements for n bodies.
             self.model.place_body(i, &motion.at(self.time), &mut self.state);
             self.model.drive(i, motion);
         } else {
@@ -151,8 +151,9 @@ impl World {
         }
     }
 
-    /// From now on, a body is present only when `presence` says so. It returns in the state in which it left; before its first
-    /// appearance, that is the state in which it was [added](World::add). Its energy comes and goes with it, without drift.
+    /// Restricts a body's presence to the times of `presence` from now on. The body returns in the state in which it left; before its
+    /// first appearance, this is the state in which it was [added](World::add). The energy that comes and goes with it does not count as
+    /// drift.
     ///
     /// A step ends at each birth and death. If the motion of all bodies is given, births and deaths take effect at the end of the step.
     pub fn limit(&mut self, body: BodyId, presence: &Presence) {
@@ -165,48 +166,50 @@ impl World {
         }
     }
 
-    /// Adds a force. This is allowed at any time.
+    /// Adds a force, at any time.
     pub fn add_force(&mut self, force: impl Force + 'static) {
         self.add_shared_force(Arc::new(force));
     }
 
-    /// Adds a shared force. This is allowed at any time.
+    /// Adds a force that can be shared, at any time.
     pub fn add_shared_force(&mut self, force: Arc<dyn Force>) {
         self.about_to_change();
         self.model.push_force(force);
     }
 
-    /// Adds a constraint. This is allowed at any time. If it is violated, the bodies are moved the shortest distance to satisfy it, and
+    /// Adds a constraint, at any time. If the state violates the constraint, the bodies are moved the shortest distance to satisfy it, and
     /// the violating components of their velocities are removed.
     pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
         self.add_shared_constraint(Arc::new(constraint));
     }
 
-    /// Adds a shared constraint. This is allowed at any time.
+    /// Adds a constraint that can be shared, at any time.
     pub fn add_shared_constraint(&mut self, constraint: Arc<dyn Constraint>) {
         self.about_to_change();
         self.model.push_constraint(constraint);
     }
 
-    /// From now on, bodies touch each other by the rules of `contacts`. Their shapes are those of [`add_shapes`](Self::add_shapes).
+    /// Turns on contacts between bodies from now on, with the surfaces and exceptions of `contacts`. The shapes are those of
+    /// [`add_shapes`](Self::add_shapes).
     pub fn collide(&mut self, contacts: Contacts) {
         self.about_to_change();
         self.collider = Some(Collider::new(contacts));
     }
 
-    /// From now on, `force` (world axes, N) is the body's constant force.
+    /// Sets the constant force on a body (world axes, N) from now on.
     pub fn apply_force(&mut self, body: BodyId, force: DVec3) {
         self.about_to_change();
         self.model.set_constant_force(body.index(), force);
     }
 
-    /// From now on, `torque` (world axes, N m) is the body's constant torque.
+    /// Sets the constant torque on a body (world axes, N m) from now on.
     pub fn apply_torque(&mut self, body: BodyId, torque: DVec3) {
         self.about_to_change();
         self.model.set_constant_torque(body.index(), torque);
     }
 
-    /// Must be called before every manual change: the energy ledger and the integrator rely on it.
+    /// Prepares the world for a change from outside, such as a new body or force. Must be called before each such change: the energy
+    /// ledger and the integrator rely on it.
     fn about_to_change(&mut self) {
         self.let_all_go();
         self.about_to_change_some();
@@ -215,7 +218,7 @@ impl World {
         }
     }
 
-    /// The same if nothing changes for bodies held at rest.
+    /// Prepares the world for a change that does not affect bodies held at rest, so these stay held.
     fn about_to_change_some(&mut self) {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();
@@ -224,7 +227,7 @@ impl World {
         self.is_settled = false;
     }
 
-    /// Must be called after manual changes, before anything is measured or time advances.
+    /// Makes the state satisfy the constraints after changes from outside. Must be called before anything is measured or time advances.
     fn settle(&mut self) {
         if !self.is_settled {
             self.is_settled = true;
@@ -236,49 +239,49 @@ impl World {
             system.start(self.time, &mut self.state, &mut self.loads);
             self.is_decided = true;
             self.begin_contacts();
-            // This energy is booked with the change itself.
+            // The energy of these corrections is booked together with the change that caused them.
             self.state.accounts = accounts;
         }
     }
 
-    /// Selects the integration method from now on.
+    /// Selects the integration method that is used from now on.
     pub fn set_integrator(&mut self, method: &'static Method) {
         self.method = method;
         self.integrator = (method.create)();
     }
 
-    /// The current integration method.
+    /// Returns the current integration method.
     #[must_use]
     pub fn integrator(&self) -> &'static Method {
         self.method
     }
 
-    /// Sets the longest step that [`advance_to`](Self::advance_to) may take, s. It must be positive; with
-    /// `f64::INFINITY` every call is one step.
+    /// Sets the longest step that [`advance_to`](Self::advance_to) may take, s. It must be positive. With `f64::INFINITY`, every call
+    /// makes one step.
     pub fn set_step(&mut self, step: f64) {
         self.step = step;
     }
 
-    /// The time reached, s.
+    /// Returns the time that the world has reached, s.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// The bodies as they are now.
+    /// Returns the current state of all bodies.
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The angular velocity of a body, world axes, rad/s.
+    /// Returns the angular velocity of a body, world axes, rad/s.
     #[must_use]
     pub fn angular_velocity(&self, body: BodyId) -> DVec3 {
         self.model.angular_velocity(body.index(), &self.state)
     }
 
-    /// The resultant force on each body at this moment, N. Each call evaluates it. It is zero for bodies that do not move, and m a for
-    /// those with a given motion.
+    /// Computes the resultant force on each body at the current time, world axes, N. It is zero for bodies that do not move, and m a for
+    /// bodies with a given motion.
     pub fn forces(&mut self) -> &[DVec3] {
         self.settle();
         let mut copy = self.decided();
@@ -294,61 +297,61 @@ impl World {
         &self.loads.force
     }
 
-    /// The largest violation of all constraint equations, in metres, or in radians for rotations.
+    /// Computes the largest error of all constraint equations, in meters, or in radians for rotations.
     pub fn violation(&mut self) -> f64 {
         self.settle();
         self.solver.violation(&self.model, self.time, &self.state)
     }
 
-    /// The energies and momenta at this moment. The drift is relative to the largest kinetic energy among all
-    /// measurements so far.
+    /// Measures the energies and momenta at the current time. The drift is relative to the largest kinetic energy among all measurements
+    /// so far.
     pub fn balance(&mut self) -> Balance {
         self.settle();
         self.ledger.measure(&self.model, self.time, &self.state)
     }
 
-    /// From now on, pair interactions are counted in `effort`.
+    /// Counts the pair interactions in `effort` from now on.
     pub fn watch(&mut self, effort: &Effort) {
         self.model.watch(effort.clone());
     }
 
-    /// The number of bodies.
+    /// Returns the number of bodies in the world.
     #[must_use]
     pub fn len(&self) -> usize {
         self.state.len()
     }
 
-    /// Whether there is no body.
+    /// Returns true if the world has no bodies.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.state.is_empty()
     }
 
-    /// Everything that is constant in time: masses, inertia and forces.
+    /// Returns the model: all quantities that are constant in time, such as masses, inertia and forces.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// The location of a body's centre of mass, m.
+    /// Returns the position of a body's center of mass, world axes, m.
     #[must_use]
     pub fn location(&self, body: BodyId) -> DVec3 {
         self.state.location[body.index()]
     }
 
-    /// The velocity of a body's centre of mass, m/s.
+    /// Returns the velocity of a body's center of mass, world axes, m/s.
     #[must_use]
     pub fn velocity(&self, body: BodyId) -> DVec3 {
         self.state.velocity[body.index()]
     }
 
-    /// The orientation of a body (`world_from_body`).
+    /// Returns the orientation of a body: the rotation from body axes to world axes.
     #[must_use]
     pub fn orientation(&self, body: BodyId) -> DQuat {
         self.model.world_from_body(body.index(), &self.state)
     }
 
-    /// A body as it is now.
+    /// Returns the properties and the current motion of a body.
     #[must_use]
     pub fn body(&self, body: BodyId) -> RigidBody {
         let i = body.index();
@@ -392,7 +395,7 @@ impl Dynamics for World {
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
-        // A snapshot must not change the world.
+        // The modes are decided in a copy, because a snapshot must not change the world.
         let mut copy = self.decided();
         let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);

@@ -1,4 +1,4 @@
-//! Bodies that are not there: they have been, or will be.
+//! Absent bodies: bodies before their birth or after their death.
 
 use std::borrow::Cow;
 
@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::super::{BodyId, State};
 use super::Model;
 
-/// The constants of an absent body. Meanwhile, the body has no mass, no charge and no inertia, and is at rest, so most forces
-/// skip it without a special case.
+/// The constants and the motion of an absent body, stored until it returns. Meanwhile, the model gives the body zero mass, charge and
+/// inertia, and it rests. Most forces then skip it without a special case.
 #[derive(Clone, Copy)]
 pub(super) struct Away {
     mass: f64,
@@ -22,20 +22,20 @@ pub(super) struct Away {
 }
 
 impl Away {
-    /// Whether forces do not move it when it is there.
+    /// Returns true if forces do not move the body when it is present.
     pub(super) fn is_given(&self) -> bool {
         self.inverse_mass == 0.0
     }
 }
 
 impl Model {
-    /// Whether a body is there.
+    /// Returns true if a body is present.
     #[must_use]
     pub fn is_present(&self, body: usize) -> bool {
         self.away.get(body).is_none_or(Option::is_none)
     }
 
-    /// Those of some bodies that are there.
+    /// Returns those of the given bodies that are present.
     #[must_use]
     pub fn present<'a>(&self, bodies: &'a [BodyId]) -> Cow<'a, [BodyId]> {
         if self.away.is_empty() {
@@ -44,8 +44,8 @@ impl Model {
         bodies.iter().copied().filter(|body| self.is_present(body.index())).collect()
     }
 
-    /// Lets bodies come (true) or go (false). One that comes is as it was when it went; if its motion is given, it must be
-    /// [placed](Model::place) afterwards.
+    /// Makes bodies appear (true) or disappear (false). A body appears in the state in which it disappeared. If its motion is given, it
+    /// must be [placed](Model::place) afterwards.
     pub(in super::super) fn let_come_and_go(&mut self, changes: &[(usize, bool)], state: &mut State) {
         for &(body, comes) in changes {
             if comes { self.bring(body, state) } else { self.take_away(body, state) }
@@ -55,7 +55,7 @@ impl Model {
         self.unmoved.extend((0..inverse.len()).filter(|&i| inverse[i] == 0.0));
     }
 
-    /// A body goes, if it is there.
+    /// Makes a body disappear, if it is present.
     pub(in super::super) fn take_away(&mut self, i: usize, state: &mut State) {
         if !self.is_present(i) {
             return;
@@ -66,7 +66,7 @@ impl Model {
         if self.inverse_mass[i] != 0.0 {
             self.unmoved.push(i);
         }
-        // Written so that no field of what it is can be forgotten.
+        // A struct literal, so that no field can be forgotten.
         self.away[i] = Some(Box::new(Away {
             mass: std::mem::take(&mut self.mass[i]),
             charge: std::mem::take(&mut self.charge[i]),
@@ -79,7 +79,7 @@ impl Model {
         }));
     }
 
-    /// A body comes, if it is not there. Whoever calls this must see to it that forces move it from now on.
+    /// Makes a body appear, if it is absent. The caller must update the list `unmoved` of bodies that no load moves.
     pub(in super::super) fn bring(&mut self, i: usize, state: &mut State) {
         let Some(away) = self.away.get_mut(i).and_then(Option::take) else { return };
         let Away {
@@ -103,10 +103,10 @@ impl Model {
     }
 }
 
-/// What time stepping asks for.
+/// Functions that the engine for time-stepping needs.
 #[cfg(feature = "time-stepping")]
 impl Model {
-    /// Whether forces move a body whenever it is there.
+    /// Returns true if forces move a body while it is present.
     pub(in super::super) fn is_moved_by_forces(&self, body: usize) -> bool {
         match self.away.get(body) {
             Some(Some(away)) => !away.is_given(),
@@ -114,19 +114,20 @@ impl Model {
         }
     }
 
-    /// Whether a body is there, and its motion is given.
+    /// Returns true if a body is present and follows a given motion.
     pub(in super::super) fn is_guided(&self, body: usize) -> bool {
         self.movable[body] && self.inverse_mass[body] == 0.0
     }
 
-    /// The bodies that are not there, each with the velocity (m/s) and the angular momentum (kg m²/s) that it will come with.
+    /// Returns the absent bodies, each with the velocity (m/s) and the angular momentum (kg m²/s) with which it will appear.
     pub(in super::super) fn away(&self) -> Vec<(usize, DVec3, DVec3)> {
         let away = self.away.iter().enumerate();
         away.filter_map(|(i, away)| away.as_ref().map(|away| (i, away.velocity, away.angular_momentum)))
             .collect()
     }
 
-    /// Lets these bodies be away, and no others.
+    /// Makes exactly these bodies absent, with the velocity and angular momentum with which each will appear; all other bodies become
+    /// present.
     pub(in super::super) fn set_away(&mut self, away: &[(usize, DVec3, DVec3)], state: &mut State) {
         let mut is_there = vec![true; self.inverse_mass.len()];
         away.iter().for_each(|(i, ..)| is_there[*i] = false);

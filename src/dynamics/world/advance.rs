@@ -1,30 +1,31 @@
-//! Time integration of a world: steps, births and deaths, and moments between steps.
+//! Advancing a world in time: steps, births and deaths of bodies, and moments within steps.
 
 use super::super::{Snapshot, State, Step, System};
 use super::World;
 use super::event::Counts;
 use super::picture::picture;
 
-/// The largest relative excess over a whole number of steps that is ignored. Decimal fractions have rounding errors, and 0.1 s are ten
-/// steps of 0.01 s.
+/// An interval that exceeds a whole number of steps by less than this fraction gets no further step. Decimal fractions have rounding
+/// errors, and 0.1 s are ten steps of 0.01 s.
 const STEP_TOLERANCE: f64 = 1e-9;
 
-/// The smallest number of equal steps of an interval (s) with a longest allowed step, s; at least 1, at most `u32::MAX`.
+/// Returns the smallest number of equal steps that divide an interval (s), if no step may exceed `longest` (s). At least 1, at most
+/// `u32::MAX`.
 pub(in super::super) fn steps_of(interval: f64, longest: f64) -> u32 {
     let steps = (interval / longest * (1.0 - STEP_TOLERANCE)).ceil();
-    // The conversion saturates, so the result is right for every number, and for NaN.
+    // The conversion saturates, so the result is valid for every number and for NaN.
     (steps as u32).max(1)
 }
 
 impl World {
-    /// The number of equal steps that [`advance_to`](Self::advance_to) makes in an interval (s): the smallest that respects the longest
-    /// allowed step; at least 1, at most `u32::MAX`.
+    /// Returns the number of equal steps that [`advance_to`](Self::advance_to) makes in an interval (s): the smallest that respects the
+    /// longest allowed step. At least 1, at most `u32::MAX`.
     #[must_use]
     pub fn steps_within(&self, interval: f64) -> u32 {
         steps_of(interval, self.step)
     }
 
-    /// Makes one step of `dt` seconds, of any length. Births and deaths within it take effect at its end.
+    /// Makes one step of `dt` seconds, of any length. Births and deaths of bodies within it take effect at its end.
     pub fn step(&mut self, dt: f64) {
         self.depart();
         self.step_from(self.time, dt, &[], &mut |_| {});
@@ -45,7 +46,7 @@ impl World {
         self.hold_still(t + dt);
     }
 
-    /// Makes a step in pieces that end at events.
+    /// Makes a step of `dt` seconds in pieces that end at events, such as impacts. Calls `see` with a snapshot at each of `moments`.
     pub(super) fn follow_events(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         let (mut now, mut left, mut length) = (t, moments, dt);
         let mut counts = Counts::default();
@@ -102,8 +103,8 @@ impl World {
         }
     }
 
-    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
-    /// finite) changes nothing.
+    /// Advances the world to time `t`, s. Afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or
+    /// not finite) changes nothing.
     pub fn advance_to(&mut self, t: f64) {
         self.advance_seeing(t, &[], &mut |_| {});
     }
@@ -115,7 +116,8 @@ impl World {
         if self.calendar.next().is_none_or(|next| next > t) {
             self.advance_evenly(t, moments, see);
         } else if self.model.is_given() {
-            // Intermediate steps are not needed here, and one for each birth would make n bodies cost n². A copy advances to the moments.
+            // If all motions are given, intermediate steps are not needed. One step for each birth would make n bodies cost n². A copy of
+            // the world advances to the moments.
             let mut copy = None;
             for &moment in moments {
                 let ahead = copy.get_or_insert_with(|| self.clone());
@@ -128,7 +130,7 @@ impl World {
         }
     }
 
-    /// Advances in steps that end at each birth and death.
+    /// Advances to time `t`, s, in intervals that end at each birth or death of a body.
     fn advance_by_events(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         let mut left = moments;
         while self.time < t {
@@ -141,24 +143,24 @@ impl World {
         }
     }
 
-    /// Advances to time `t`; births and deaths until then take effect at its end.
+    /// Advances to time `t`, s, without intermediate births and deaths: all of them take effect at the end.
     fn advance_through(&mut self, t: f64) {
         self.depart();
         self.advance_evenly(t, &[], &mut |_| {});
         self.arrive();
     }
 
-    /// Leaves the present time: removes the bodies that die now.
+    /// Removes the bodies that die at the current time, before time goes on.
     fn depart(&mut self) {
         let due = self.calendar.depart(self.time);
         self.change(&due);
     }
 
-    /// Arrives at a time: adds the bodies that are born now.
+    /// Adds the bodies that are born at the time just reached.
     fn arrive(&mut self) {
         let due = self.calendar.arrive(self.time);
         self.change(&due);
-        // At once, so that the ledger does not depend on snapshots of this moment.
+        // The change is settled at once, so the energy ledger does not depend on whether this moment is observed.
         self.settle();
         self.ledger.close(&self.model, self.time, &self.state);
     }
@@ -176,7 +178,7 @@ impl World {
         self.model.let_come_and_go(due, &mut self.state);
     }
 
-    /// The snapshot of the present moment; it leaves the energy ledger unchanged.
+    /// Returns a snapshot of the current moment without changing the energy ledger.
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         let mut copy = self.decided();
@@ -192,7 +194,7 @@ impl World {
         let mut left = moments;
         let mut reached = start;
         for k in 0..steps {
-            // Instead of start + dt + dt + …, whose rounding errors would add up.
+            // Each time is computed from the start. Adding dt repeatedly would add up rounding errors.
             let begin = start + f64::from(k) * dt;
             let end = if k + 1 == steps { t } else { start + f64::from(k + 1) * dt };
             reached = begin + dt;
@@ -201,13 +203,13 @@ impl World {
             self.step_from(begin, dt, within, see);
         }
         self.time = t;
-        // Sets the exact time, without the rounding error of the sum of steps.
+        // Guided bodies are placed at the exact time, without the rounding error of the steps.
         if reached.to_bits() != t.to_bits() {
             self.model.place(t, &mut self.state);
         }
     }
 
-    /// Calls `see` for some moments of the last step.
+    /// Calls `see` with a snapshot at each of these moments within the last step, which began at `start` and took `duration` seconds.
     fn look_within(&mut self, start: f64, duration: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         if moments.is_empty() {
             return;

@@ -1,24 +1,24 @@
 //! Steps in which separate groups of bodies are advanced one after another.
 //!
-//! An event ends a piece of a step for all bodies that are advanced together. With many separate contacts, each event would cost the time
-//! of all bodies. So bodies without contacts make one step, and each group with events makes its own.
+//! An event ends a piece of a step for all bodies that are advanced together. With many separate contacts, each event would take the time
+//! of all bodies. Bodies without contacts therefore make the step in one piece, and each group with events makes it in its own pieces.
 
 use super::World;
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::contact::{Collider, Parting};
 use crate::dynamics::{Snapshot, State};
 
-/// The smallest number of groups that are advanced separately.
+/// All bodies are advanced together if there are fewer groups than this.
 const GROUPS: usize = 4;
 
-/// How often a step is repeated with larger groups, because bodies of two groups met.
+/// The largest number of times that a step is made, each time with larger groups, because bodies of two groups have met.
 const ATTEMPTS: u32 = 8;
 
-/// After a step with fewer groups, all bodies are advanced together for this many steps before groups are searched again.
+/// After a step with too few groups, all bodies are advanced together for this many steps before groups are searched again.
 const TOGETHER: u32 = 8;
 
 impl World {
-    /// Makes a step in groups, if there are enough. Otherwise changes nothing.
+    /// Tries to make a step in separate groups. Returns false, and leaves the state unchanged, if there are too few groups.
     pub(super) fn step_apart(
         &mut self,
         t: f64,
@@ -38,7 +38,7 @@ impl World {
         self.integrator.discontinuity();
         self.fly(t, dt);
         let flown = self.state.clone();
-        // Pairs of bodies from different groups that met.
+        // Pairs of bodies from different groups that have met. In the next attempt, they share a group.
         let mut met = Vec::new();
         for attempt in 0..ATTEMPTS {
             let Some(collider) = &mut self.collider else { break };
@@ -71,8 +71,12 @@ impl World {
         false
     }
 
-    /// Advances the groups with events, after a step of all bodies without contacts. If an impact is so strong that a body may have met
-    /// another group, everything is restored. Returns the known pairs that may have met.
+    /// Advances the groups with events, after all bodies have made the step without contacts.
+    ///
+    /// # Errors
+    ///
+    /// If a strong impact may have thrown a body into another group, restores the state. Returns the pairs of bodies that may have met, as
+    /// far as they are known.
     fn advance_groups(
         &mut self,
         t: f64,
@@ -133,7 +137,8 @@ impl World {
         Ok(())
     }
 
-    /// A copy of the world with decided modes of all contacts, for snapshots.
+    /// Returns a copy of the world in which the modes of all contacts are decided, for snapshots. `None` if they are decided in this
+    /// world.
     pub(super) fn decided(&self) -> Option<World> {
         let is_crowded = self.collider.as_ref().is_some_and(Collider::is_crowded);
         if self.is_decided && !is_crowded {
@@ -153,7 +158,7 @@ impl World {
         Some(copy)
     }
 
-    /// Decides the modes of all contacts that are not decided yet.
+    /// Decides the modes of all contacts, unless they are already decided.
     pub(super) fn decide_all(&mut self, t: f64) {
         if !self.is_decided {
             self.decide_contacts(t);

@@ -1,17 +1,17 @@
-//! Bodies under time-stepping: their events would not end within a step, or no consistent forces were found.
+//! Bodies under time-stepping, because their events would not end within a step or because no consistent contact forces were found.
 
 use super::World;
 use super::event::Event;
 use crate::dynamics::energy::mechanical;
 
 impl World {
-    /// Whether an event is a touch of bodies under time-stepping.
+    /// Returns true if two bodies touch in this event and at least one of them is under time-stepping.
     pub(super) fn is_in_crowd(&self, event: Event) -> bool {
         let Event::Touch(bodies) = event else { return false };
         self.collider.as_ref().is_some_and(|collider| collider.is_in_crowd(bodies))
     }
 
-    /// Until the end of the step, advances these bodies and everything that touches them by time-stepping.
+    /// Advances these bodies, and all bodies that touch them, by time-stepping until the end of the step.
     pub(super) fn crowd(&mut self, t: f64, bodies: &[usize]) {
         while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return };
@@ -20,7 +20,8 @@ impl World {
         }
     }
 
-    /// The bodies of an event if it belongs to a heap, whose events are not followed one by one.
+    /// Returns the heap of bodies in which a constraint row changes its mode. Events in a heap are not followed one by one. Empty if the
+    /// event concerns no heap.
     pub(super) fn heap_of(&mut self, event: Event, bodies: &[usize]) -> Vec<usize> {
         match (event, &mut self.collider) {
             (Event::Row(_), Some(collider)) => collider.heap_of(bodies, self.solver.contacts(), &self.model),
@@ -28,7 +29,7 @@ impl World {
         }
     }
 
-    /// The bodies of an event.
+    /// Returns the bodies that take part in an event, by index.
     pub(super) fn bodies_of(&self, event: Event) -> Vec<usize> {
         match event {
             Event::Touch(bodies) => bodies.to_vec(),
@@ -36,7 +37,7 @@ impl World {
         }
     }
 
-    /// Whether bodies hit, grip or release each other so often that these events are no longer followed one by one.
+    /// Returns true if these bodies hit, grip or release each other so often that their events are no longer followed one by one.
     pub(super) fn happens_too_often(&self, event: Event, bodies: &[usize]) -> bool {
         let Some(collider) = &self.collider else { return false };
         match event {
@@ -45,15 +46,15 @@ impl World {
         }
     }
 
-    /// Whether no forces were found for the last piece, which ends at time `t`, s.
+    /// Returns true if no contact forces were found for the last piece of the step, which ends at time `t`, s.
     pub(super) fn is_unsolved(&self, t: f64) -> bool {
         let is_finite = || self.state.location.iter().all(|location| location.is_finite());
         !self.solver.contacts().is_empty()
             && (self.solver.is_unsolved() || self.solver.has_failed() || !is_finite() || t.is_nan())
     }
 
-    /// Returns to the start of the last piece, at time `t`, s. From there, bodies in contact are advanced by time-stepping. Returns
-    /// whether there were any.
+    /// Returns to the start of the last piece, at time `t`, s, and lets time-stepping advance the bodies in contact from there. Returns
+    /// false, and changes nothing, if all of them already are under time-stepping.
     pub(super) fn go_back(&mut self, t: f64) -> bool {
         let mut bodies: Vec<usize> =
             self.solver.contacts().iter().flat_map(|contact| contact.bodies).collect();
@@ -69,7 +70,7 @@ impl World {
         is_new
     }
 
-    /// Called at the end of a step: ends time-stepping, unless it lasts for some steps.
+    /// Ends time-stepping at the end of a step, unless the bodies stay under it for further steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
         let places = match collider.end_course(&self.model, t, &mut self.state) {
@@ -94,7 +95,7 @@ impl World {
         self.solver.close_all(&self.model, t, &mut self.state);
         self.state.accounts.impacts += mechanical(&self.model, t, &self.state) - before;
         if is_due {
-            // They now belong to the contacts again.
+            // The bodies' contacts belong to the event-driven solver again, and their modes are decided later.
             self.is_decided = false;
         } else {
             self.meet_at_rest(t);
@@ -111,8 +112,8 @@ mod tests {
     use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface};
     use super::*;
 
-    /// A ball under time-stepping approaches a wall at 1 m/s and touches it within a part of the step. It leaves the wall at that moment,
-    /// with the speed of Newton's law, and the impact is noted. Without forces, the result equals the closed form, up to rounding.
+    /// A ball under time-stepping approaches a wall at 1 m/s and hits it within a part of the step. It rebounds at that moment, with the
+    /// speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed form to rounding errors.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {
@@ -156,8 +157,8 @@ mod tests {
         }
     }
 
-    /// Eight balls touch each other. A ninth is very near, but belongs to another group; no ball moves. Advancing the first group must
-    /// not change the ninth ball: its motion would be lost, but its energy would be booked.
+    /// Eight balls touch each other. A ninth ball is very near, but belongs to another group; no ball moves. Advancing the first group
+    /// must not change the ninth ball: its motion would be lost, but its energy would be booked.
     #[test]
     fn what_is_advanced_by_time_stepping_leaves_other_groups_alone() {
         let mut world = World::new();

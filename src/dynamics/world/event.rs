@@ -1,52 +1,52 @@
-//! The events that end a piece of a step, and limits on their number.
+//! The events that end a piece of a step, and the limits on their number.
 
-/// With this many changes of constraints within a step, they count as endless.
+/// More mode changes of constraint rows than this within a step count as endless.
 const CHANGES: u32 = 10_000;
 
-/// With this many impacts within a step, they count as endless. The impacts that compute π to seven digits are fewer, nearly all in one
-/// step.
+/// More impacts than this within a step count as endless. The colliding blocks that compute π to seven digits have fewer impacts, nearly
+/// all of them in one step.
 const IMPACTS: u32 = 4_000_000;
 
-/// After this many events at the same instant, their bodies are advanced by time-stepping until the end of the step.
+/// After this many events at the same instant, time-stepping advances their bodies until the end of the step.
 const STAY: u32 = 10;
 
-/// A change counts as quick if it follows within this fraction of the rest of the step.
+/// A mode change counts as quick if the piece before it is shorter than this fraction of the remaining step.
 const QUICK: f64 = 1e-4;
 
-/// After this many changes within a step, their bodies are advanced by time-stepping as well.
+/// After this many mode changes within a step, time-stepping advances their bodies until the end of the step.
 const MANY: u32 = 100;
 
-/// With this many events at the same instant, they count as endless: each settles all touches of that instant.
+/// More events at the same instant than this count as endless, since each event already resolves all impacts of its instant.
 const AT_ONCE: u32 = 1_000;
 
 /// An event that ends a piece of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Event {
-    /// A row of the constraints changes its mode.
+    /// A constraint row, given by its index, changes its mode: a rope becomes taut, a contact opens, friction begins to slide.
     Row(usize),
-    /// Two bodies touch.
+    /// Two bodies, given by their indices, touch.
     Touch([usize; 2]),
 }
 
-/// The numbers of events within a step.
+/// Counts of the events within a step.
 #[derive(Default)]
 pub(super) struct Counts {
     changes: u32,
     impacts: u32,
-    /// Consecutive events at the same instant.
+    /// The number of consecutive events at the same instant.
     at_once: u32,
-    /// Consecutive quick changes.
+    /// The number of consecutive quick mode changes.
     quick: u32,
 }
 
 impl Counts {
-    /// Whether there were so many events that they are no longer followed one by one.
+    /// Returns true if so many events have happened that the bodies of this event should be advanced by time-stepping.
     pub(super) fn is_crowded(&self, event: Event) -> bool {
         self.at_once > STAY || (matches!(event, Event::Row(_)) && (self.changes > MANY || self.quick > STAY))
     }
 
-    /// Counts an event at the end of a piece of the given length, s. Returns whether there are too many. `is_idle` marks a touch without
-    /// an impact.
+    /// Counts an event at the end of a piece of `length` seconds, with `left` seconds of the step remaining. `is_idle` marks a touch
+    /// without an impact. Returns true if there are endlessly many events.
     pub(super) fn are_too_many(&mut self, event: Event, length: f64, left: f64, is_idle: bool) -> bool {
         let is_at_once = length == 0.0 || (is_idle && length <= QUICK * left);
         self.at_once = if is_at_once { self.at_once + 1 } else { 0 };

@@ -1,4 +1,4 @@
-//! A step in pieces that end at events: bodies touch, a rope becomes taut, a limit is reached, or a motor reaches its speed.
+//! A step in pieces that end at events: bodies touch, a rope becomes taut, a joint reaches its limit, or a motor reaches its speed.
 
 use std::collections::BTreeSet;
 
@@ -6,18 +6,18 @@ use super::World;
 use super::event::Event;
 use crate::dynamics::{BodyId, Breakdown, System};
 
-/// The number of trials that find the time of an event to the last bit; the interval is halved at least in every second trial.
+/// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.
 const TRIALS: usize = 120;
 
-/// Times that differ by less than this fraction of a step count as equal.
+/// Times count as equal if they differ by less than this fraction of the step.
 const INSTANT: f64 = 1e-13;
 
-/// The number of iterations to find the time at which two bodies touch. Each one squares the error of that time.
+/// The largest number of iterations to find the time at which two bodies touch. Each iteration squares the relative error of this time.
 const TOUCHES: usize = 12;
 
 impl World {
-    /// Makes a step of `dt` from time `t` (s), or up to the first event within it. Returns its length, and the event. If events are
-    /// possible, `before` holds the state at its start.
+    /// Makes a step of `dt` from time `t` (s), or a shorter one that ends at the first event. Returns the length of the step, s, and the
+    /// event. If events are possible, `before` holds the state at the start of the step.
     pub(super) fn make_piece(&mut self, t: f64, dt: f64) -> (f64, Option<Event>) {
         let has_events = System::new(&self.model, &mut self.solver).has_events();
         if !has_events && self.collider.is_none() {
@@ -40,12 +40,13 @@ impl World {
         (length, Some(Event::Row(row)))
     }
 
-    /// If bodies touch within the last step, repeats it so that it ends there.
+    /// Searches the last step for the first touch of two bodies, and repeats the step so that it ends there. Returns the length of the
+    /// shortened step, s, and the bodies; `None` without a touch.
     fn find_touch(&mut self, t: f64, dt: f64) -> Option<(f64, [usize; 2])> {
         let Self { model, state, before, solver, collider, .. } = self;
         let (first, bodies) =
             collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
-        // The bodies separate until `early` or later, and approach at `late`: a rebound can be lower than the rounding error of the gap.
+        // At `early` the bodies still separate; at `late` they approach. A rebound can be lower than the rounding error of the gap.
         let (mut early, mut late, mut length) = (0.0, first, first);
         for _ in 0..TOUCHES {
             self.try_step(t, length);
@@ -69,12 +70,12 @@ impl World {
         Some((late, bodies))
     }
 
-    /// The gap of two bodies and its rate, as defined by [`Collider::gap`](crate::dynamics::contact::Collider::gap).
+    /// Returns the gap of two bodies, m, and its rate, m/s, as [`Collider::gap`](crate::dynamics::contact::Collider::gap) defines them.
     fn gap(&self, bodies: [usize; 2]) -> Option<(f64, f64)> {
         self.collider.as_ref()?.gap(&self.model, &self.state, bodies)
     }
 
-    /// Handles an event: applies its impulses, and decides which constraints push from then on. Returns whether it was a touch without an
+    /// Handles an event: applies its impulses, and decides which constraints are active from then on. Returns true for a touch without an
     /// impact.
     pub(super) fn pass(&mut self, event: Event, t: f64) -> bool {
         match event {
@@ -93,21 +94,22 @@ impl World {
         false
     }
 
-    /// Handles bodies that touch or separate: applies impacts to those that approach, and finds those that stay in touch. If no
-    /// consistent forces are found, the bodies are advanced by time-stepping. Returns whether there was an impact.
+    /// Handles bodies that touch or separate: applies impacts to bodies that approach, and finds contacts that last. If no consistent
+    /// forces exist, time-stepping advances the bodies. Returns true if there was an impact.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
         let has_struck = self.meet_once(t, is_touch, true);
         self.crowd_undecided(t);
         has_struck
     }
 
-    /// The same for bodies that come to rest: decides the modes of all contacts, including those of heaps.
+    /// Handles bodies that come to rest: decides the modes of all contacts, including those of heaps, which do not return to
+    /// time-stepping.
     pub(super) fn meet_at_rest(&mut self, t: f64) {
         self.meet_once(t, false, false);
         self.crowd_undecided(t);
     }
 
-    /// Decides the modes of contacts that are not determined otherwise.
+    /// Decides the modes of all contacts at time `t`, s. If no consistent modes exist for some bodies, time-stepping advances these.
     pub(super) fn decide_contacts(&mut self, t: f64) {
         self.is_decided = true;
         self.decide(t);
@@ -154,18 +156,18 @@ impl World {
         let have_changed = self.solver.take_contacts(strike.closed);
         self.solver.leave(collider.crowded());
         if is_touch && !have_changed && !is_crowded && !self.solver.concerns(&strike.struck) {
-            // Constraints are not involved.
+            // The bodies that were hit have no constraints, so no modes have to be decided.
             return has_struck;
         }
         self.decide(t);
         if have_changed {
-            // A remaining gap would close within the next step, however short that is.
+            // A remaining gap would close within the next step, even if that is very short.
             self.solver.close_gaps(&self.model, t, &mut self.state);
         }
         has_struck
     }
 
-    /// Starts contacts: bodies must not overlap; touching bodies have impacts or stay in touch.
+    /// Starts contacts at the current state. Overlapping bodies are an error; touching bodies have impacts or stay in contact.
     pub(super) fn begin_contacts(&mut self) {
         let Some(collider) = &mut self.collider else { return };
         let closed = self.solver.contacts();
@@ -176,7 +178,7 @@ impl World {
         self.meet(self.time, false);
     }
 
-    /// Reports that a run cannot continue, because an event occurs again and again.
+    /// Reports that the run cannot continue, because an event occurs endlessly.
     pub(super) fn give_up(&mut self, event: Event, time: f64) {
         match event {
             Event::Row(row) => self.solver.give_up(&self.model, row, time),
@@ -186,7 +188,7 @@ impl World {
         }
     }
 
-    /// Makes a step of all bodies under forces and constraints.
+    /// Makes a step of all bodies under forces and constraints, without searching for events.
     pub(super) fn fly(&mut self, t: f64, dt: f64) {
         let mut system = System::new(&self.model, &mut self.solver);
         system.set_out(t, dt, &self.state);
@@ -207,31 +209,31 @@ impl World {
     fn margin(&mut self, t: f64) -> (f64, usize) {
         let margin = System::new(&self.model, &mut self.solver).margin(t, &self.state, &mut self.loads);
         let Some(collider) = &self.collider else { return margin };
-        // More points of touching bodies, which have no rows of their own.
+        // Touching bodies can get further contact points, which have no rows yet.
         let places = collider.margin(&self.model, &self.state, self.solver.contacts()) + 1.0;
         if places < margin.0 { (places, margin.1) } else { margin }
     }
 
-    /// Shortens the step until it ends just after the event. The margin at its end is a function of its length; the root is found by the
-    /// Illinois method with bisections. Source: M. Dowell & P. Jarratt, BIT 11 (1971) 168.
+    /// Shortens the step until it ends just after the event. The margin to the event is a function of the step's length; its root is found
+    /// by the Illinois method with bisections. Source: M. Dowell & P. Jarratt, BIT 11 (1971) 168.
     fn find_event(&mut self, t: f64, end: (f64, f64, usize)) -> (f64, usize) {
         let (mut early, mut early_margin) = (0.0, 1.0);
         let (mut late, mut late_margin, mut row) = end;
         let (mut width, mut was_late) = (late, None);
-        // An end that stays for a second time gets half the weight.
+        // An end of the interval that stays for a second time gets half the weight.
         let mut weights = [1.0; 2];
         let mut later: Option<(f64, f64)> = None;
         for trial in 0..TRIALS {
-            // The event is found if the margin is within the tolerance.
+            // The search ends when the margin is within the tolerance.
             if late_margin >= -1.0 {
                 break;
             }
             let middle = 0.5 * (early + late);
-            // If the last three trials have not halved the interval, this one does.
+            // If the interval has not been halved in the last three trials, this trial halves it.
             let is_slow = trial % 3 == 2 && late - early > 0.5 * std::mem::replace(&mut width, late - early);
             let (a, b) = (weights[0] * early_margin, weights[1] * late_margin);
             let secant = (early * b - late * a) / (b - a);
-            // A new contact point appears with its event, so only the late end tells its time.
+            // A new contact point exists only after its event, so only states after the event give its time.
             let beyond = later.filter(|_| trial % 3 == 0).map(|(length, margin)| {
                 let slope = (margin - late_margin) / (length - late);
                 let root = late - (late_margin + 0.5) / slope;
@@ -258,26 +260,26 @@ impl World {
             weights[usize::from(!is_late)] *= halved;
             was_late = Some(is_late);
         }
-        // An immediate event has no piece before it.
+        // An event at the start of the step makes a piece of length 0.
         let length = if late <= INSTANT * end.0 { 0.0 } else { late };
         self.try_piece(t, length);
         (length, row)
     }
 
-    /// The margin of the state `dt` after the start of the piece, made by one step.
+    /// Advances from the start of the piece by one step of `dt` seconds. Returns the margin to the next event there, and its row.
     fn try_piece(&mut self, t: f64, dt: f64) -> (f64, usize) {
         self.try_step(t, dt);
         self.margin(t + dt)
     }
 
-    /// Makes the state `dt` after the start of the piece, by one step.
+    /// Sets the state to that after one step of `dt` seconds from the start of the piece.
     fn try_step(&mut self, t: f64, dt: f64) {
         self.state.take_over(&self.before, self.model.in_focus());
         if dt == 0.0 {
             return;
         }
         self.integrator.discontinuity();
-        // Failures in a step that was too long do not count.
+        // Failures in an earlier trial step that was too long do not count.
         self.solver.take_failure();
         self.make_step(t, dt);
     }

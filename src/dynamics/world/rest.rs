@@ -1,7 +1,7 @@
-//! Bodies at rest on each other, which are skipped until something disturbs them.
+//! Bodies at rest on each other, which are held in place until something disturbs them.
 //!
-//! A heap at rest costs as much as a falling one as long as its contacts are followed. Once all bodies of a group have rested for some
-//! steps, they are held in place: like fixed bodies, but with their weight. A touch or a change of forces releases them.
+//! As long as its contacts are followed, a heap at rest takes as much time as a falling one. Once all bodies of a group have rested for
+//! some steps, they are held in place: like fixed bodies, but with their weight. A touch or a change of forces releases them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,50 +12,50 @@ use super::World;
 use crate::dynamics::contact::{Closed, Collider};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
-/// The number of steps at rest after which bodies are held.
+/// The number of consecutive steps at rest after which bodies are held in place.
 const CALM: u32 = 8;
 
-/// A body is at rest if it is slower than this fraction of the fastest approach so far, or of the change of velocity by forces within a
-/// step.
+/// A body is at rest if its speed is below this fraction of the largest closing speed so far, or of the typical change of velocity by
+/// forces within a step.
 const STILL: f64 = 1e-8;
 
-/// Under time-stepping, a body at rest may creep this many times faster.
+/// The factor by which a body at rest may move faster if time-stepping has advanced it.
 const CREEP: f64 = 100.0;
 
-/// Loads count as equal if their relative difference is below this.
+/// Loads count as unchanged if their relative change is below this.
 const SAME: f64 = 1e-9;
 
-/// The bodies that are held at rest.
+/// The groups of bodies held at rest, and how long each body has rested.
 #[derive(Clone, Default)]
 pub(super) struct Rest {
-    /// For each body, the number of steps at rest.
+    /// For each body, the number of consecutive steps at rest.
     calm: Vec<u32>,
     islands: Vec<Island>,
 }
 
-/// A group of bodies that hold each other.
+/// A group of bodies held at rest, connected by contacts.
 #[derive(Clone)]
 struct Island {
     bodies: BTreeSet<usize>,
     contacts: Vec<Arc<Closed>>,
-    /// The contacts for snapshots.
+    /// The contacts of the group with their forces, as snapshots show them.
     seen: Vec<ContactSnapshot>,
-    /// The force and the torque on each of the bodies, without contact forces.
+    /// The force (N) and the torque (N m) on each body of the group, without contact forces. A change of these releases the group.
     loads: Vec<(DVec3, DVec3)>,
 }
 
 impl Rest {
-    /// The contacts of all bodies that are held.
+    /// Returns the contacts of all bodies held at rest, for snapshots.
     pub(super) fn contacts(&self) -> impl Iterator<Item = ContactSnapshot> {
         self.islands.iter().flat_map(|island| island.seen.iter().copied())
     }
 
-    /// The bodies that are held together.
+    /// Returns the sets of bodies that are held at rest together.
     pub(super) fn held(&self) -> impl Iterator<Item = &BTreeSet<usize>> {
         self.islands.iter().map(|island| &island.bodies)
     }
 
-    /// Whether all of these bodies can be held at the end of this step, if they are at rest.
+    /// Returns true if all of these bodies can be held at the end of this step, provided that they are still at rest.
     pub(super) fn are_due(&self, bodies: &BTreeSet<usize>) -> bool {
         let calm = |body: &usize| self.calm.get(*body).copied().unwrap_or(0);
         bodies.iter().map(calm).min().is_some_and(|least| least % CALM == CALM - 1)
@@ -67,7 +67,7 @@ impl Rest {
 }
 
 impl World {
-    /// Called at the end of a step: holds the bodies that have rested long enough.
+    /// Holds the bodies that have rested long enough. Must be called at the end of each step.
     pub(super) fn hold_still(&mut self, t: f64) {
         let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
@@ -77,7 +77,7 @@ impl World {
             let slow = if collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
-        // Groups that cannot be held yet are tried again later.
+        // If a group cannot be held yet, the next attempt is some steps later.
         let is_due =
             |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
         let new =
@@ -98,8 +98,8 @@ impl World {
         self.meet_at_rest(t);
     }
 
-    /// Makes islands of bodies that time-stepping brought to rest. Sweeps find the forces at their contacts as well: deciding by events
-    /// which of a heap's many contacts push takes long, and often fails.
+    /// Holds groups of bodies that time-stepping brought to rest. Sweeps find their contact forces as well. To decide by events which of a
+    /// heap's many contacts push would take long, and would often fail.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         self.is_decided &= islands.is_empty();
         let make = |bodies: BTreeSet<usize>| {
@@ -114,7 +114,7 @@ impl World {
         islands.into_iter().map(make).collect()
     }
 
-    /// Makes islands of bodies whose contacts are followed by events.
+    /// Holds groups of bodies whose contacts are handled by events. Their contact forces are those of the decided modes.
     fn seen_as_decided(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         if islands.is_empty() {
             return Vec::new();
@@ -134,14 +134,14 @@ impl World {
         islands.into_iter().map(make).collect()
     }
 
-    /// Removes the contacts of some bodies from those that are followed.
+    /// Removes the contacts of these bodies from the solver, and returns them.
     fn take_out(&mut self, bodies: &BTreeSet<usize>) -> Vec<Arc<Closed>> {
         let (taken, left) = self.solver.contacts().iter().cloned().partition(|contact| contact.is_of(bodies));
         self.solver.take_contacts(left);
         taken
     }
 
-    /// An island of bodies, with its contacts for snapshots, and the last sums of loads.
+    /// Creates a group of bodies held at rest, with its contacts, their snapshots, and the present loads.
     fn island(
         &self,
         bodies: BTreeSet<usize>,
@@ -152,14 +152,14 @@ impl World {
         Island { bodies, contacts, seen, loads }
     }
 
-    /// The groups of bodies that hold each other and have all rested long enough.
+    /// Returns the groups of bodies that are connected by contacts and have all rested long enough. Bodies with joints are excluded.
     fn calm_islands(&self) -> Vec<BTreeSet<usize>> {
         let can_move = |body: &usize| self.model.inverse_mass()[*body] != 0.0;
         let is_calm = |body: &usize| self.rest.calm[*body] >= CALM;
         let mut islands: Vec<(BTreeSet<usize>, bool)> = Vec::new();
         for contact in self.solver.contacts() {
             let bodies: BTreeSet<usize> = contact.bodies.into_iter().filter(can_move).collect();
-            // Bodies on a body with a given motion move with it.
+            // A body that lies on a body with a given motion moves with it, so it cannot be held.
             let is_still = contact.bodies.iter().all(|body| self.model.motion(*body).is_none())
                 && bodies.iter().all(is_calm);
             let (same, others) = islands
@@ -181,7 +181,7 @@ impl World {
         calm.map(|(bodies, _)| bodies).collect()
     }
 
-    /// Called at the start of a step: releases bodies whose loads have changed.
+    /// Releases groups whose loads have changed. Must be called at the start of each step.
     pub(super) fn check_rest(&mut self, t: f64) {
         if self.rest.islands.is_empty() {
             return;
@@ -205,7 +205,7 @@ impl World {
         }
     }
 
-    /// Releases the groups that contain any of these bodies. Returns whether there were any.
+    /// Releases the held groups that contain any of these bodies. Returns true if there were any.
     pub(super) fn let_go(&mut self, bodies: &[usize]) -> bool {
         if !bodies.iter().any(|&body| self.rest.holds(body)) {
             return false;
@@ -229,7 +229,7 @@ impl World {
         true
     }
 
-    /// Restores a state in which more bodies were held.
+    /// Restores an earlier set of held groups, in which more bodies were held.
     pub(super) fn hold_again(&mut self, held: Rest) {
         let freed = held.islands.iter().flat_map(|island| &island.bodies);
         for &body in freed.filter(|body| !self.rest.holds(**body)) {
@@ -238,7 +238,7 @@ impl World {
         self.rest = held;
     }
 
-    /// Releases the groups that contain these bodies or are in touch with them.
+    /// Releases the held groups that contain these bodies or touch them.
     pub(super) fn let_held_by_go(&mut self, bodies: &[usize]) {
         let is_held_by = |contact: &Arc<Closed>| contact.bodies.iter().any(|body| bodies.contains(body));
         let islands = self.rest.islands.iter().filter(|island| island.contacts.iter().any(is_held_by));
@@ -246,14 +246,14 @@ impl World {
         self.let_go(&held);
     }
 
-    /// Releases all bodies.
+    /// Releases all bodies that are held at rest.
     pub(super) fn let_all_go(&mut self) {
         let all: Vec<usize> =
             self.rest.islands.iter().flat_map(|island| island.bodies.iter().copied()).collect();
         self.let_go(&all);
     }
 
-    /// Releases bodies in touch with a body that is not held. Returns whether there were any.
+    /// Releases the held groups that touch a moving body. Returns true if there were any.
     pub(super) fn let_touched_go(&mut self) -> bool {
         let Some(collider) = self.collider.as_mut().filter(|_| !self.rest.islands.is_empty()) else {
             return false;
