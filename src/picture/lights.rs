@@ -29,7 +29,7 @@ pub enum Lamp {
     Point,
     /// A lamp with a size, whose shadows have soft edges.
     Area,
-    /// A distant light with parallel rays, in the direction of the middle of the motion.
+    /// A distant light whose parallel rays shine towards the middle of the motion.
     Sun,
 }
 
@@ -138,7 +138,7 @@ pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
 #[derive(Clone, Debug)]
 pub(super) struct Lights {
     lights: Vec<Light>,
-    /// The point in the direction of which all suns shine, m.
+    /// The point that all suns shine at, m.
     center: DVec3,
     /// The radius of the visible scene, m. Suns are placed far outside.
     reach: f64,

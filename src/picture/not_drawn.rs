@@ -59,8 +59,7 @@ pub enum Why {
     Lost {
         /// The time of the first frame with a non-finite tip, s.
         time: f64,
-        /// A scale that would make the arrow visible, in the unit of its key. `None` if all vectors before that time are zero or
-        /// non-finite.
+        /// A scale that would make the arrow visible, in the unit of its key. `None` if no frame has a finite arrow.
         fit: Option<f64>,
     },
     /// The path of the body is shorter than half the width of its trail.

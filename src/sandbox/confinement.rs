@@ -1,21 +1,22 @@
-//! The command line that starts a program in the sandbox.
+//! Builds the command line that starts a program in the sandbox.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The program that confines itself and then becomes another one: jabuka itself, by its command `sandbox`.
+/// The launcher of the sandbox: a program that restricts its own rights and then becomes another program. It is jabuka itself, with its
+/// command `sandbox`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Launcher(PathBuf);
 
 impl Launcher {
-    /// The program `jabuka` at this path.
+    /// Creates a launcher from the path of the program `jabuka`.
     pub fn new(jabuka: impl Into<PathBuf>) -> Launcher {
         Launcher(absolute(&jabuka.into()))
     }
 
-    /// The running program, which must be `jabuka`; `None` if the system does not reveal its path.
+    /// Creates a launcher from the running program, which must be `jabuka`. `None` if the system does not reveal its path.
     pub fn of_this_program() -> Option<Launcher> {
-        // This link stays right even if the file is replaced by a newer version meanwhile.
+        // This link stays valid even if the file is replaced by a newer version in the meantime.
         let link = Path::new("/proc/self/exe");
         if link.exists() {
             return Some(Launcher(link.to_owned()));
@@ -24,37 +25,37 @@ impl Launcher {
     }
 }
 
-/// What the programs that jabuka starts may do.
+/// The rights of the programs that jabuka starts.
 ///
-/// The default confines nothing, since a library does not know the launcher's path.
+/// The default confines nothing, since a library does not know the path of the launcher.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Confinement {
     launcher: Option<Launcher>,
-    /// Whether programs may read all files.
+    /// True if programs may read all files.
     reads_all: bool,
-    /// Paths that programs may write in addition to their needs.
+    /// Paths that all programs may write, in addition to their own needs.
     writable: Vec<PathBuf>,
 }
 
 /// The needs of one program.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Needs<'a> {
-    /// The files and folders that it reads, besides those open to every program.
+    /// The files and folders that the program reads, except those that every program may read.
     pub(crate) read: &'a [&'a Path],
-    /// The files and folders that it writes. The first folder also takes its temporary files.
+    /// The files and folders that the program writes. Its temporary files go to the first folder.
     pub(crate) write: &'a [&'a Path],
-    /// Whether it runs at low priority.
+    /// True if the program runs at low priority.
     pub(crate) humble: bool,
 }
 
 impl Confinement {
-    /// Programs read and write only what they need. `None` confines nothing.
+    /// Creates a confinement in which programs may read and write only what they need. Without a launcher, nothing is confined.
     pub fn new(launcher: Option<Launcher>) -> Confinement {
         Confinement { launcher, reads_all: false, writable: Vec::new() }
     }
 
-    /// The same for a trusted scene: programs may also read all files, and write below the scene's folder and
-    /// `writable`. `None` stands for scripts without their scene.
+    /// Extends the rights for a trusted scene: programs may read all files, and also write in the scene's folder and in `folders`. `scene`
+    /// is `None` for scripts without their scene.
     #[must_use]
     pub fn trusting(self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         let own = scene.map(absolute).and_then(|scene| scene.parent().map(Path::to_owned));
@@ -62,23 +63,23 @@ impl Confinement {
         Confinement { reads_all: true, writable, ..self }
     }
 
-    /// The same with read access to all files.
+    /// Returns a confinement that also grants read access to all files.
     #[must_use]
     pub(crate) fn reading_all(&self) -> Confinement {
         Confinement { reads_all: true, ..self.clone() }
     }
 
-    /// Whether programs may read only some files.
+    /// True if programs are confined and may read only some files.
     pub(crate) fn limits_reading(&self) -> bool {
         self.launcher.is_some() && !self.reads_all
     }
 
-    /// Whether there is a launcher.
+    /// True if programs are confined, because there is a launcher.
     pub(crate) fn is_enforced(&self) -> bool {
         self.launcher.is_some()
     }
 
-    /// The command that starts a confined program. The caller adds the arguments.
+    /// Creates the command that starts a program with the rights that it needs. The caller adds the program's arguments.
     pub(crate) fn command(&self, program: &Path, needs: Needs<'_>) -> Command {
         let Some(Launcher(launcher)) = &self.launcher else { return Command::new(program) };
         let mut command = Command::new(launcher);
@@ -98,8 +99,8 @@ impl Confinement {
     }
 }
 
-/// The absolute path: programs start in folders of their own.
+/// Converts a path to an absolute one, since programs start in folders of their own.
 fn absolute(path: &Path) -> PathBuf {
-    // This fails only if the current folder is gone. Then no program can start anyway.
+    // The conversion fails only if the current folder no longer exists. No program can start then.
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

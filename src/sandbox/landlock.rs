@@ -1,4 +1,4 @@
-//! The rules for Linux's Landlock, and what this kernel can enforce.
+//! Restricts a process by Linux's Landlock, and describes what the running kernel can enforce.
 
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -10,16 +10,16 @@ use landlock::{
 
 use super::LaunchError;
 
-/// The newest rules that jabuka was tested with. An older kernel enforces those it knows.
+/// The newest Landlock version that jabuka was tested with. An older kernel enforces the rules that it knows.
 const NEWEST: ABI = ABI::V7;
 
-/// Restricts this thread, and all that it starts, to reading and writing these paths. Paths to read need not exist.
-/// TCP, signals to other processes and abstract sockets are refused altogether.
+/// Restricts the current thread, and all programs that it starts, to reading and writing the given paths. Paths to read need not exist.
+/// TCP connections, signals to other processes and abstract sockets are forbidden.
 ///
 /// # Errors
 /// If the kernel refuses the rules, or a path to write does not exist.
 pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
-    // Programs may not create devices, links or pipes: jabuka reads their output files.
+    // Programs may not create devices, links or pipes, because jabuka reads the files that they write.
     let written = AccessFs::from_all(NEWEST)
         & !make_bitflags!(AccessFs::{Execute | MakeChar | MakeBlock | MakeSock | MakeFifo | MakeSym | IoctlDev});
     let refused = |error: RulesetError| LaunchError::Refused(error.to_string());
@@ -29,29 +29,29 @@ pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), Launch
         .and_then(|ruleset| ruleset.scope(Scope::from_all(NEWEST)))
         .and_then(Ruleset::create)
         .map_err(refused)?;
-    // A missing path needs no rule.
+    // A path that does not exist needs no rule.
     let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST)).ok());
     let writing: Result<Vec<_>, LaunchError> = write
         .iter()
         .map(|path| beneath(path, written).map_err(|why| LaunchError::Write(path.clone(), why)))
         .collect();
-    // Scripts discard output by writing to this file.
+    // Shell scripts discard output by writing to `/dev/null`.
     let null = beneath(Path::new("/dev/null"), written).ok();
     let rules = reading.chain(writing?).chain(null).map(Ok::<_, RulesetError>);
     ruleset.add_rules(rules).and_then(landlock::RulesetCreated::restrict_self).map_err(refused)?;
     Ok(())
 }
 
-/// The rule for a file, or for a folder and everything below it.
+/// Creates the rule for a file, or for a folder and everything in it.
 fn beneath(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd>, String> {
     let opened = PathFd::new(path).map_err(|error| error.to_string())?;
     let access = if path.is_dir() { access } else { access & AccessFs::from_file(NEWEST) };
     Ok(PathBeneath::new(opened, access))
 }
 
-/// What this kernel enforces, in a few words: for people and for logs.
+/// Describes in a few words what the running kernel enforces, for users and logs.
 pub fn enforced() -> String {
-    // The crate reveals it only to a thread that has restricted itself. This thread does nothing else.
+    // The crate reveals the kernel's version only to a thread that has restricted itself, so use a thread for this purpose alone.
     let ask = || {
         let ruleset = Ruleset::default().handle_access(AccessFs::MakeBlock).ok()?.create().ok()?;
         ruleset.restrict_self().ok().map(|status| status.landlock)
@@ -77,7 +77,7 @@ pub fn enforced() -> String {
     }
 }
 
-/// The gaps in the rules of an older kernel.
+/// The actions that the kernel's version of Landlock cannot forbid.
 fn lacking(abi: ABI) -> Vec<&'static str> {
     let mut lacking = Vec::new();
     if abi < ABI::V3 {

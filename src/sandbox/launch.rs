@@ -1,4 +1,4 @@
-//! The launcher's steps before it becomes the program.
+//! The steps of the launcher before it becomes the program.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -9,40 +9,41 @@ use std::process::Command;
 
 use super::{landlock, readable};
 
-/// A program to start in the sandbox.
+/// A program to start in the sandbox, with its rights.
 #[derive(Clone, Debug, Default)]
 pub struct Launch {
     /// The program: a path, or a name to search for in the `PATH`.
     pub program: PathBuf,
-    /// Its arguments.
+    /// The arguments of the program.
     pub arguments: Vec<OsString>,
-    /// Paths that it may read and run besides those open to every program: files, or folders with everything below.
+    /// The files and folders that the program may read and execute, except those that every program may read. A folder includes everything
+    /// in it.
     pub read: Vec<PathBuf>,
-    /// Paths that it may read and write. Files must exist. The first folder also takes its temporary files.
+    /// The files and folders that the program may read and write. Files must exist. Temporary files go to the first folder.
     pub write: Vec<PathBuf>,
-    /// The process that must be its parent. If that has ended, the program does not start.
+    /// The ID of the process that must be the program's parent. If that process has ended, the program is not started.
     pub parent: Option<i32>,
-    /// Its niceness, as for `nice`.
+    /// The niceness of the program, as for the command `nice`.
     pub nice: Option<i32>,
 }
 
-/// Why a program was not started.
+/// The reason why a program was not started.
 #[derive(Debug)]
 pub enum LaunchError {
-    /// There is no such program.
+    /// The program was not found.
     NotFound(PathBuf),
-    /// The parent has ended.
+    /// The parent process has ended.
     Orphan,
-    /// The kernel refuses the rules.
+    /// The kernel refuses the restrictions.
     Refused(String),
-    /// A path to write does not exist or cannot be opened.
+    /// A path that the program may write does not exist or cannot be opened.
     Write(PathBuf, String),
     /// The system cannot start the program.
     Start(PathBuf, io::Error),
 }
 
 impl LaunchError {
-    /// The exit code that shells use for it.
+    /// The exit code that shells use for this error.
     pub fn code(&self) -> u8 {
         match self {
             LaunchError::NotFound(_) => 127,
@@ -52,14 +53,14 @@ impl LaunchError {
 }
 
 impl Launch {
-    /// Confines this process and becomes the program. The program ends when the thread that started this process ends.
-    /// Returns only on failure.
+    /// Restricts this process, then replaces it by the program. The program ends when the thread that started this process ends. Returns
+    /// only on failure.
     pub fn run(&self) -> LaunchError {
         if let Some(error) = self.follow_parent() {
             return error;
         }
         if let Some(nice) = self.nice {
-            // Failure is harmless: it changes only the share of the processors.
+            // A failure is harmless: the niceness affects only the share of processor time.
             let _ = rustix::process::nice(nice);
         }
         let Ok(program) = which::which(&self.program) else {
@@ -82,14 +83,14 @@ impl Launch {
         LaunchError::Start(program, error)
     }
 
-    /// Ties this process to its parent: the system ends it when the parent's thread ends.
+    /// Ties this process to its parent: the system ends this process when the parent's thread ends.
     #[cfg(target_os = "linux")]
     fn follow_parent(&self) -> Option<LaunchError> {
         use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
         if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
             return Some(LaunchError::Refused(error.to_string()));
         }
-        // No signal comes from a parent that ended before this line.
+        // If the parent ended before this line, there will be no signal.
         let parent = getppid().map(Pid::as_raw_pid);
         (self.parent.is_some() && self.parent != parent).then_some(LaunchError::Orphan)
     }

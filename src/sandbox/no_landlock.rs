@@ -1,10 +1,10 @@
-//! Systems other than Linux: nothing is enforced.
+//! The sandbox on systems other than Linux: nothing is enforced.
 
 use std::path::PathBuf;
 
 use super::LaunchError;
 
-/// Restricts nothing: this system has no Landlock.
+/// Restricts nothing, since this system has no Landlock.
 ///
 /// # Errors
 /// None.
@@ -12,7 +12,7 @@ pub(super) fn restrict(_read: &[PathBuf], _write: &[PathBuf]) -> Result<(), Laun
     Ok(())
 }
 
-/// What this system enforces, in a few words.
+/// Describes in a few words what this system enforces.
 pub fn enforced() -> String {
     "none: only Linux has Landlock".to_owned()
 }

@@ -1,4 +1,4 @@
-//! Paths readable by every program: the system's folders, and the files of the program itself.
+//! The paths that every program may read: the system's folders, and the files of the program itself.
 //!
 //! Folders with personal data are excluded: homes, `/tmp`, `/srv`, `/mnt`, `/media`, `/data`.
 
@@ -7,7 +7,7 @@ use std::fs;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
-/// Programs, libraries and their configuration, on all distributions.
+/// The folders and files with programs, libraries and their configuration, on all distributions.
 const SYSTEM: &[&str] = &[
     "/usr",
     "/bin",
@@ -17,13 +17,13 @@ const SYSTEM: &[&str] = &[
     "/lib64",
     "/libx32",
     "/opt",
-    // Nix, Guix, Homebrew on Linux, snaps.
+    // The folders of Nix, Guix, Homebrew on Linux, and snaps.
     "/nix/store",
     "/gnu/store",
     "/run/current-system",
     "/home/linuxbrew/.linuxbrew",
     "/snap",
-    // Only the part of /etc that programs need to start: the rest also holds keys and passwords.
+    // Only the part of /etc that programs need to start, since other files in /etc hold keys and passwords.
     "/etc/alternatives",
     "/etc/fonts",
     "/etc/group",
@@ -44,7 +44,7 @@ const SYSTEM: &[&str] = &[
     "/dev/tty",
     "/dev/urandom",
     "/dev/zero",
-    // Number of processors and free memory. A process reads about itself below its own number.
+    // The number of processors, the free memory, and a process's information about itself.
     "/proc/cpuinfo",
     "/proc/filesystems",
     "/proc/meminfo",
@@ -56,16 +56,16 @@ const SYSTEM: &[&str] = &[
     "/sys/fs/cgroup",
 ];
 
-/// The companions of the folder `bin` of a program installed outside the system's folders.
+/// The folders and files next to the folder `bin` of a program that is installed outside of the system's folders.
 const INSTALLED: &[&str] = &["lib", "lib32", "lib64", "libexec", "etc/povray"];
 
-/// Paths that all programs may read.
+/// The paths that every program may read.
 pub(super) fn by_all() -> impl Iterator<Item = PathBuf> {
     SYSTEM.iter().map(PathBuf::from)
 }
 
-/// Paths that one program may read in addition: its own folder, libraries and configuration, and the folders and
-/// settings that its arguments name.
+/// The additional paths that one program may read: its own folder, libraries and configuration, and the folders and settings files that
+/// its arguments name.
 pub(super) fn by(program: &Path, arguments: &[OsString]) -> Vec<PathBuf> {
     let home = std::env::var_os("HOME").map(PathBuf::from).filter(|home| home.is_absolute());
     let canonical = program.canonicalize().unwrap_or_else(|_| program.to_owned());
@@ -82,7 +82,7 @@ pub(super) fn by(program: &Path, arguments: &[OsString]) -> Vec<PathBuf> {
     paths
 }
 
-/// Whether a folder is neither a home, nor a parent of homes, nor the folder of all temporary files.
+/// True if an absolute folder contains neither a whole home nor all temporary files, so that a program may read it.
 fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
     let temporary = std::env::temp_dir();
     let broad = [Some(Path::new("/tmp")), Some(Path::new("/var/tmp")), Some(temporary.as_path()), home];
@@ -94,7 +94,7 @@ fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
         })
 }
 
-/// The files installed together with a program in a folder `bin`.
+/// The files installed together with a program in a folder `bin`: libraries, configuration, and POV-Ray's shared files.
 fn installed_with(program: &Path) -> Vec<PathBuf> {
     let folder = program.parent().filter(|folder| folder.file_name() == Some(OsStr::new("bin")));
     let Some(root) = folder.and_then(Path::parent) else { return Vec::new() };
@@ -106,7 +106,7 @@ fn installed_with(program: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// The include folder or settings file that a POV-Ray argument names by its absolute path.
+/// The include folder or settings file that a POV-Ray argument names by an absolute path. `None` for other arguments.
 fn named(argument: &OsStr) -> Option<PathBuf> {
     let bytes = argument.as_bytes();
     let library = [&b"+L"[..], b"-L", b"Library_Path="].iter().find_map(|start| bytes.strip_prefix(*start));

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// The cosine and sine of the angle `part`/`count` of a full circle; `count` is divisible by four. Mirror images agree
-/// to the last bit, and points on an axis are exactly on it.
+/// Returns the cosine and sine of the angle `part`/`count` of a full circle. `count` must be divisible by four. Mirror images agree to the
+/// last bit, and points on an axis are exactly on it.
 pub(super) fn circle(part: u32, count: u32) -> (f64, f64) {
     let quarter = count / 4;
     let (sine, cosine) = libm::sincos(TAU * f64::from(part % quarter) / f64::from(count));

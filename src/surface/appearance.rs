@@ -2,43 +2,43 @@
 
 use crate::scene::{Color, Finish, LibraryMaterial, Look, PlainLook, Preset};
 
-/// The look of a material in a renderer other than POV-Ray, in the terms of metallic-roughness shading, as in glTF.
-/// Colors are linear light from 0 to 1.
+/// The appearance of a material in a renderer other than POV-Ray, described by metallic-roughness shading, as in glTF. Colors are linear,
+/// with components from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Appearance {
-    /// Its color: red, green, blue, and opacity (1: opaque).
+    /// The color of the material: red, green, blue, and opacity (1 for opaque).
     pub color: [f64; 4],
-    /// Whether it is a metal (1) or not (0).
+    /// 1 for a metal, 0 for other materials.
     pub metallic: f64,
-    /// The diffuseness of its reflection: from 0, a mirror, to 1, chalk.
+    /// The roughness of the surface: from 0 for a perfect mirror to 1 for chalk.
     pub roughness: f64,
-    /// Whether it glows in its color.
+    /// True if the material emits light of its own color.
     pub emissive: bool,
-    /// Its pattern.
+    /// The pattern of the material.
     pub pattern: Motif,
-    /// The other color of the pattern, red, green and blue.
+    /// The second color of the pattern: red, green, blue. `None` without a pattern.
     pub second: Option<[f64; 3]>,
 }
 
-/// A pattern that makes rotation visible. All lengths are in radii of a ball of the body's volume, except the ground's.
-/// The pattern's centre and axes are the body's.
+/// A pattern that makes rotation visible. Lengths are relative to the radius of a ball with the volume of the body, except for the ground.
+/// The pattern has the center and axes of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Motif {
-    /// None.
+    /// No pattern: a single color.
     None,
-    /// Cubes with edge 0.5 in alternating colors. The body's centre is a corner, and the cube from 0 to 0.5 along all
-    /// axes has the second color.
+    /// Cubes with an edge of 0.5 in alternating colors. The center of the body is a corner of eight cubes. The cube from 0 to 0.5 along
+    /// all axes has the second color.
     Checkered,
-    /// Bands of height 0.22 around y in alternating colors. The middle one, from -0.11 to 0.11, has the second color.
+    /// Bands of height 0.22 around y in alternating colors. The middle band, from -0.11 to 0.11, has the second color.
     Striped,
-    /// Six sectors around y in the colors [`BEACH_BALL`]. The poles, |y| ≥ 0.911, have the second color. The body's
-    /// color is the mean.
+    /// Six sectors around y in the colors [`BEACH_BALL`]. The poles, |y| ≥ 0.911, have the second color. [`Appearance::color`] is the mean
+    /// of the sectors.
     BeachBall,
-    /// Tiles with edge 1 in alternating colors, on the x-z plane. The one from 0 to 1 has the second color.
+    /// Square tiles with an edge of 1 in alternating colors, in the x-z plane. The tile from 0 to 1 along both axes has the second color.
     Ground,
 }
 
-/// The colors of a beach ball's sectors. The first goes from x by 60° towards -z, and the others follow.
+/// The colors of a beach ball's sectors. The first sector extends from x by 60° towards -z; the next ones follow in the same direction.
 pub const BEACH_BALL: [Color; 6] = [
     Color([0.83, 0.13, 0.15]),
     Color([0.96, 0.95, 0.92]),
@@ -48,16 +48,16 @@ pub const BEACH_BALL: [Color; 6] = [
     Color([0.1, 0.36, 0.75]),
 ];
 
-/// The white of toys.
+/// The white of patterned materials.
 const WHITE: Color = Color([0.96, 0.95, 0.92]);
 
-/// The color of materials in POV-Ray's words, whose color is not known.
+/// The color of materials defined by POV-Ray's scene description language, whose real color is unknown.
 const UNKNOWN: Color = Color([0.6, 0.6, 0.6]);
 
-/// The opacity of materials that POV-Ray's words make transparent, since their amount is not parsed.
+/// The opacity of materials whose POV-Ray code makes them transparent. The code is not evaluated, so the real opacity is unknown.
 const CLEAR: f64 = 0.35;
 
-/// POV-Ray's words for transparency. Source: its documentation, 3.4.1.7 (colors).
+/// POV-Ray's keywords for transparency. Source: its documentation, 3.4.1.7 (colors).
 const SHINES_THROUGH: [&str; 8] = ["rgbf", "rgbt", "rgbft", "srgbf", "srgbt", "srgbft", "filter", "transmit"];
 
 impl Appearance {
@@ -71,7 +71,7 @@ impl Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
     }
 
-    /// The colors of its pattern, in the order of [`Motif::split`]; without a pattern, its color.
+    /// The colors of the pattern, in the order of [`Motif::split`]. Without a pattern, only the color of the material.
     #[must_use]
     pub fn colors(&self) -> Vec<[f64; 3]> {
         let [red, green, blue, _] = self.color;
@@ -82,7 +82,7 @@ impl Appearance {
         first.into_iter().chain(self.second).collect()
     }
 
-    /// The color without patterns: the mean of both.
+    /// The mean color of a two-colored pattern, with the opacity. For other materials, their color.
     #[must_use]
     pub fn mean(&self) -> [f64; 4] {
         match (self.pattern, self.second) {
@@ -95,7 +95,8 @@ impl Appearance {
     }
 }
 
-/// The appearance of a look; gray if only POV-Ray knows it. The checkered ground is that of daylight (see [`ground`]).
+/// Approximates a look. Looks that only POV-Ray can evaluate become gray. A checkered look becomes the ground of daylight (see
+/// [`ground`]).
 #[must_use]
 pub fn appearance(look: &Look) -> Appearance {
     match look {
@@ -111,7 +112,7 @@ pub fn appearance(look: &Look) -> Appearance {
     }
 }
 
-/// Whether words of POV-Ray make something transparent.
+/// True if a text in POV-Ray's language contains a keyword for transparency.
 fn is_clear(text: &str) -> bool {
     let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
     text.split(|letter| !is_word(letter)).any(|word| SHINES_THROUGH.contains(&word))
@@ -124,13 +125,13 @@ fn plain(color: Color, finish: Finish) -> Appearance {
         Finish::Satin => Appearance::new(color, 0.0, 0.5),
         Finish::Glossy => Appearance::new(color, 0.0, 0.2),
         Finish::Metal => Appearance::new(color, 1.0, 0.25),
-        // A mirror reflects without a color and has a slight tint of its own.
+        // A mirror has a nearly colorless reflection, with a slight tint of its color.
         Finish::Mirror => Appearance::new(color.map(|part| 0.85 + 0.06 * part), 1.0, 0.03),
         Finish::Luminous => Appearance { emissive: true, ..Appearance::new(color, 0.0, 1.0) },
     }
 }
 
-/// A material of the library, in the given color if it takes one.
+/// Approximates a material of the library, with the given color if the material can be colored.
 fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     let PlainLook { tone, cover, metallic, roughness } = material.plain;
     let tint = tint.linear();
@@ -147,7 +148,7 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     Appearance { color: [red, green, blue, cover], emissive: material.glows(), ..look }
 }
 
-/// The mean of some colors as linear light.
+/// The mean of six colors in linear light.
 fn mean(colors: &[Color; 6]) -> [f64; 3] {
     let sum = colors.iter().fold([0.0; 3], |sum, color| {
         let [red, green, blue] = color.linear();
@@ -156,14 +157,14 @@ fn mean(colors: &[Color; 6]) -> [f64; 3] {
     sum.map(|part| part / 6.0)
 }
 
-/// The checkered ground of an environment, also for planes without a material.
+/// The checkered ground of an environment. Planes without a material have the same appearance.
 #[must_use]
 pub fn ground(preset: Preset) -> Appearance {
     let [light, dark] = tiles(preset);
     Appearance::new(dark.linear(), 0.0, 0.9).patterned(Motif::Ground, light)
 }
 
-/// The light and the dark tiles of the ground: those of `templates/common.inc`.
+/// The colors of the light and the dark tiles of the ground. They equal those in `templates/common.inc`.
 fn tiles(preset: Preset) -> [Color; 2] {
     let [light, dark] = match preset {
         Preset::Daylight => [[0.83, 0.8, 0.755], [0.69, 0.672, 0.645]],
@@ -193,7 +194,7 @@ mod tests {
         assert_eq!(cover("pigment { color rgb <0.8, 0.9, 1> } // filters"), 1.0);
     }
 
-    /// An opaque one of no metal with roughness 0.5 would be one that the table does not know.
+    /// A material that is missing from the table would get the default appearance: opaque, not metallic, with a roughness of 0.5.
     #[test]
     fn every_material_of_the_library_is_known() {
         for material in MATERIALS.iter().filter(|material| Finish::named(material.name).is_none()) {

@@ -1,4 +1,4 @@
-//! The unit forms from which shapes are built.
+//! Base shapes: shapes in a standard size, which are scaled when they are drawn.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -8,32 +8,32 @@ use glam::DVec3;
 use super::{Triangles, helix, lathe, mesh, straight};
 use crate::dynamics::Mesh;
 
-/// A form of standard size, shared by many bodies that each scale it. Its axis, if any, is y.
+/// A base shape: a shape in a standard size that many bodies share, each with its own scale. Its axis of symmetry, if any, is y.
 ///
-/// Two forms are equal, and the same key of a map, if their names and numbers agree bit for bit; two meshes, if they
+/// Two base shapes are equal, also as keys of a map, if their names and their numbers agree bit for bit. Two meshes are equal only if they
 /// are the same object in memory.
 #[derive(Clone, Debug)]
 pub struct Form(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// A form computed from a few numbers.
+    /// A base shape that a function computes from a few numbers.
     Made { name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles },
-    /// A mesh, in its own units.
+    /// A mesh in its own units.
     Mesh(Arc<Mesh>),
 }
 
-/// The resolution of forms.
+/// The resolution of the triangles of a base shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Detail {
-    /// A ball has about 1,100 vertices: for pictures.
+    /// The resolution for pictures: a ball has about 1,100 vertices.
     Fine,
-    /// A ball has about 110 vertices: for thousands of bodies.
+    /// The resolution for thousands of bodies: a ball has about 110 vertices.
     Coarse,
 }
 
 impl Detail {
-    /// The number of sides of a circle, which is divisible by four.
+    /// The number of straight sides that approximate a circle. It is divisible by four.
     #[must_use]
     pub fn sides(self) -> u32 {
         match self {
@@ -46,21 +46,21 @@ impl Detail {
 impl Form {
     /// A ball of radius 1.
     pub const BALL: Form = Form::made("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
-    /// A cube from -1 to 1.
+    /// A cube from -1 to 1 along all axes.
     pub const CUBE: Form = Form::made("cube", [0.0; 4], |_, _| straight::cube());
     /// A cylinder of radius 1 from y = -1 to 1.
     pub const CYLINDER: Form = Form::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
-    /// A square from -1 to 1 along x and z, seen from above. The renderer chooses its size.
+    /// A square from -1 to 1 along x and z, visible from above. The renderer chooses its drawn size.
     pub const PLANE: Form = Form::made("plane", [0.0; 4], |_, _| straight::plane());
 
-    /// A form computed from some numbers, which with its name identify it. The function makes its triangles from the
-    /// numbers and the number of sides of a circle.
+    /// Creates a base shape from a name and numbers, which together identify it. `make` computes the triangles from the numbers and from
+    /// the number of sides of a circle.
     #[must_use]
     pub const fn made(name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles) -> Form {
         Form(Kind::Made { name, numbers, make })
     }
 
-    /// A cone or frustum of height 2 about its centre of mass, with its lower and upper radius. The larger is 1.
+    /// A cone or frustum of height 2, centered at its center of mass, with its lower and upper radius. The larger radius must be 1.
     #[must_use]
     pub fn cone(bottom: f64, top: f64) -> Form {
         Form::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
@@ -68,7 +68,7 @@ impl Form {
         })
     }
 
-    /// A cylinder of radius 1 with a hemisphere on either end, from y = -1 - `straight` to 1 + `straight`.
+    /// A capsule: a cylinder of radius 1 with a hemisphere on either end, from y = -1 - `straight` to 1 + `straight`.
     #[must_use]
     pub fn capsule(straight: f64) -> Form {
         Form::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
@@ -76,14 +76,14 @@ impl Form {
         })
     }
 
-    /// A ring around y with major radius 1. Its tube has the given radius, at most 1.
+    /// A torus around y with a major radius of 1. The radius of its tube is `tube`, at most 1.
     #[must_use]
     pub fn torus(tube: f64) -> Form {
         Form::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
     }
 
-    /// A box with rounded edges about the origin: half its edge lengths, the longest being 1, and the radius of its
-    /// edges.
+    /// A box with rounded edges, centered at the origin. `half` is half of its edge lengths, of which the longest must be 1; `rounding` is
+    /// the radius of its edges.
     #[must_use]
     pub fn rounded_box(half: DVec3, rounding: f64) -> Form {
         Form::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
@@ -91,7 +91,7 @@ impl Form {
         })
     }
 
-    /// A spring's coil about y, from y = -1 to 1, with radius 1 and `turns` turns. Its wire has the given radius.
+    /// The coil of a spring around y, from y = -1 to 1, with a radius of 1. `wire` is the radius of its wire.
     #[must_use]
     pub fn coil(turns: u32, wire: f64) -> Form {
         Form::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
@@ -99,13 +99,13 @@ impl Form {
         })
     }
 
-    /// A mesh, in its own units.
+    /// Creates a base shape from a mesh, in the units of the mesh.
     #[must_use]
     pub fn mesh(mesh: Arc<Mesh>) -> Form {
         Form(Kind::Mesh(mesh))
     }
 
-    /// Its triangles. Those of a mesh do not depend on the detail.
+    /// Computes the triangles of the base shape. Those of a mesh are the same for all resolutions.
     #[must_use]
     pub fn triangles(&self, detail: Detail) -> Triangles {
         match &self.0 {
@@ -114,7 +114,7 @@ impl Form {
         }
     }
 
-    /// Whether it is closed, so that its inside is never visible.
+    /// True if the surface is closed, so that its inside is never visible.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         match &self.0 {
@@ -123,7 +123,7 @@ impl Form {
         }
     }
 
-    /// A short name: `ball`; for a mesh, its own.
+    /// A short name of the base shape, such as `ball`, or the name of the mesh.
     #[must_use]
     pub fn name(&self) -> &str {
         match &self.0 {
@@ -132,11 +132,11 @@ impl Form {
         }
     }
 
-    /// Its identity: its name and its numbers.
+    /// The key that identifies the base shape: its name and its numbers, or the address of its mesh.
     fn key(&self) -> (Option<&'static str>, [u64; 4]) {
         match &self.0 {
             Kind::Made { name, numbers, .. } => (Some(name), numbers.map(f64::to_bits)),
-            // Two meshes alive at the same time have different addresses.
+            // Two meshes that exist at the same time have different addresses.
             Kind::Mesh(mesh) => (None, [Arc::as_ptr(mesh).addr() as u64, 0, 0, 0]),
         }
     }

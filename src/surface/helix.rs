@@ -1,22 +1,22 @@
-//! The coil of a spring: a tube along a helix.
+//! The triangles of a spring's coil: a tube along a helix.
 
 use glam::DVec3;
 
 use super::Triangles;
 use super::angles::circle;
 
-/// The length per turn of a coil as it is built, in radii: that of a usual spring at rest.
+/// The length per turn for which the coil's wire is round, relative to the radius of the coil. It is typical of a spring at rest.
 const PITCH: f64 = 1.5;
 
-/// A coil of radius 1 about y, from y = -1 to 1. Its wire is round, with the given radius, if the coil is drawn 1.5
-/// radii long per turn. As in the scripts, it begins and ends on the axis.
+/// Computes the triangles of a coil of radius 1 around y, from y = -1 to 1. The cross-section of its wire becomes a circle of the given
+/// radius when the coil is drawn with a length of 1.5 radii per turn. As in the POV-Ray scripts, the wire begins and ends on the axis.
 pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
     let length = PITCH * turns;
     let across = (sides / 6).max(4).next_multiple_of(4);
     let middles = path(turns, length, (sides / 3).max(8).next_multiple_of(4));
     let mut out = Triangles::default();
     let mut rings: Vec<Vec<u32>> = Vec::with_capacity(middles.len());
-    // A direction that is parallel to no piece of the path.
+    // A direction across the wire, which is carried along the path.
     let mut aside = DVec3::X;
     for (i, middle) in middles.iter().enumerate() {
         let before = middles[i.saturating_sub(1)];
@@ -30,7 +30,7 @@ pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
             let (cosine, sine) = circle(side, across);
             let normal = cosine * aside + sine * other;
             let point = *middle + wire * normal;
-            // Scale to the standard size, which flattens the normals.
+            // The vertices are scaled to a length of 2 along y. The normals are scaled inversely.
             let flat = 0.5 * length;
             out.vertex(
                 DVec3::new(point.x, point.y / flat, point.z),
@@ -48,7 +48,7 @@ pub(super) fn coil(turns: f64, wire: f64, sides: u32) -> Triangles {
     out
 }
 
-/// The centre line of the wire, from end to end.
+/// The points on the center line of the wire, from end to end.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "turns are a small whole number")]
 fn path(turns: f64, length: f64, per_turn: u32) -> Vec<DVec3> {
     let count = turns as u32 * per_turn;
@@ -81,12 +81,12 @@ mod tests {
             let [a, b, c] =
                 [0, 1, 2].map(|i| DVec3::from(coil.positions[corners[i] as usize].map(f64::from)));
             let normal = DVec3::from(coil.normals[corners[0] as usize].map(f64::from));
-            // In its own proportions.
+            // Compute the face normals in the drawn proportions of the coil.
             let drawn = DVec3::new(1.0, 4.5, 1.0);
             let face = ((b - a) * drawn).cross((c - a) * drawn);
             folded += usize::from(face.dot(normal / drawn) < 0.0);
         }
-        // In the corners at both ends, the inside of the wire is folded.
+        // At the sharp bends near both ends, triangles on the inner side of the wire overlap.
         assert!(folded * 50 < coil.indices.len() / 3, "{folded}");
     }
 }

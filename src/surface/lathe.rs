@@ -1,4 +1,4 @@
-//! Surfaces of revolution about the y axis: a profile, swept around.
+//! Surfaces of revolution: profiles swept around the y axis.
 
 use glam::DVec3;
 
@@ -6,28 +6,28 @@ use super::Triangles;
 use super::angles::circle;
 use crate::dynamics::cone_base;
 
-/// A point of a profile, and the normal there.
+/// A point of a profile, with the surface normal.
 #[derive(Clone, Copy)]
 struct Point {
     radius: f64,
     y: f64,
-    /// The normal's components away from the axis and along it.
+    /// The components of the normal away from the axis and along the axis.
     normal: [f64; 2],
 }
 
 impl Point {
-    /// Whether all sides share it: a pole, or the centre of a disk.
+    /// True if the swept point is a single vertex: a pole, or the center of a disk.
     fn is_single(self) -> bool {
         self.radius == 0.0 && self.normal[0] == 0.0
     }
 }
 
-/// A ball of radius 1, cut at its equator and pulled apart by `straight` on either side.
+/// A capsule: a ball of radius 1, cut at its equator, with each half moved along y by `straight`.
 pub(super) fn capsule(straight: f64, sides: u32) -> Triangles {
     let quarter = sides / 4;
     let at = |part: u32| {
         let (cosine, sine) = circle(part, sides);
-        // Parts are counted from the lower pole, past the largest radius, to the upper pole.
+        // The angle runs from the lower pole to the upper pole.
         Point { radius: sine, y: -cosine, normal: [sine, -cosine] }
     };
     let lower = (0..=quarter).map(at).map(|point| Point { y: point.y - straight, ..point });
@@ -36,7 +36,7 @@ pub(super) fn capsule(straight: f64, sides: u32) -> Triangles {
     turned(&lower.chain(upper.skip(skip)).collect::<Vec<_>>(), sides)
 }
 
-/// A cone of height 2, about its centre of mass; with equal radii it is a cylinder.
+/// A cone or frustum of height 2, centered at its center of mass. With equal radii, it is a cylinder.
 pub(super) fn cone(bottom: f64, top: f64, sides: u32) -> Triangles {
     let low = if bottom == top { -1.0 } else { cone_base(bottom, top, 2.0) };
     let high = low + 2.0;
@@ -54,11 +54,11 @@ pub(super) fn cone(bottom: f64, top: f64, sides: u32) -> Triangles {
     turned(&profile, sides)
 }
 
-/// A ring with major radius 1 and the given tube radius.
+/// A torus with a major radius of 1 and the given tube radius.
 pub(super) fn torus(tube: f64, sides: u32) -> Triangles {
     let half = sides / 2;
-    // The profile runs once around the tube, starting at the inside and along the bottom. The tube has half as many
-    // sides as the ring.
+    // The profile goes once around the tube, starting on the inner side and continuing along the bottom. The tube has half as many sides
+    // as the ring.
     let at = |part: u32| {
         let (cosine, sine) = circle((part + half / 2) % half, half);
         Point { radius: 1.0 + tube * cosine, y: tube * sine, normal: [cosine, sine] }
@@ -66,8 +66,8 @@ pub(super) fn torus(tube: f64, sides: u32) -> Triangles {
     turned(&(0..=half).map(at).collect::<Vec<_>>(), sides)
 }
 
-/// The surface of a profile swept about y. The profile goes upward where it is seen from outside. At an edge, two equal
-/// points have different normals.
+/// Sweeps a profile around the y axis. The profile must go upward where it is seen from outside. At a sharp edge, the profile has two
+/// equal points with different normals.
 fn turned(profile: &[Point], sides: u32) -> Triangles {
     let mut out = Triangles::default();
     let mut starts = Vec::with_capacity(profile.len());
@@ -80,7 +80,7 @@ fn turned(profile: &[Point], sides: u32) -> Triangles {
         }
         for side in 0..sides {
             let (z, x) = circle(side, sides);
-            // The tip of a cone has a normal in the middle of each side.
+            // At the tip of a cone, each side has its own vertex, with the normal of the side's middle.
             let (nz, nx) = if point.radius == 0.0 { circle(2 * side + 1, 2 * sides) } else { (z, x) };
             let position = DVec3::new(point.radius * x, point.y, point.radius * z);
             out.vertex(position, DVec3::new(across * nx, along, across * nz));
@@ -91,7 +91,7 @@ fn turned(profile: &[Point], sides: u32) -> Triangles {
             |which: usize, side: u32| start[which] + if pair[which].is_single() { 0 } else { side % sides };
         for side in 0..sides {
             let quad @ [a, b, c, d] = [at(0, side), at(0, side + 1), at(1, side + 1), at(1, side)];
-            // At an apex, `c` and `d` are one point, but only `d` has the normal of this side. Turn the quad, so that its
+            // At an apex, `c` and `d` have the same position, but only `d` has the normal of this side. Rotate the quad so that its
             // triangle uses `d`.
             if pair[1].radius == 0.0 { out.quad([b, c, d, a]) } else { out.quad(quad) }
         }

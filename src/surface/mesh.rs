@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::{Triangles, normals};
 use crate::dynamics::Mesh;
 
-/// The triangles of a mesh about its centre, in its units, with the normals that POV-Ray uses: smooth where the mesh
-/// asks for it, else one for each triangle.
+/// Computes the triangles of a mesh about its center, in the units of the mesh. Their normals equal those in the POV-Ray scripts: smooth
+/// if the mesh has a smoothing angle, otherwise one normal per triangle.
 pub(super) fn triangles(mesh: &Mesh) -> Triangles {
     match mesh.smooth() {
         Some(smooth) => round(mesh, smooth),
@@ -19,7 +19,7 @@ pub(super) fn triangles(mesh: &Mesh) -> Triangles {
 fn round(mesh: &Mesh, smooth: f64) -> Triangles {
     let mut out = Triangles::default();
     let normals = normals::of_corners(mesh, smooth);
-    // The index of each pair of position and normal. The map is never iterated, so its order does not matter.
+    // The vertex for each pair of position and normal. The map is never iterated, so its order does not matter.
     let mut numbers: HashMap<(u32, u32), u32> = HashMap::new();
     for (places, directions) in mesh.triangles().iter().zip(&normals.corners) {
         let corners = [0, 1, 2].map(|i| {

@@ -1,7 +1,7 @@
-//! Shapes as triangles, and materials for renderers other than POV-Ray.
+//! Converts shapes to triangles, and approximates materials, for renderers other than POV-Ray.
 //!
-//! A shape consists of [`pieces`], each a [`Form`] of standard size, so all balls of a scene share the same
-//! [`Triangles`]. [`appearance`] is a material without POV-Ray's patterns and reflections.
+//! A shape consists of [`pieces`]. Each piece is a [`Form`]: a base shape in a standard size, which is scaled when it is drawn. All balls
+//! of a scene therefore share the same [`Triangles`]. [`appearance`] approximates a material without POV-Ray's patterns and reflections.
 
 mod angles;
 mod appearance;
@@ -22,17 +22,17 @@ pub use appearance::{Appearance, BEACH_BALL, Motif, appearance, ground};
 pub use form::{Detail, Form};
 pub use piece::{Piece, pieces};
 
-/// A surface of triangles.
+/// A surface that consists of triangles.
 ///
-/// Seen from outside, the corners of each triangle go counter-clockwise. Vertices at the same position with different
-/// normals are separate.
+/// Seen from outside, the corners of each triangle are in counterclockwise order. Vertices at the same position with different normals are
+/// separate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
     /// The positions of the vertices.
     pub positions: Vec<[f32; 3]>,
-    /// The unit normals at the vertices; they point outward.
+    /// The outward unit normals at the vertices.
     pub normals: Vec<[f32; 3]>,
-    /// The vertex indices at the corners of the triangles, three for each.
+    /// The indices of the vertices at the corners of the triangles, three per triangle.
     pub indices: Vec<u32>,
 }
 
@@ -45,7 +45,7 @@ impl Triangles {
         self.positions.len() as u32 - 1
     }
 
-    /// Adds a triangle, unless two of its corners coincide.
+    /// Adds a triangle. Skips triangles in which two corners coincide.
     fn triangle(&mut self, corners: [u32; 3]) {
         let [a, b, c] = corners.map(|corner| self.positions[corner as usize]);
         if a != b && b != c && c != a {
@@ -53,7 +53,7 @@ impl Triangles {
         }
     }
 
-    /// Adds a flat or curved piece with four corners.
+    /// Adds a quadrilateral as two triangles.
     fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
         self.triangle([a, b, c]);
         self.triangle([a, c, d]);

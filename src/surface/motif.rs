@@ -1,4 +1,4 @@
-//! Patterns with plane borders. Triangles are cut along the borders, so that each part has one color.
+//! Patterns with plane borders. Triangles are cut along the borders, so that each resulting triangle has a single color.
 
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_3;
@@ -7,33 +7,33 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::{Motif, Triangles};
 
-/// The edge of a cube of the checkered pattern.
+/// The edge length of a cube in the checkered pattern.
 const CUBE: f64 = 0.5;
-/// The height of a band of the striped pattern.
+/// The height of a band in the striped pattern.
 const BAND: f64 = 0.22;
-/// Beyond this height, the poles of a beach ball are white.
+/// The height |y| beyond which a beach ball is white.
 const POLE: f64 = 0.455 * 2.002;
-/// The largest number of planes. A finer pattern would only look like its mean.
+/// The largest number of border planes. A finer pattern would look like its mean color.
 const MOST_PLANES: f64 = 200.0;
 
-/// A corner of a piece of a triangle.
+/// A corner of a polygon that was cut from a triangle.
 #[derive(Clone, Copy)]
 struct Corner {
     place: DVec3,
     normal: DVec3,
-    /// Its position in the pattern.
+    /// The position in the coordinates of the pattern.
     at: DVec3,
 }
 
-/// In the pattern, a plane of points p with `normal` · p = `distance`.
+/// A plane border between two colors: the points p of the pattern with `normal` · p = `distance`.
 struct Border {
     normal: DVec3,
     distance: f64,
 }
 
 impl Motif {
-    /// Cuts triangles along the borders of the pattern. For each of [`colors`](super::Appearance::colors), returns the
-    /// parts with this color. The map takes their positions to the pattern's. `None` without a pattern, or if it is too
+    /// Cuts triangles along the borders of the pattern. Returns one set of triangles for each of [`colors`](super::Appearance::colors).
+    /// `to_pattern` maps positions of the triangles to the coordinates of the pattern. `None` without a pattern, or if the pattern is too
     /// fine to be visible.
     #[must_use]
     pub fn split(self, triangles: &Triangles, to_pattern: DAffine3) -> Option<Vec<Triangles>> {
@@ -64,7 +64,7 @@ impl Motif {
         Some(parts.into_iter().map(|part| part.triangles).collect())
     }
 
-    /// The borders within a box, and the number of colors.
+    /// Returns the borders that cross a box, and the number of colors. `None` without a pattern, or if there are too many borders.
     fn borders(self, least: DVec3, largest: DVec3) -> Option<(Vec<Border>, usize)> {
         let counts = |axis: DVec3, first: f64, step: f64| {
             let from = ((least.dot(axis) - first) / step).ceil();
@@ -113,9 +113,9 @@ impl Motif {
 }
 
 impl Border {
-    /// Cuts a convex piece in two if the border crosses it.
+    /// Cuts a convex polygon into two if the border crosses it.
     fn cut(&self, piece: Vec<Corner>) -> Vec<Vec<Corner>> {
-        // Corners this close count as on the border.
+        // The distance up to which a corner counts as lying on the border.
         const NEAR: f64 = 1e-7;
         let side = |corner: &Corner| {
             let side = self.normal.dot(corner.at) - self.distance;
@@ -145,7 +145,7 @@ impl Border {
 }
 
 impl Corner {
-    /// The corner at a fraction of the distance to another.
+    /// Interpolates between two corners: 0 gives this corner, 1 the other.
     fn towards(&self, other: &Corner, part: f64) -> Corner {
         let normal = self.normal.lerp(other.normal, part);
         Corner {
@@ -156,11 +156,11 @@ impl Corner {
     }
 }
 
-/// The triangles of a color.
+/// The triangles of one color.
 #[derive(Default)]
 struct Part {
     triangles: Triangles,
-    /// The index of each vertex, by its position and its normal. The map is never iterated.
+    /// The vertex for each position and normal, as the bits of their components. The map is never iterated.
     known: HashMap<[u32; 6], u32>,
 }
 
@@ -209,18 +209,19 @@ mod tests {
                     (parts.iter().sum::<f64>() / whole - 1.0).abs() < 1e-6,
                     "{form:?} {motif:?}: {parts:?}"
                 );
-                // A flat ring does not reach to where the poles of a beach ball would be.
+                // The torus is too flat to reach the poles of the beach ball pattern.
                 let seen = parts.iter().filter(|part| **part > 0.0).count();
                 assert!(seen >= parts.len() - 1 && seen >= 2, "{form:?} {motif:?}: {parts:?}");
             }
         }
     }
 
-    /// The band around the middle, two on either side of each pole, and so on: Archimedes' zones are as large as they are high.
+    /// On a ball, the area of a zone is proportional to its height (Archimedes), so the areas of all bands follow from their heights.
     #[test]
     fn bands_have_the_heights_that_the_scripts_give_them() {
         let (whole, parts) = parts(&Form::BALL, Motif::Striped);
-        // The second color from -0.11 to 0.11, from 0.33 to 0.55 and from 0.77 to 0.99, on both sides.
+        // The second color covers five bands of full height: one at the equator, and two on each side from 0.33 to 0.55 and from 0.77 to
+        // 0.99.
         assert!((parts[1] / whole - 5.0 * 0.22 / 2.0).abs() < 2e-3, "{}", parts[1] / whole);
     }
 

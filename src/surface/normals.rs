@@ -1,18 +1,18 @@
-//! Smooth normals of meshes.
+//! Computes smooth normals of meshes.
 
 use glam::DVec3;
 
 use crate::dynamics::Mesh;
 
-/// The normals of a mesh, and their indices for the corners of each triangle.
+/// The normals of a mesh, and their indices at the three corners of each triangle.
 pub(crate) struct Normals {
     pub(crate) vectors: Vec<DVec3>,
     pub(crate) corners: Vec<[u32; 3]>,
 }
 
-/// The normals at the corners of each triangle. Each is the mean of its own normal and those of all triangles at the
-/// vertex within an angle of `smooth` (rad), weighted by the angles of their corners (G. Thürmer, C. A. Wüthrich,
-/// *Computing Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998).
+/// Computes the normals at the corners of each triangle. A normal is the mean over those triangles at the vertex whose normals differ from
+/// the triangle's own by at most `smooth` (rad), weighted by their angles at the vertex (G. Thürmer, C. A. Wüthrich, *Computing Vertex
+/// Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998).
 #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer corners than 32 bits can count")]
 pub(crate) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
     let (vertices, triangles) = (mesh.vertices(), mesh.triangles());
@@ -36,7 +36,7 @@ pub(crate) fn of_corners(mesh: &Mesh, smooth: f64) -> Normals {
             });
             let mean = mean.sum::<DVec3>().try_normalize().or_else(|| own_normal.try_normalize());
             let mean = mean.unwrap_or(DVec3::Y);
-            // Triangles with the same neighbors have the same sum, bit for bit.
+            // Triangles with the same neighbors have bit-identical sums, so they share a normal.
             let number = normals.vectors[known..].iter().position(|normal| *normal == mean);
             let number = number.map_or(normals.vectors.len(), |number| known + number);
             if number == normals.vectors.len() {
@@ -55,11 +55,11 @@ fn angle(vertices: &[DVec3], triangle: [u32; 3], corner: usize) -> f64 {
     libm::atan2(one.cross(other).length(), one.dot(other))
 }
 
-/// The triangles around each vertex.
+/// The triangles around each vertex of a mesh.
 struct Around {
-    /// The start of each vertex's range in `corners`, and the end of the last.
+    /// The index in `corners` at which each vertex's range starts, and the end of the last range.
     starts: Vec<u32>,
-    /// A triangle, and the number of its corner at the vertex.
+    /// The index of a triangle, and the number of its corner (0 to 2) at the vertex.
     corners: Vec<(u32, u8)>,
 }
 
@@ -90,7 +90,7 @@ impl Around {
 mod tests {
     use super::*;
 
-    /// A cube with its faces cut in two, each edge of it between faces at 90°.
+    /// A cube in which each face consists of two triangles, and neighboring faces meet at 90°.
     fn cube() -> Mesh {
         let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1));
         let faces: [[u32; 4]; 6] =
@@ -111,7 +111,8 @@ mod tests {
         }
     }
 
-    /// However faces are cut, each counts as its angle: the normal at the corner of a cube is its diagonal.
+    /// Triangles are weighted by their angles, so the way faces are divided has no effect: the normal at each corner of a cube is along
+    /// its diagonal.
     #[test]
     fn round_edges_have_one_normal_at_each_vertex() {
         let mesh = cube();

@@ -1,4 +1,4 @@
-//! The forms that make up a body.
+//! Decomposes the shape of a body into base shapes.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use super::Form;
 use crate::dynamics::{Shape, cone_base};
 use crate::scene::Color;
 
-/// One of the forms that make up a body, in the body's own frame: it is scaled, then rotated, then moved.
+/// A base shape as a part of a body: it is scaled, then rotated, then moved, in body axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// The form.
+    /// The base shape.
     pub form: Form,
-    /// The length of one unit of the form along each of its axes, m.
+    /// The drawn length of one unit of the base shape along each of its axes, m.
     pub scale: DVec3,
-    /// The position of its origin, m.
+    /// The position of the base shape's origin, m.
     pub location: DVec3,
-    /// Its rotation.
+    /// The rotation from the axes of the base shape to body axes.
     pub orientation: DQuat,
-    /// A fixed color, independent of the body's material.
+    /// The fixed color of the piece. `None` if it has the body's material.
     pub color: Option<Color>,
 }
 
@@ -29,7 +29,7 @@ impl Piece {
     }
 }
 
-/// The forms that make up a shape. A compound has those of all its parts. A plane has a square of 2 m × 2 m, which the
+/// Decomposes a shape into base shapes. A compound has the pieces of all its parts. A plane becomes a square of 2 m × 2 m, which the
 /// renderer enlarges as needed.
 #[must_use]
 pub fn pieces(shape: &Shape) -> Vec<Piece> {
@@ -47,7 +47,7 @@ pub fn pieces(shape: &Shape) -> Vec<Piece> {
         }
         Shape::Capsule { radius, height } => {
             let straight = (height / 2.0 / radius - 1.0).max(0.0);
-            // A capsule as long as it is wide is a ball, up to rounding.
+            // A capsule that is as long as wide, except for rounding, is a ball.
             even(if straight < 1e-6 { Form::BALL } else { Form::capsule(straight) }, radius)
         }
         Shape::Cone { radius, top_radius, height } => vec![cone(radius, top_radius, height)],
@@ -71,7 +71,7 @@ pub fn pieces(shape: &Shape) -> Vec<Piece> {
     }
 }
 
-/// A cone or a frustum; a cylinder if its ends are equal.
+/// The piece for a cone or frustum. A frustum with equal radii becomes a cylinder.
 fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
     let wide = radius.max(top_radius);
     let scale = DVec3::new(wide, height / 2.0, wide);
@@ -81,11 +81,11 @@ fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
     Piece::new(Form::cone(radius / wide, top_radius / wide), scale)
 }
 
-/// The colors of the ball at the centre of axes, and of the arms along x, y and z: those of `templates/axes.inc`.
+/// The colors of the ball at the center of an axes triad, and of its arms along x, y and z. They equal those in `templates/axes.inc`.
 const AXES: [Color; 4] =
     [Color([0.82, 0.81, 0.79]), Color([0.8, 0.1, 0.12]), Color([0.1, 0.54, 0.2]), Color([0.14, 0.3, 0.82])];
 
-/// The triad of `templates/axes.inc` without its letters: a ball, and for each arm a shaft and a tip.
+/// The axes triad of `templates/axes.inc` without its letters: a ball, and for each arm a cylinder and a cone.
 fn axes(length: f64) -> Vec<Piece> {
     let [middle, arms @ ..] = AXES;
     let mut pieces =

@@ -1,16 +1,16 @@
-//! Forms with flat faces.
+//! Triangles of base shapes with flat faces.
 
 use glam::DVec3;
 
 use super::Triangles;
 use super::angles::circle;
 
-/// A cube from -1 to 1.
+/// A cube from -1 to 1 along all axes.
 pub(super) fn cube() -> Triangles {
     let mut out = Triangles::default();
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         for normal in [axis, -axis] {
-            // The other two axes, such that the first, the second and the normal are right-handed.
+            // Two vectors along the face, which form a right-handed system with its normal.
             let first = DVec3::new(normal.z.abs() + normal.y.abs(), 0.0, normal.x.abs());
             let second = normal.cross(first);
             let corner = |i: f64, j: f64| normal + first * i + second * j;
@@ -22,7 +22,7 @@ pub(super) fn cube() -> Triangles {
     out
 }
 
-/// A square from -1 to 1 along x and z, seen from above.
+/// A square from -1 to 1 along x and z, visible from above.
 pub(super) fn plane() -> Triangles {
     let mut out = Triangles::default();
     let corners = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
@@ -31,12 +31,12 @@ pub(super) fn plane() -> Triangles {
     out
 }
 
-/// A box with rounded edges: a ball cut in eight, with the parts moved to the corners.
+/// A box with rounded edges: a ball cut into eight parts, which are moved to the corners of the box. The gaps become its edges and faces.
 pub(super) fn rounded_box(half: DVec3, rounding: f64, sides: u32) -> Triangles {
     let mut out = Triangles::default();
     let inner = (half - rounding).max(DVec3::ZERO);
     let quarter = sides / 4;
-    // Angles from the lower pole to the upper one, and around the axis; each cut has the angles of both its sides.
+    // The angles from the lower to the upper pole, and around the axis. The angle of each cut occurs twice, once for each side.
     let rows = [0, 1].map(|upper| (0..=quarter).map(move |part| (part + upper * quarter, upper)));
     let columns = [0, 1, 2, 3].map(|side| (0..=quarter).map(move |part| (part + side * quarter, side)));
     let columns: Vec<_> = columns.into_iter().flatten().collect();
@@ -62,7 +62,7 @@ pub(super) fn rounded_box(half: DVec3, rounding: f64, sides: u32) -> Triangles {
             out.quad([low + column, low + next, high + next, high + column]);
         }
     }
-    // The faces at the poles.
+    // The bottom and top faces.
     let corner = |row: u32, side: u32| row * width + side * (quarter + 1);
     out.quad([0, 1, 2, 3].map(|side| corner(height - 1, side)));
     out.quad([3, 2, 1, 0].map(|side| corner(0, side)));

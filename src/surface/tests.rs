@@ -1,4 +1,4 @@
-//! Triangles against the shapes that they stand for.
+//! Compares triangles with the exact shapes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ fn solids() -> Vec<Shape> {
     ]
 }
 
-/// The triangles of a piece in the frame of the body: places and normals.
+/// The corners of a piece's triangles in body axes: position and normal.
 fn placed(piece: &Piece, detail: Detail) -> Vec<[(DVec3, DVec3); 3]> {
     let triangles = piece.form.triangles(detail);
     assert_eq!(triangles.positions.len(), triangles.normals.len());
@@ -58,18 +58,18 @@ fn whole(shape: &Shape, detail: Detail) -> Vec<[(DVec3, DVec3); 3]> {
     pieces(shape).iter().flat_map(|piece| placed(piece, detail)).collect()
 }
 
-/// The volume that triangles enclose, by the theorem of divergence.
+/// The volume enclosed by triangles, by the divergence theorem.
 fn volume(triangles: &[[(DVec3, DVec3); 3]]) -> f64 {
     triangles.iter().map(|[(a, _), (b, _), (c, _)]| a.dot(b.cross(*c)) / 6.0).sum()
 }
 
-/// How much less of a circle a polygon of so many sides covers, as part of the circle.
+/// The relative difference between the area of a circle and that of an inscribed regular polygon.
 fn loss(sides: u32) -> f64 {
     let angle = std::f64::consts::TAU / f64::from(sides);
     1.0 - libm::sin(angle) / angle
 }
 
-/// Every edge is passed once in either sense, so there is no hole and no triangle is turned over.
+/// Each edge must be passed once in either direction. There are then no holes and no reversed triangles.
 #[test]
 fn closed_forms_are_closed() {
     for shape in solids() {
@@ -98,7 +98,7 @@ fn normals_point_where_triangles_do() {
             for corners in whole(&shape, detail) {
                 let [a, b, c] = corners.map(|(place, _)| place);
                 let face = (b - a).cross(c - a).normalize();
-                // The tetrahedron that is all round has normals far from its faces.
+                // The fully smoothed tetrahedron has vertex normals that differ much from its face normals.
                 let least = if matches!(shape, Shape::Mesh { .. }) { 0.0 } else { 0.9 };
                 assert!(corners.iter().all(|(_, normal)| normal.dot(face) > least), "{shape:?}: {corners:?}");
             }
@@ -106,14 +106,14 @@ fn normals_point_where_triangles_do() {
     }
 }
 
-/// What is cut off is that of polygons in circles: once around the axis, and once along the profile. There, the mean
-/// sagitta of chords of length h is h²/12, of which a circle loses twice as much, and a ball thrice.
+/// The missing volume comes from polygons instead of circles: once around the axis, and once along the profile. For a chord of length h,
+/// the mean distance to its arc is h²/12. A circle loses twice this distance in area, and a ball three times in volume.
 #[test]
 fn volumes_converge_to_those_of_the_shapes() {
     for shape in solids() {
         let exact = shape.volume().unwrap();
         let missing = |detail| 1.0 - volume(&whole(&shape, detail)) / exact;
-        // A ring loses that of its tube, of half as many sides, as well.
+        // A torus also loses the difference at its tube, which has half as many sides.
         let most = |detail: Detail| match shape {
             Shape::Torus { .. } => 1.05 * (loss(detail.sides()) + loss(detail.sides() / 2)),
             _ => 2.55 * loss(detail.sides()),
@@ -129,7 +129,7 @@ fn volumes_converge_to_those_of_the_shapes() {
     }
 }
 
-/// Vertices are on the surface; between them, chords are off it by the sagitta in two directions.
+/// Vertices lie on the surface. Between them, chords are below the surface by the sagitta, in two directions.
 #[test]
 fn extents_are_those_of_the_shapes() {
     let directions = (0..200).map(|i| {
