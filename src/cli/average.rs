@@ -1,4 +1,4 @@
-//! `jabuka average`: images → their mean in linear light.
+//! The command `jabuka average`: computes the mean of several images in linear light.
 
 use std::path::PathBuf;
 
@@ -11,10 +11,10 @@ use super::{Failure, say};
 /// Average images in linear light, as a camera does while its shutter is open
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The images, PNGs of one size
+    /// The images to average: PNG files of the same size
     #[arg(required = true)]
     images: Vec<PathBuf>,
-    /// The PNG to write
+    /// The PNG file to write
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
 }

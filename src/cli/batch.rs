@@ -1,4 +1,4 @@
-//! `jabuka batch`: scene → a folder that a cluster renders.
+//! The command `jabuka batch`: writes a job folder, with scripts of a scene that a cluster renders.
 
 use std::path::{Path, PathBuf};
 
@@ -16,16 +16,16 @@ use super::run_arguments::{self, RunArguments, seen};
 use super::video_arguments::VideoArguments;
 use super::{Failure, say, shell};
 
-/// Write a folder that a cluster renders: scripts, and what sends them to Slurm or a render farm
+/// Write a job folder for a cluster: the scripts of a scene, and files that submit them to Slurm or to a render farm
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file, or a folder that `jabuka compile` has written
     #[arg(value_name = "SCENE|DIR")]
     scene: PathBuf,
-    /// The program that distributes the frames
+    /// The system that distributes the frames in the cluster
     #[arg(long, value_enum)]
     engine: Engine,
-    /// The folder for the job [default: out/<name of the scene file>-job]
+    /// The job folder to write [default: out/<name of the scene file>-job]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -34,41 +34,42 @@ pub(super) struct Arguments {
     picture: PictureArguments,
     #[command(flatten)]
     film: VideoArguments,
-    /// Frames per cluster job [default: 10, or more where there are very many]
+    /// The number of frames per cluster job [default: 10, or more if there are very many frames]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     chunk: Option<u32>,
-    /// The longest that one frame may take, in seconds
+    /// The maximum time for rendering one frame, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
     limit: u64,
-    /// Slurm's partition
+    /// The Slurm partition for the jobs
     #[arg(long, value_name = "NAME", value_parser = parse_word)]
     partition: Option<String>,
-    /// Slurm's account
+    /// The Slurm account for the jobs
     #[arg(long, value_name = "NAME", value_parser = parse_word)]
     account: Option<String>,
-    /// The longest that a chunk may take, as Slurm writes it: 01:30:00
+    /// The maximum time for one cluster job, in Slurm's format: 01:30:00
     #[arg(long, value_parser = parse_word)]
     time: Option<String>,
-    /// The modules to be loaded on a node: "povray/3.7 ffmpeg"
+    /// The environment modules to load on each node: "povray/3.7 ffmpeg"
     #[arg(long, value_parser = parse_words)]
     modules: Option<String>,
-    /// The processors for a chunk [default: 1]
+    /// The number of processors for one cluster job [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     cpus: Option<u32>,
-    /// The memory for a chunk, as Slurm writes it: 2G
+    /// The memory for one cluster job, in Slurm's format: 2G
     #[arg(long, value_parser = parse_word)]
     mem: Option<String>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Engine {
-    /// Slurm: `render.sbatch`, `video.sbatch`, and `submit`, which sends them
+    /// Slurm: writes `render.sbatch`, `video.sbatch`, and the script `submit`, which submits both
     Slurm,
-    /// An Open Job Description, for AWS Deadline Cloud and its kin
+    /// An Open Job Description (OpenJD), for AWS Deadline Cloud and other render farms that read it
     Openjd,
 }
 
-/// Parses one word that becomes the value of an option in a script.
+/// Parses an argument that becomes the value of an option in a generated script. It must be a single word without special characters of
+/// the shell.
 fn parse_word(argument: &str) -> Result<String, String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || ",.:/_+=%@-".contains(c);
     match !argument.is_empty() && argument.chars().all(plain) {
@@ -77,7 +78,7 @@ fn parse_word(argument: &str) -> Result<String, String> {
     }
 }
 
-/// Parses words of a command in a script: words between spaces, none of them an option.
+/// Parses a list of words, separated by spaces, that is inserted into a command of a generated script. None of the words may be an option.
 fn parse_words(argument: &str) -> Result<String, String> {
     let words: Vec<&str> = argument.split(' ').filter(|word| !word.is_empty()).collect();
     if words.is_empty() || words.iter().any(|word| word.starts_with('-')) {
@@ -91,7 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.scene.is_dir() { of_scripts(arguments) } else { of_scene(arguments) }
 }
 
-/// A job from a scene, or one for every view.
+/// Writes a job folder for a scene, or one for each view of the scene if several are requested.
 fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
     let frames = scene.simulation.frames();
@@ -127,7 +128,7 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A job from existing scripts.
+/// Writes a job folder for the existing scripts in a folder.
 fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.of_scene.change_the_scene() {
         let message =
@@ -135,7 +136,7 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     let from = &arguments.scene;
-    // Check first: scripts of a job that cannot be submitted are not written.
+    // The settings are checked before the scripts are copied, so that no job folder is written that could not be submitted.
     let frames = arguments.of_scene.frames.as_ref();
     let settings = batch::settings(from, frames, String::new(), None).map_err(|error| failed(&error))?;
     if settings.frames.is_empty() {
@@ -157,7 +158,8 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Checks that the film, the last step of a job, can be made: from images of this size, at the rate that the scene may give it.
+/// Checks that a film can be made from images of this size (width, height in pixels) and at the frame rate of the scene, if it sets one.
+/// The film is the last step of a job, so errors are reported before the job is written.
 fn check_film(size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
     let film = Film::new("film.mp4");
     let check = film.and_then(|film| film.check_size(size).and(rate.map_or(Ok(()), Film::check_rate)));
@@ -176,8 +178,8 @@ fn folder(arguments: &Arguments, name: &str) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| Path::new("out").join(format!("{name}-job")))
 }
 
-/// Makes a job folder, and prints a summary. `write` puts the scripts into it, and returns the size of their images and whether
-/// they have alpha.
+/// Writes a job folder and returns a summary for the user. `write` puts the scripts into the folder, and returns the size of their images
+/// and true if they have an alpha channel.
 fn make(
     arguments: &Arguments,
     folder: &Path,

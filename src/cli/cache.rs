@@ -1,4 +1,4 @@
-//! `jabuka cache`: the runs that are kept between commands.
+//! The command `jabuka cache`: shows or removes the simulated runs that are kept between commands.
 
 use jabuka::cache::{Cache, Holding};
 use jabuka::diagnostic::{Code, Report, visible_path};
@@ -6,17 +6,18 @@ use jabuka::diagnostic::{Code, Report, visible_path};
 use super::summary::bytes;
 use super::{Failure, say};
 
-/// Say which runs are kept between commands, or remove them
+/// Show which simulated runs are kept between commands, or remove them
 ///
-/// A scene whose bodies move as in an earlier command is not simulated again: its run is kept in JABUKA_CACHE_DIR, or else in
-/// the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept, unless JABUKA_CACHE_ALL is 1. Beyond JABUKA_CACHE_SIZE
-/// megabytes (2000 unless it says otherwise; 0 keeps nothing), the runs that were not used for longest go first.
+/// If the bodies of a scene move as in an earlier command, the scene is not simulated again: the run of that command was kept in
+/// JABUKA_CACHE_DIR, or by default in the folder `jabuka` of XDG_CACHE_HOME or ~/.cache. Runs that take less than 0.2 s are not kept,
+/// unless JABUKA_CACHE_ALL is 1. If the kept runs exceed JABUKA_CACHE_SIZE megabytes (default: 2000; 0 keeps nothing), the least recently
+/// used runs are removed.
 ///
-/// A run with `contacts = "time-stepping"` that takes long is saved every 30 s (or as many as JABUKA_CHECKPOINT_SECONDS says). If it is stopped, the next
-/// command that needs it goes on from there.
+/// A long run with `contacts = "time-stepping"` is saved every 30 s (or every JABUKA_CHECKPOINT_SECONDS). If it is stopped, the next
+/// command that needs the run continues it.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// Remove all that is kept
+    /// Remove all runs that are kept
     #[arg(long)]
     clear: bool,
 }

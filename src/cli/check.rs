@@ -1,4 +1,4 @@
-//! `jabuka check`: finds mistakes in scenes.
+//! The command `jabuka check`: reports errors and warnings in scenes.
 
 use std::path::{Path, PathBuf};
 
@@ -20,10 +20,10 @@ pub(super) struct Arguments {
     /// The scene files
     #[arg(required = true)]
     scene: Vec<PathBuf>,
-    /// How errors and warnings are shown
+    /// The format of the errors and warnings
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Simulate the scenes, too, and say what is noticed of their motion
+    /// Also simulate the scenes, and report warnings about their motion
     #[arg(long)]
     run: bool,
     #[command(flatten)]
@@ -32,9 +32,9 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
-    /// For people, on standard error
+    /// Text for people, on standard error
     Text,
-    /// For editors: a list of objects on standard output
+    /// JSON for editors: a list of objects, on standard output
     Json,
 }
 
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         match arguments.format {
             Format::Text => show(path, &report),
             Format::Json => {
-                // A diagnostic without a place names no file, so the path comes first.
+                // A diagnostic without a position names no file, so each entry also gets the path of the scene.
                 let mut entries = report.to_json();
                 entries.iter_mut().for_each(|entry| entry.set_scene(path.display().to_string()));
                 json.extend(entries.into_iter().filter_map(|entry| serde_json::to_value(entry).ok()));
@@ -62,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
 }
 
-/// The diagnostics of a scene, and of its run if the options ask for it.
+/// Returns the diagnostics of a scene. With a cache, also simulates the scene and adds the warnings of its run.
 fn look_at(path: &Path, options: &Options, cache: Option<&Cache>) -> Report {
     let scene = match Scene::from_path_with(path, options) {
         Ok(scene) => scene,

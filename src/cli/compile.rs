@@ -1,4 +1,4 @@
-//! `jabuka compile`: scene → scripts.
+//! The command `jabuka compile`: writes the POV-Ray scripts of a scene.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -23,7 +23,7 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
     #[command(flatten)]
     of_scene: RunArguments,
-    /// Write nothing: compare the scripts with those in the folder, and fail where they differ
+    /// Write nothing: compare the scripts with those in the folder, and fail if they differ
     #[arg(long)]
     check: bool,
 }
@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     run_arguments::broken_down(run.recorded(), &whole).and(result)
 }
 
-/// Writes the scripts of one camera, and prints a summary.
+/// Writes the scripts for one camera into a folder, and prints a summary.
 fn write(
     run: &Run<'_>,
     path: &Path,
@@ -83,7 +83,7 @@ fn write(
 }
 
 fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progress) -> Result<(), Failure> {
-    /// The largest number of frames that are shown in full.
+    /// The maximum number of differing scripts that are shown in full.
     const SHOWN: usize = 3;
     let differences = output::compare(run, folder, selection, &|| progress.step());
     let differences = differences.map_err(|error| progress.failed(&error))?;

@@ -1,14 +1,14 @@
-//! `jabuka completions`: completion scripts for shells.
+//! The command `jabuka completions`: prints a script with which a shell completes jabuka's commands and options.
 
 use clap::CommandFactory;
 use clap_complete::Shell;
 
 use super::{Failure, say};
 
-/// Print what a shell needs to complete commands of jabuka
+/// Print a script with which a shell completes the commands and options of jabuka
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The shell
+    /// The shell to print the script for
     shell: Shell,
 }
 

@@ -1,4 +1,4 @@
-//! `jabuka explain`: explains the code of an error or a warning.
+//! The command `jabuka explain`: explains the code of an error or a warning.
 
 use jabuka::explain::{Explanation, explanations};
 
@@ -7,7 +7,7 @@ use super::{Failure, say};
 /// Explain the code of an error or a warning, with examples
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The code, as in `error[unknown-key]`; without it, all codes are listed
+    /// The code to explain, such as `unknown-key` in `error[unknown-key]`; without it, all codes are listed
     code: Option<String>,
 }
 

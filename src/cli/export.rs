@@ -1,4 +1,4 @@
-//! `jabuka export`: scene → tables and models for other programs.
+//! The command `jabuka export`: writes the motion of a scene as tables and models for other programs.
 
 use std::fs::{self, OpenOptions};
 use std::io::{self, BufWriter};
@@ -19,7 +19,7 @@ use super::scene_arguments::SceneArguments;
 use super::summary::{bytes as size, two_digits};
 use super::{Failure, say};
 
-/// Write where all bodies are at every frame: as a table (CSV), or as an animated model for Blender, three.js and others
+/// Write the positions of all bodies at every frame: as a table (CSV), or as an animated model for Blender, three.js and other programs
 /// (binary glTF)
 #[derive(clap::Args)]
 #[command(
@@ -32,32 +32,32 @@ pub(super) struct Arguments {
     /// The file to write: FILE.csv or FILE.glb
     #[arg(short, long, value_name = "FILE", required_unless_present = "events")]
     output: Option<PathBuf>,
-    /// Write what the joints do, as a table: their forces and torques, and not where the bodies are
+    /// Write the forces and torques of the joints as a table, instead of the positions of the bodies
     #[arg(long)]
     joints: bool,
-    /// Write where the particles of emitters are, as a table, and not where the bodies are
+    /// Write the positions of all particles as a table, instead of the positions of the bodies
     #[arg(long, conflicts_with_all = ["joints", "events"])]
     particles: bool,
-    /// Write the impacts to FILE.csv, as a table: when and where, between which bodies, impulse and energy lost. `-o FILE.csv` may name the
-    /// file as well
+    /// Write all impacts as a table into FILE.csv: time, place, bodies, impulse and lost energy. The file can also be given by `-o
+    /// FILE.csv`
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
     events: Option<Option<PathBuf>>,
-    /// Take only these frames, as in 0,50,90-100
+    /// Select frames by number, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
     #[command(flatten)]
     of_scene: SceneArguments,
 }
 
-/// The files to read and to write.
+/// The paths of the scene to read and of the file to write.
 struct Files<'a> {
     scene: &'a Path,
     output: &'a Path,
 }
 
 impl Arguments {
-    /// The scene and the file to write. `--events` may take the file or stand before the scene; in the latter case, its value
-    /// is the scene.
+    /// Returns the paths of the scene and of the file to write. The optional value of `--events` is the file to write, or the scene if no
+    /// other argument names the scene.
     fn files(&self) -> Result<Files<'_>, Failure> {
         let named = self.events.as_ref().and_then(Option::as_deref);
         match (self.scene.as_deref(), self.output.as_deref(), named) {
@@ -74,14 +74,14 @@ impl Arguments {
     }
 }
 
-/// The formats of an export.
+/// The file formats of an export: a table (CSV) or a model (binary glTF).
 enum Format {
     Csv,
     Glb,
 }
 
 impl Format {
-    /// The format that belongs to the ending of a file's name.
+    /// Returns the format that belongs to the extension of a file name.
     fn of(path: &Path) -> Result<Format, Failure> {
         let extension = path.extension().unwrap_or_default();
         if extension.eq_ignore_ascii_case("csv") {
@@ -191,7 +191,7 @@ fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<Str
         bodies => format!("{bodies} bodies"),
     };
     let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
-    // A run that is too slow or too fast to watch is shown at a film's frame rate.
+    // The animation of a very slow or very fast run is sped up or slowed down. The summary then gives the factor.
     let shown = match faster {
         1.0 => String::new(),
         _ => format!(" ({} times as fast as in life)", two_digits(faster)),
@@ -218,20 +218,20 @@ fn report(error: ExportError, path: &Path) -> Report {
     }
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file under a temporary name and renames it at the end, so that an error leaves no partial file.
 pub(super) fn whole<T>(
     path: &Path,
     write: impl FnOnce(BufWriter<fs::File>) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-    // A killed run may have left this file.
+    // A run that was killed may have left its temporary file.
     let _ = fs::remove_file(&temporary);
     let done = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(ExportError::from);
     let done = done.and_then(|file| write(BufWriter::new(file)));
     let done = done.and_then(|what| fs::rename(&temporary, path).map(|()| what).map_err(ExportError::from));
     done.inspect_err(|_| {
-        // If the file was never written, there is nothing to remove.
+        // Removing fails harmlessly if the temporary file was never created.
         let _: io::Result<()> = fs::remove_file(&temporary);
     })
 }

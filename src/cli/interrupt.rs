@@ -1,17 +1,18 @@
-//! Ctrl-C: a request to stop, which long tasks check.
+//! Handles Ctrl-C: sets a flag that long tasks check, so that they can stop cleanly.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From now on, Ctrl-C (or a termination signal) sets this flag; a second one ends the process at once.
+/// Installs a handler for Ctrl-C and termination signals, and returns the flag that the first signal sets. A second signal ends the
+/// process at once.
 pub(super) fn watched() -> &'static AtomicBool {
     let handler = || {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
     };
-    // Without a handler, Ctrl-C ends the process as usual, and the next run sweeps up.
+    // If no handler can be installed, Ctrl-C ends the process as usual, and the next run removes its temporary files.
     let _ = ctrlc::set_handler(handler);
     &STOP
 }

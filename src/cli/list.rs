@@ -1,14 +1,14 @@
-//! `jabuka list`: the available integrators, materials, shapes and so on.
+//! The command `jabuka list`: lists the available integrators, materials, shapes and so on.
 
 use jabuka::catalog::CATEGORIES;
 use jabuka::diagnostic::nearest;
 
 use super::{Failure, say};
 
-/// List what there is to choose from in scenes: integrators, shapes, colors, …
+/// List the names that scenes can use: integrators, shapes, colors, …
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The category to list, as in `shapes`; without it, the categories
+    /// The category to list, such as `shapes`; without it, all categories are listed
     category: Option<String>,
 }
 

@@ -1,10 +1,10 @@
-//! `jabuka man`: the manual page.
+//! The command `jabuka man`: prints the manual page.
 
 use clap::CommandFactory;
 
 use super::{Failure, say};
 
-/// Print the page of the manual, in the format of `man`
+/// Print the manual page, in the format of `man`
 #[derive(clap::Args)]
 pub(super) struct Arguments {}
 

@@ -1,4 +1,4 @@
-//! The command line: arguments → library → exit code.
+//! The command line: parses the arguments, calls the library, and returns the exit code.
 
 mod average;
 mod batch;
@@ -43,7 +43,7 @@ use jabuka::diagnostic::visible;
 #[derive(Parser)]
 #[command(version, about, max_term_width = 100)]
 struct Arguments {
-    /// With --version: the versions of POV-Ray and ffmpeg as well, and what the sandbox enforces
+    /// With --version: also print the versions of POV-Ray and ffmpeg, and what the sandbox enforces
     #[arg(short, long)]
     verbose: bool,
     #[command(subcommand)]
@@ -75,17 +75,17 @@ enum Command {
     Sandbox(sandbox::Arguments),
 }
 
-/// How a command ends, other than with success.
+/// The reason why a command did not succeed.
 enum Failure {
-    /// The scene or the run has errors, which have been reported.
+    /// The scene or its run has errors. They have been printed.
     Errors,
-    /// The user has stopped the command, which has been reported.
+    /// The user has stopped the command by Ctrl-C. A message has been printed.
     Interrupted,
-    /// The command was used wrongly; the text explains how.
+    /// The arguments of the command are wrong. The text describes the mistake and has not been printed yet.
     Usage(String),
 }
 
-/// Runs the command of this process.
+/// Parses the arguments of this process, runs the command, and returns the exit code.
 pub(crate) fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -124,7 +124,7 @@ pub(crate) fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Errors) => ExitCode::from(1),
-        // The exit code by which shells show that Ctrl-C has ended a command.
+        // 130 is the exit code by which shells report that Ctrl-C has ended a command.
         Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
             say::error(&format!("error: {}\n\nFor more information, try '--help'.\n", visible(&message)));

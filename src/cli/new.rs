@@ -1,4 +1,4 @@
-//! `jabuka new`: a scene to start from.
+//! The command `jabuka new`: writes a scene to start from.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -8,10 +8,10 @@ use jabuka::starter::write_starter;
 
 use super::{Failure, say};
 
-/// Write a scene to start from, with comments
+/// Write an example scene with comments, to start from
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The scene file, which must not be there yet; `.toml` is added where it is missing
+    /// The scene file to create, which must not exist; `.toml` is added if it is missing
     name: PathBuf,
 }
 

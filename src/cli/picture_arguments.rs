@@ -1,28 +1,28 @@
-//! The arguments for the size and quality of images.
+//! The command-line arguments for the size and quality of images.
 
 use clap::ValueEnum;
 use jabuka::render::{self, Quality};
 use jabuka::scene::Override;
 
-/// How large and how good images are.
+/// The size and quality of the images to render.
 #[derive(clap::Args)]
 pub(super) struct PictureArguments {
     /// The size of the images in pixels, as in 1280x720 [default: that of the scene]
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
     size: Option<[u32; 2]>,
-    /// How good the images are
+    /// The quality of the images
     #[arg(long, value_enum, default_value_t)]
     quality: QualityName,
 }
 
 #[derive(Clone, Copy, Default, ValueEnum)]
 enum QualityName {
-    /// For a look at the motion: no anti-aliasing
+    /// Fast, to judge the motion: no anti-aliasing
     Draft,
-    /// As `povray animation.ini` renders it
+    /// The same quality as `povray animation.ini`
     #[default]
     Good,
-    /// For the film that is kept: finer anti-aliasing
+    /// For the final film: finer anti-aliasing
     Final,
 }
 
@@ -43,18 +43,19 @@ fn parse_size(argument: &str) -> Result<[u32; 2], String> {
 }
 
 impl PictureArguments {
-    /// The change to the scene that gives its camera the shape of these images, if a size is requested.
+    /// Returns the override of `output.size` that gives the scene's camera the requested aspect ratio. Empty if the user requests no size.
     pub(super) fn overrides(&self) -> Vec<Override> {
         let size = |[width, height]: [u32; 2]| Override::new(format!("output.size=[{width}, {height}]"));
         self.size.map(size).into_iter().collect()
     }
 
-    /// The requested size of the images, or else `size`, for which the scripts are made.
+    /// Returns the requested image size, width and height in pixels, or by default `size`, for which the scripts were written.
     pub(super) fn size_or(&self, size: [u32; 2]) -> [u32; 2] {
         self.size.unwrap_or(size)
     }
 
-    /// POV-Ray's options for the images. `size` is the one for which the scripts are made.
+    /// Returns the POV-Ray options for the size, transparency and quality of the images. `size` is the image size for which the scripts
+    /// were written.
     pub(super) fn options(&self, size: [u32; 2], transparent: bool) -> Vec<String> {
         render::options(self.size_or(size), transparent, self.quality.into())
     }

@@ -1,4 +1,4 @@
-//! The arguments for POV-Ray: which one renders, and what it may do.
+//! The command-line arguments for POV-Ray: the program, retries, time limit and further options.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -10,16 +10,16 @@ use jabuka::sandbox::Confinement;
 use super::picture_arguments::PictureArguments;
 use super::say;
 
-/// Which POV-Ray renders, and what it may do.
+/// The POV-Ray program that renders the images, and how it is run.
 #[derive(clap::Args)]
 pub(super) struct PovRayArguments {
-    /// The program POV-Ray [default: povray]
+    /// The path of the POV-Ray program [default: povray]
     #[arg(long, value_name = "PATH")]
     povray: Option<PathBuf>,
-    /// How often a frame is tried again after POV-Ray was killed or hung
+    /// The number of further attempts at a frame after POV-Ray was killed or did not finish
     #[arg(long, value_name = "N", default_value_t = 2)]
     retry: u32,
-    /// How long a frame may take, in seconds [default: far longer than others have taken]
+    /// The time limit for rendering one frame, in seconds [default: far longer than other frames have taken]
     #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: Option<u64>,
     /// Further options for POV-Ray, as in -- +Q4 +AM2
@@ -27,7 +27,7 @@ pub(super) struct PovRayArguments {
     options: Vec<String>,
 }
 
-/// An option of POV-Ray. Records keep all options in one line, so it must not contain line breaks.
+/// Checks an additional option for POV-Ray. It must not contain line breaks, because all options are recorded in one line.
 fn parse_option(argument: &str) -> Result<String, String> {
     if argument.chars().any(is_invisible) {
         return Err("it holds a line break or another character that cannot be seen".to_owned());
@@ -36,12 +36,12 @@ fn parse_option(argument: &str) -> Result<String, String> {
 }
 
 impl PovRayArguments {
-    /// Quickly checks that there is a POV-Ray.
+    /// Checks quickly that the POV-Ray program exists, without starting it.
     pub(super) fn look(&self) -> Result<(), RenderError> {
         PovRay::locate(self.povray.as_deref()).map(drop)
     }
 
-    /// The POV-Ray for a folder of images. Warns if it is less confined than it should be.
+    /// Finds the POV-Ray program to render into a folder of images. Prints a warning if the system cannot confine it fully.
     pub(super) fn find(&self, images: &Images, confinement: Confinement) -> Result<PovRay, RenderError> {
         let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), confinement)?;
         if let Some(warning) = povray.warning() {
@@ -50,7 +50,7 @@ impl PovRayArguments {
         Ok(povray)
     }
 
-    /// The job of rendering these images.
+    /// Returns the job that renders the scripts of a sequence into a folder of images.
     pub(super) fn job<'a>(
         &self,
         sequence: &'a Sequence,

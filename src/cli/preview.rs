@@ -1,4 +1,4 @@
-//! `jabuka preview`: scene → a page in the browser.
+//! The command `jabuka preview`: shows a scene in the browser and updates it when the file changes.
 
 use std::path::PathBuf;
 
@@ -8,27 +8,27 @@ use jabuka::sandbox::Launcher;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, say};
 
-/// Show a scene in the browser while you write it
+/// Show a scene in the browser while you edit it
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file
     scene: PathBuf,
-    /// The port on 127.0.0.1 [default: any that is free]
+    /// The port on 127.0.0.1 for the page [default: any free port]
     #[arg(long, value_name = "N")]
     port: Option<u16>,
-    /// Print the address, and leave the browser alone
+    /// Print the address of the page, and do not open the browser
     #[arg(long)]
     no_open: bool,
     #[command(flatten)]
     of_scene: SceneArguments,
-    /// The program POV-Ray, which renders single frames [default: povray]
+    /// The path of the POV-Ray program, which renders single frames [default: povray]
     #[arg(long, value_name = "PATH")]
     povray: Option<PathBuf>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
-    // The user can fix a scene with mistakes during the preview; a missing file means a mistyped name.
+    // A scene with errors can be corrected during the preview. A missing file probably means a mistyped name, so it is an error.
     if !arguments.scene.is_file() {
         arguments.of_scene.read_with(&arguments.scene, &[])?;
     }
@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::result(&format!("{address}\n"));
         say::error("Ctrl-C ends it.\n");
         if !arguments.no_open {
-            // Without a browser, the user still has the address.
+            // If the browser cannot be opened, the user can still open the printed address.
             if let Err(error) = open::that_detached(address) {
                 say::error(&format!("no browser could be opened: {error}\n"));
             }
@@ -56,6 +56,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         say::error(&format!("error: the page cannot be served{port}: {error}\n"));
         Failure::Errors
     })?;
-    // Only an interrupt ends the preview.
+    // The preview runs until the user interrupts it.
     Err(Failure::Interrupted)
 }

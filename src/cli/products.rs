@@ -1,4 +1,4 @@
-//! Products made from the images: a film, a contact sheet.
+//! The products that `jabuka render` makes from the images: a film and a contact sheet.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,16 +11,16 @@ use jabuka::sandbox::{Confinement, Launcher};
 use super::progress::Progress;
 use super::{Failure, render, say};
 
-/// The products to make from the images.
+/// The film and the contact sheet to make from rendered images, if they are requested.
 pub(super) struct Products {
     film: Option<(Film, Ffmpeg)>,
-    /// The frame rate of the film, if it is given.
+    /// The frame rate of the film, 1/s, if the command line gives it.
     rate: Option<f64>,
     sheet: Option<ContactSheet>,
 }
 
 impl Products {
-    /// Reads the products from the arguments. Reports a missing program now, not after the last frame.
+    /// Reads the requested products from the arguments. Reports a missing ffmpeg at once, before any frame is rendered.
     pub(super) fn of(arguments: &render::Arguments) -> Result<Products, Failure> {
         if arguments.video.is_none() && arguments.film.are_given() {
             let message = "`--video-rate` and `--video-quality` are of a film: name it with `--video FILE`";
@@ -39,15 +39,15 @@ impl Products {
         Ok(Products { film: film.transpose()?, rate: arguments.film.video_rate, sheet })
     }
 
-    /// Checks that the products replace no protected file.
+    /// Returns an error if the film or the contact sheet would replace a file in `kept`.
     pub(super) fn replace_nothing_of(&self, kept: &Kept) -> Result<(), CannotOverwrite> {
         let film = self.film.iter().map(|(film, _)| film.path());
         let mut paths = film.chain(self.sheet.iter().map(ContactSheet::path));
         paths.try_for_each(|path| kept.check(path))
     }
 
-    /// Checks that the products can be made from images of this size; the scene may set the frame rate of the film. Problems
-    /// are reported now, not after the last frame.
+    /// Checks, before any frame is rendered, that the products can be made from images of this size. `rate` is the film's frame rate that
+    /// the scene gives, if any.
     pub(super) fn check(&self, size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
         let check = || {
             if let Some((film, _)) = &self.film {
@@ -60,12 +60,13 @@ impl Products {
         check().map_err(|error| failed(&error))
     }
 
-    /// Whether any product is requested.
+    /// Returns true if a film or a contact sheet is requested.
     pub(super) fn are_wanted(&self) -> bool {
         self.film.is_some() || self.sheet.is_some()
     }
 
-    /// Makes the products from the images of a sequence. The sequence may hold only every n-th frame.
+    /// Makes the film and the contact sheet from the images of a sequence, of which only every n-th frame may have been rendered (`every`
+    /// is n).
     #[allow(clippy::cast_precision_loss, reason = "numbers of frames are small")]
     pub(super) fn make(
         &self,
@@ -87,7 +88,8 @@ impl Products {
         }
         if let Some((film, ffmpeg)) = &self.film {
             let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
-            // A coarse film, of every n-th frame, lasts as long as the whole one, unless its rate is given.
+            // If only every n-th frame is rendered, the frame rate is divided by n, so that the film keeps its duration. A rate from the
+            // command line is used as it is.
             let rate = self.rate.or(sequence.video_rate.map(|rate| rate / every as f64));
             let pace = film.pace(sequence.frame_rate / every as f64, rate);
             let progress = Progress::new(frames.len());
@@ -112,7 +114,7 @@ fn failed(error: &FilmError) -> Failure {
     Failure::Errors
 }
 
-/// An invalid name for a film or sheet is a wrong use of the command.
+/// Converts an invalid file name of a film or contact sheet into an error of usage.
 fn misnamed(error: &FilmError) -> Failure {
     Failure::Usage(match error.help() {
         Some(help) => format!("{error}: {help}"),

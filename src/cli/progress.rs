@@ -1,4 +1,4 @@
-//! A progress bar for long tasks.
+//! A progress bar on the terminal for long tasks.
 
 use std::borrow::Cow;
 use std::io::IsTerminal;
@@ -13,15 +13,15 @@ use jabuka::simulate::Labour;
 
 use super::{Failure, say};
 
-/// Work that takes longer than this gets a bar.
+/// The duration of a task after which the bar is shown.
 const LATE: Duration = Duration::from_secs(1);
-/// How often the bar polls the progress of a step.
+/// The interval between two updates of the bar.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// A bar on standard error for tasks of more than a second; without a terminal, there is no bar.
+/// A progress bar on standard error, shown for tasks that take more than a second. If standard error is no terminal, nothing is shown.
 ///
-/// A step of a run may take minutes, so the bar also moves within a step, by the share of pair interactions that have been
-/// computed.
+/// One step (one frame) of a simulation may take minutes, so the bar also moves within a step: in proportion to the interactions between
+/// pairs of bodies that have been computed.
 pub(super) struct Progress(Arc<Shared>);
 
 struct Shared {
@@ -32,26 +32,26 @@ struct Shared {
     steps: Mutex<Steps>,
 }
 
-/// The progress of the steps.
+/// The progress of the task in steps.
 #[derive(Default)]
 struct Steps {
     /// The number of finished steps.
     done: usize,
-    /// How far the finished steps have moved the bar.
+    /// The position of the bar at the end of the last finished step.
     position: u64,
-    /// The number of interactions at the end of the last step.
+    /// The number of interactions computed up to the end of the last finished step.
     before: u64,
-    /// Whether the bar is on the terminal, or never will be.
+    /// True if the bar is already shown, or if it can never be shown because standard error is no terminal.
     shown: bool,
 }
 
 impl Progress {
-    /// A bar with this many steps, not yet shown.
+    /// Makes a bar for a task with this many steps. The bar is hidden at first.
     pub(super) fn new(steps: usize) -> Progress {
         Progress::with(steps as u64, Labour::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
-    /// A bar for the simulation of a run, followed by this many scripts.
+    /// Makes a bar for the simulation of a scene and the writing of this many scripts after it.
     pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
         let labour = Labour::of(scene);
         let steps = scene.simulation.frames() + scripts;
@@ -59,13 +59,13 @@ impl Progress {
         Progress::with(length, labour, "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
-    /// A bar for rendering this many frames.
+    /// Makes a bar for rendering this many frames.
     pub(super) fn of_frames(frames: usize) -> Progress {
         let template = "rendering    {wide_bar} {pos} of {len}  {per_sec}  {left}  {msg}";
         Progress::with(frames as u64, Labour::default(), template)
     }
 
-    /// A bar for a task of unknown length: it shows the time so far.
+    /// Makes a spinner for a task of unknown length. It shows the elapsed time.
     pub(super) fn waiting(what: &'static str) -> Progress {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template("{msg:12} {spinner} {elapsed}") {
@@ -94,22 +94,22 @@ impl Progress {
         Progress(shared)
     }
 
-    /// The counter of pair interactions, for the run whose progress the bar shows.
+    /// Returns the counter of computed interactions. The simulation increments it, and the bar shows its progress.
     pub(super) fn effort(&self) -> &Effort {
         &self.0.effort
     }
 
-    /// Shows the current phase.
+    /// Shows the name of the current phase beside the bar.
     pub(super) fn phase(&self, what: impl Into<Cow<'static, str>>) {
         self.0.bar.set_message(what);
     }
 
-    /// Prints a message above the bar.
+    /// Calls `say` to print a message above the bar, which is hidden meanwhile.
     pub(super) fn above(&self, say: impl FnOnce()) {
         self.0.bar.suspend(say);
     }
 
-    /// Counts one finished step.
+    /// Counts one more finished step and moves the bar.
     pub(super) fn step(&self) {
         let shared = &self.0;
         let mut steps = shared.steps.lock().unwrap_or_else(PoisonError::into_inner);
@@ -119,12 +119,12 @@ impl Progress {
         shared.show(&mut steps);
     }
 
-    /// Removes the bar at the end.
+    /// Removes the bar from the terminal at the end of the task.
     pub(super) fn finish(&self) {
         self.0.bar.finish_and_clear();
     }
 
-    /// Records a failure: removes the bar, and reports the reason.
+    /// Removes the bar and prints the error of a failed task.
     pub(super) fn failed(&self, error: &OutputError) -> Failure {
         self.finish();
         say::report(&error.report());
@@ -133,9 +133,9 @@ impl Progress {
 }
 
 impl Shared {
-    /// Moves the bar to the current progress.
+    /// Moves the bar to the current progress. Shows it if the task has taken long enough.
     fn show(&self, steps: &mut Steps) {
-        // A step is finished only when it reports so, however much has been computed for it.
+        // Within a step, the bar stops one unit before the step's end. Only [`Progress::step`] completes a step.
         let most = weight(self.labour, steps.done).saturating_sub(1);
         let within = self.effort.done().saturating_sub(steps.before).min(most);
         self.bar.set_position(steps.position.saturating_add(within));
@@ -146,12 +146,12 @@ impl Shared {
     }
 }
 
-/// How far a step moves the bar: the number of interactions in its frame, or 1 if there are none.
+/// Returns the length of a step on the bar: the expected number of interactions between bodies in its frame, or 1 if the scene has none.
 fn weight(labour: Labour, step: usize) -> u64 {
     if labour.is_empty() { 1 } else { labour.of_step(step).max(1) }
 }
 
-/// Polls the progress of a bar at intervals, until the bar is finished.
+/// Updates a bar at regular intervals, until it is finished or dropped.
 fn look(bar: &Weak<Shared>) {
     while let Some(shared) = bar.upgrade().filter(|shared| !shared.bar.is_finished()) {
         shared.show(&mut shared.steps.lock().unwrap_or_else(PoisonError::into_inner));
@@ -161,9 +161,9 @@ fn look(bar: &Weak<Shared>) {
     }
 }
 
-/// The remaining time. It is unknown until something is done.
+/// Writes the estimated remaining time. It is unknown until the bar has moved.
 fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
-    // If the bar cannot be written to, it is not shown.
+    // A write error only means that the bar is not shown.
     let _ = match state.pos() {
         0 => write!(out, "time left unknown"),
         _ => write!(out, "{:#} left", HumanDuration(state.eta())),

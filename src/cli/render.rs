@@ -1,4 +1,4 @@
-//! `jabuka render`: scene → scripts → images → film.
+//! The command `jabuka render`: writes the scripts of a scene, renders them, and makes a film of the images.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -27,29 +27,29 @@ pub(super) struct Arguments {
     /// The scene file, or a folder that `jabuka compile` has written
     #[arg(value_name = "SCENE|DIR")]
     source: PathBuf,
-    /// The folder for the images [default: the folder `images` beside the scripts]
+    /// The folder for the images [default: the folder `images` within the folder of the scripts]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
     picture: PictureArguments,
-    /// The number of POV-Rays at once [default: as many as keep the processors busy]
+    /// The number of POV-Ray processes at the same time [default: as many as keep all processors busy]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Render only every N-th frame
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     every: Option<u32>,
-    /// Make a film of the images: FILE.mp4, FILE.webm or FILE.gif
+    /// Make a film from the images: FILE.mp4, FILE.webm or FILE.gif
     #[arg(long, value_name = "FILE")]
     pub(super) video: Option<PathBuf>,
-    /// Make one picture of evenly spaced frames with their times
+    /// Make a contact sheet: one image that shows evenly spaced frames with their times
     #[arg(long, value_name = "FILE.png")]
     pub(super) contact_sheet: Option<PathBuf>,
     #[command(flatten)]
     pub(super) film: VideoArguments,
-    /// Go on even where the first frames all fail
+    /// Continue even if all of the first frames fail
     #[arg(long)]
     keep_going: bool,
-    /// Read the images that are up to date, and render again those that have changed since they were rendered
+    /// Also check the content of existing images, and render those again that have changed since they were rendered
     #[arg(long)]
     verify: bool,
     #[command(flatten)]
@@ -63,7 +63,7 @@ impl Arguments {
         self.every.unwrap_or(1) as usize
     }
 
-    /// The folder for the images of a folder of scripts.
+    /// Returns the folder for the images of the scripts in the folder `scripts`.
     fn images(&self, scripts: &Path) -> PathBuf {
         self.output.clone().unwrap_or_else(|| scripts.join("images"))
     }
@@ -71,7 +71,7 @@ impl Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
-    // Missing programs are reported before any work begins.
+    // Missing programs are reported before the simulation begins.
     arguments.povray.look().map_err(|error| failed(&error))?;
     let products = Products::of(arguments)?;
     if arguments.source.is_dir() {
@@ -95,7 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folders = write_scripts(&scene, &arguments.scene.cache()?, &selection, &cameras)?;
-    // The folders stay locked until the images are finished, so that no other process changes scripts during rendering.
+    // The folders stay locked until all images are finished, so that no other process changes the scripts during rendering.
     let mut result = Ok(());
     for (folder, drift) in &folders {
         match render_scripts(arguments, &products, folder.path(), Some(&selection), drift, stop) {
@@ -106,8 +106,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     result
 }
 
-/// Writes the scripts of some cameras, if they do not exist yet, and prints the warnings of the run. Returns the folders, and
-/// the accuracy of the run.
+/// Writes the scripts for each camera into its folder, unless the folder already has them, and prints the warnings of the run. Returns
+/// each folder, locked, with the line of the summary that gives the energy error.
 fn write_scripts(
     scene: &Scene,
     cache: &Cache,
@@ -147,7 +147,7 @@ fn write_scripts(
     Ok(folders)
 }
 
-/// Renders the existing scripts in a folder.
+/// Renders the scripts that already exist in a folder.
 fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) -> Result<(), Failure> {
     if arguments.scene.change_the_scene() {
         let message = "`--set`, `--templates` and `--view` are for scenes; the scripts of a folder are rendered as they are";
@@ -162,7 +162,7 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
             say::report(&error.report());
             return Err(Failure::Errors);
         }
-        // Scripts that belong to somebody else, or that nobody can change, need no lock.
+        // A folder that this user may not write to, such as another user's, cannot be locked. Its scripts are rendered without a lock.
         Err(_) => None,
     };
     let selection = match (&arguments.scene.frames, arguments.every) {
@@ -174,7 +174,8 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
     render_scripts(arguments, products, &arguments.source, selection.as_ref(), "", stop)
 }
 
-/// Renders the selected scripts of a folder. Further known facts about them go into the summary.
+/// Renders the selected scripts of a folder, then makes the film and contact sheet. `known` is text about the run that is added to the
+/// summary.
 fn render_scripts(
     arguments: &Arguments,
     products: &Products,
@@ -214,9 +215,9 @@ fn render_scripts(
     products.make(&sequence, &images, arguments.every(), stop)
 }
 
-/// Renders, and shows the progress.
+/// Runs a rendering job, and shows its progress and failures.
 pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
-    /// The largest number of failures that are shown in full.
+    /// The maximum number of failed frames whose errors are shown in full.
     const SHOWN: usize = 3;
     let mut progress = None;
     let mut failures = 0;
@@ -255,13 +256,13 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
     Ok(outcome)
 }
 
-/// Reports why rendering stopped.
+/// Prints the error that stopped the rendering.
 pub(super) fn failed(error: &RenderError) -> Failure {
     say::report(&error.report());
     Failure::Errors
 }
 
-/// A summary of the products in a few lines.
+/// Summarizes the rendered images in a few lines. `known` is text about the run that is included.
 fn summed_up(images: &Images, sequence: &Sequence, known: &str, outcome: &Outcome, took: Duration) -> String {
     let frames = sequence.scripts().len();
     let there = frames - outcome.failed.len();

@@ -1,4 +1,4 @@
-//! `jabuka report`: how accurate is the run of a scene?
+//! The command `jabuka report`: measures the accuracy of the simulation of a scene.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,22 +18,23 @@ use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, say};
 
-/// Find out how right the run of a scene is, and which method and step reach a wanted accuracy
+/// Measure the accuracy of a simulation, and find the method and step for a wanted accuracy
 ///
-/// The run is compared with itself at half and at a quarter of its step, and with a twin that begins a hair elsewhere. Then other
-/// methods and steps are tried. This takes about ten times as long as the run, or two seconds. Nothing is written but the plot.
+/// The simulation is compared with others at half and at a quarter of its step, and with one that starts from slightly different
+/// positions. Then other methods and steps are tried. This takes about ten times as long as the simulation, or two seconds. No file is
+/// written except the plot.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file
     scene: PathBuf,
-    /// The accuracy that is wanted: how far any point of a body may be from where it should be, as a part of the size of the scene.
-    /// 0.001 is about a pixel
+    /// The wanted accuracy: the maximum position error of any point of a body, as a fraction of the size of the scene. 0.001 is about a
+    /// pixel
     #[arg(long, value_name = "PART", default_value_t = ACCURACY, value_parser = parse_accuracy)]
     accuracy: f64,
-    /// Draw the drift of the energy, the error and the distance of neighbours over time: FILE.svg or FILE.png
+    /// Plot the energy drift, the error, and the distance between neighboring runs over time: FILE.svg or FILE.png
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// How it is shown
+    /// The format of the report
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
@@ -42,13 +43,13 @@ pub(super) struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people
+    /// Text for people
     Text,
-    /// For programs: an object
+    /// JSON for programs: one object
     Json,
 }
 
-/// The formats of a plot.
+/// The file formats of a plot.
 #[derive(Clone, Copy)]
 enum Plot {
     Svg,
@@ -56,7 +57,7 @@ enum Plot {
 }
 
 impl Plot {
-    /// The format that belongs to the ending of a file's name.
+    /// Returns the format that belongs to the extension of a plot's file name.
     fn of(path: &Path) -> Result<Plot, Failure> {
         let extension = path.extension().unwrap_or_default();
         if extension.eq_ignore_ascii_case("svg") {
@@ -78,7 +79,7 @@ fn parse_accuracy(argument: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    /// The length of the bar in each of the two phases.
+    /// The length of the progress bar for each of the two phases of the report.
     const STEPS: usize = 500;
     let stop = interrupt::watched();
     let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;
@@ -124,7 +125,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Writes the plot, and reports it if the output is for people.
+/// Writes the plot to a file. Prints the file's path if the report is in text format.
 fn draw(
     assessment: &Assessment,
     scene: &Scene,

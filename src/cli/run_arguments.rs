@@ -1,4 +1,4 @@
-//! The arguments that change a scene and select part of its run, shared by `compile` and similar commands.
+//! The command-line arguments that change a scene and select frames and cameras, shared by `compile`, `render` and `batch`.
 
 use std::path::{Path, PathBuf};
 
@@ -13,51 +13,52 @@ use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, say};
 
-/// Arguments that change a scene, and select frames and cameras.
+/// Command-line arguments that change a scene, and select frames and cameras of its run.
 #[derive(clap::Args)]
 pub(super) struct RunArguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// Take only these frames, as in 0,50,90-100
+    /// Select frames by number, as in 0,50,90-100
     #[arg(long, value_name = "LIST", allow_negative_numbers = true)]
     pub(super) frames: Option<Selection>,
-    /// Take this view instead of the main camera, or `all` cameras; may be repeated
+    /// Use this view instead of the main camera, or `all` cameras; may be repeated
     #[arg(long, value_name = "NAME")]
     view: Vec<String>,
 }
 
 impl RunArguments {
-    /// Reads the scene, and prints its errors and warnings.
+    /// Reads and checks the scene, and prints its errors and warnings.
     pub(super) fn read(&self, path: &Path) -> Result<Scene, Failure> {
         self.read_with(path, &[])
     }
 
-    /// Reads the scene with further values replaced.
+    /// Reads and checks the scene after replacing further values by `overrides`. Prints its errors and warnings.
     pub(super) fn read_with(&self, path: &Path, overrides: &[Override]) -> Result<Scene, Failure> {
         self.scene.read_with(path, overrides)
     }
 
-    /// Whether an argument applies only to a scene, and not to a folder of scripts.
+    /// Returns true if the arguments change the scene or select a view. Neither is possible for a folder of existing scripts.
     pub(super) fn change_the_scene(&self) -> bool {
         self.scene.change_the_scene() || !self.view.is_empty()
     }
 
-    /// The cache that keeps runs between commands.
+    /// Returns the cache that keeps simulated runs between commands.
     pub(super) fn cache(&self) -> Result<Cache, Failure> {
         self.scene.cache()
     }
 
-    /// Whether the scene is trusted.
+    /// Returns true if the user trusts the scene (`--trust`), so that its SDL may access files.
     pub(super) fn trust(&self) -> bool {
         self.scene.trust()
     }
 
-    /// POV-Ray's rights for the scene. `None` means scripts without a scene. `folders` are those of the results.
+    /// Returns the access rights of POV-Ray. `scene` is the path of the scene, or `None` for existing scripts. `folders` are the folders
+    /// that receive results.
     pub(super) fn confinement(&self, scene: Option<&Path>, folders: &[&Path]) -> Confinement {
         self.scene.confinement(scene, folders)
     }
 
-    /// The selected frames out of this many.
+    /// Returns the selected frames of a scene with `frames` frames. It is an error to select a frame that does not exist.
     pub(super) fn selection(&self, frames: usize) -> Result<Selection, Failure> {
         let Some(selection) = &self.frames else { return Ok(Selection::first(frames)) };
         match selection.last() {
@@ -70,8 +71,8 @@ impl RunArguments {
         }
     }
 
-    /// The requested cameras, each with its folder: the given one, or one beside it. `None` is the main camera; `chosen` tells
-    /// whether the user gave the folder.
+    /// Returns the requested cameras, each with its folder. `None` is the main camera, which gets `folder`; a view gets a folder named
+    /// after it, beside `folder`. `chosen` is true if the user gave the folder.
     pub(super) fn cameras<'a>(
         &self,
         folder: &Path,
@@ -90,7 +91,7 @@ impl RunArguments {
             let others = scene.views.iter().map(|view| (Some(view), beside(&view.name)));
             return Ok(std::iter::once((None, folder.to_owned())).chain(others).collect());
         }
-        // With a single view, the given folder is that of the view.
+        // If the user gives a folder and a single view, the view gets that very folder.
         let alone = self.view.len() == 1 && chosen;
         let find = |name: &String| {
             let folder = if alone { folder.to_owned() } else { beside(name) };
@@ -100,7 +101,7 @@ impl RunArguments {
     }
 }
 
-/// The view with this name.
+/// Returns the view of the scene with this name. An unknown name is an error of usage.
 pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure> {
     scene.views.iter().find(|view| view.name == name).ok_or_else(|| {
         let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
@@ -109,7 +110,7 @@ pub(super) fn view<'a>(scene: &'a Scene, name: &str) -> Result<&'a View, Failure
     })
 }
 
-/// Simulates a scene once, with a step of the progress for every frame, or takes its run from the cache.
+/// Simulates a scene, or takes its run from the cache. Advances the progress bar by a step for each frame.
 pub(super) fn simulated<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -122,7 +123,7 @@ pub(super) fn simulated<'a>(
     Ok(recorded)
 }
 
-/// Like [`simulated`], but if the run breaks down, it gives the frames before.
+/// Simulates a scene as [`simulated`] does. If the simulation breaks down, the result holds the frames before the breakdown.
 pub(super) fn simulated_to_breakdown<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -135,14 +136,14 @@ pub(super) fn simulated_to_breakdown<'a>(
     Ok(recorded)
 }
 
-/// Reports the time from which a stopped run went on.
+/// If the simulation continued a run that had been stopped, prints the time from which it continued.
 fn say_resumed(recorded: &Recorded<'_>, progress: &Progress) {
     if let Some(time) = recorded.resumed() {
         progress.above(|| say::error(&format!("the run had been stopped; it went on from t = {time} s\n")));
     }
 }
 
-/// The selected frames that can be drawn: a run may have broken down.
+/// Returns the selected frames that were simulated: all of them, or only those before a breakdown of the simulation.
 pub(super) fn whole(recorded: &Recorded<'_>, selection: &Selection) -> Selection {
     match recorded.breakdown() {
         Some(_) => (0..recorded.whole_frames()).filter(|&frame| selection.contains(frame)).collect(),
@@ -150,7 +151,7 @@ pub(super) fn whole(recorded: &Recorded<'_>, selection: &Selection) -> Selection
     }
 }
 
-/// Reports why a run broke down, if it did, and how many of the selected frames are kept.
+/// If the simulation broke down, prints the reason and the number of selected frames before the breakdown, and returns an error.
 pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Result<(), Failure> {
     let Some(breakdown) = recorded.breakdown() else { return Ok(()) };
     let kept = match selection.count_within(recorded.whole_frames()) {
@@ -164,7 +165,7 @@ pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Res
     Err(Failure::Errors)
 }
 
-/// Like [`run`], but if the run breaks down, it gives the frames before.
+/// Simulates a scene as [`run`] does. If the simulation breaks down, the result holds the frames before the breakdown.
 pub(super) fn run_to_breakdown<'a>(
     scene: &'a Scene,
     cache: &Cache,
@@ -175,14 +176,14 @@ pub(super) fn run_to_breakdown<'a>(
     run.map_err(|error| progress.failed(&error))
 }
 
-/// The run of a scene through its main camera.
+/// Simulates a scene, and prepares the scripts for its main camera.
 pub(super) fn run<'a>(scene: &'a Scene, cache: &Cache, progress: &Progress) -> Result<Run<'a>, Failure> {
     let recorded = simulated(scene, cache, Moments::of(scene), progress);
     let run = recorded.and_then(|recorded| Ok(Run::of(recorded)?));
     run.map_err(|error| progress.failed(&error))
 }
 
-/// The run through a camera; `None` is the main one, with which it was made.
+/// Returns the run as seen by a view of the scene. Returns `None` if `view` is `None`: the given run already uses the main camera.
 pub(super) fn seen<'a>(
     run: &Run<'a>,
     view: Option<&View>,

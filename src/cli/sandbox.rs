@@ -1,4 +1,4 @@
-//! `jabuka sandbox`: starts a program with access to the named files only.
+//! The command `jabuka sandbox`: starts a program that may access only the named files.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -8,30 +8,30 @@ use jabuka::sandbox::{self, Launch};
 
 use super::say;
 
-/// Start a program that may read and write only what is named, as far as the system enforces it
+/// Start a program that may read and write only the named files and folders, as far as the system can enforce it
 ///
-/// jabuka and the scripts of cluster jobs start POV-Ray and ffmpeg by it. Every program may also read the folders of the
-/// system. It ends when the process that started it ends. Without a program, it says what the system enforces.
+/// jabuka and the scripts of cluster jobs use this command to start POV-Ray and ffmpeg. The program may also read the folders of the
+/// system. It ends when the process that started it ends. If no program is given, the command prints what the system can enforce.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A path that the program may read and run: a file, or a folder with its contents; may be repeated
+    /// A path that the program may read and execute: a file, or a folder with its contents; may be repeated
     #[arg(long, value_name = "PATH")]
     read: Vec<PathBuf>,
-    /// A path that the program may read and write; temporary files go to the first folder; may be repeated
+    /// A path that the program may read and write; the first folder also receives temporary files; may be repeated
     #[arg(long, value_name = "PATH")]
     write: Vec<PathBuf>,
-    /// The process that must be its parent
+    /// The process that must be the parent of this one
     #[arg(long, value_name = "PID")]
     parent: Option<i32>,
-    /// How far it lets other processes go first
+    /// The increase of the program's nice value, which lowers its priority
     #[arg(long, value_name = "N")]
     nice: Option<i32>,
-    /// The program and its arguments
+    /// The program to start, with its arguments
     #[arg(last = true, value_name = "PROGRAM")]
     program: Vec<OsString>,
 }
 
-/// Returns only if no program replaced this process.
+/// Replaces this process by the confined program. Returns only if no program is given or it cannot be started.
 pub(super) fn run(arguments: Arguments) -> ExitCode {
     let mut words = arguments.program.into_iter();
     let Some(program) = words.next() else {

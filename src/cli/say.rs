@@ -1,9 +1,9 @@
-//! Output to people: results to standard output, the rest to standard error.
+//! Prints to the terminal: results to standard output, messages to standard error.
 //!
-//! All terminal output passes through this module, and no text in it can send commands to the terminal. If a line break in a name
-//! could start a new line, the caller makes the name visible first.
+//! All terminal output passes through this module, so no text in it can send control commands to the terminal. If a line break in a name
+//! could start a new line, the caller escapes the name first.
 //!
-//! A closed reader (`jabuka … | head`) is no error, so failed writes are ignored.
+//! Failed writes are ignored, because a reader may close the pipe early (`jabuka … | head`).
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -16,14 +16,14 @@ use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 
-/// Prints a result.
+/// Prints a result to standard output.
 pub(super) fn result(text: &str) {
     write(std::io::stdout().lock(), &visible_lines(text));
 }
 
-/// Prints a result as JSON, which escapes invisible characters itself.
+/// Prints a result in JSON to standard output. Invisible characters are escaped as in JSON.
 pub(super) fn json(text: &str) {
-    // Such characters occur only in strings; the serializer has escaped those below U+0020.
+    // Invisible characters occur only in JSON strings. The serializer has already escaped those below U+0020.
     let escape = |c: char| match c {
         c if is_invisible(c) && c != '\n' => {
             c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")).collect()
@@ -33,13 +33,13 @@ pub(super) fn json(text: &str) {
     write(std::io::stdout().lock(), &text.chars().map(escape).collect::<String>());
 }
 
-/// On a terminal, prints a result in place of this many lines above it.
+/// Prints a result to the terminal, and replaces the given number of lines above it.
 pub(super) fn in_place_of(lines: usize, text: &str) {
     let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
     write(std::io::stdout().lock(), &(up + &visible_lines(text)));
 }
 
-/// Prints a message that is not a result.
+/// Prints a message to standard error.
 pub(super) fn error(text: &str) {
     write(std::io::stderr().lock(), &visible_lines(text));
 }
@@ -48,13 +48,13 @@ fn write(mut stream: impl Write, text: &str) {
     let _ = stream.write_all(text.as_bytes());
 }
 
-/// Prints errors and warnings, with colors where the output supports them.
+/// Prints errors and warnings to standard error, in colors if it is a terminal and `NO_COLOR` is not set.
 pub(super) fn report(report: &Report) {
     let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     write(std::io::stderr().lock(), &report.to_text(color));
 }
 
-/// Reports a protected file.
+/// Prints the error of a check that found a protected file, and converts it to a [`Failure`].
 pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
     checked.map_err(|error| {
         report(&error.report());
@@ -62,26 +62,26 @@ pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failur
     })
 }
 
-/// Reports which edited files of a folder were set aside, even if the command failed after that.
+/// Prints which files of a folder were moved aside because the user had edited them. Called even if the command failed later.
 pub(super) fn edits(folder: &Folder) {
     report(&Report { diagnostics: folder.edits().into_iter().collect(), ..Report::default() });
 }
 
-/// Prints a list of items in two columns: names and descriptions.
+/// Prints a list in two columns: names and descriptions.
 pub(super) fn rows(rows: &[(&str, &str)]) {
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let text: String = rows.iter().map(|(name, what)| format!("{name:width$}  {what}\n")).collect();
     result(&text);
 }
 
-/// Reports an unknown name, with a suggestion.
+/// Prints the error for an unknown name. `near` is a similar name to suggest, if any.
 pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
     let meant = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     error(&format!("error: there is no {noun} `{}`{meant}\n", visible(name)));
     Failure::Errors
 }
 
-/// Prints the error in the arguments, or the requested help.
+/// Prints the error in the command-line arguments, or the help that the user requested, and returns the exit code.
 pub(super) fn misused(error: &clap::Error) -> ExitCode {
     let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
@@ -89,7 +89,7 @@ pub(super) fn misused(error: &clap::Error) -> ExitCode {
         self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
         return ExitCode::from(2);
     }
-    // The message repeats arguments, which may be names of files.
+    // The message of clap repeats arguments, which may contain control characters.
     let text = error.render().to_string();
     match visible_lines(&text) == text {
         true => drop(error.print()),

@@ -1,4 +1,4 @@
-//! `jabuka schema`: the JSON Schema of scenes, for editors.
+//! The command `jabuka schema`: prints the JSON Schema of scenes, for editors.
 
 use jabuka::scene::grammar;
 

@@ -1,10 +1,10 @@
-//! Quotes words of commands that people may copy into a shell.
+//! Quotes words of commands that users may copy into a shell.
 
 use std::path::Path;
 
 use jabuka::diagnostic::is_invisible;
 
-/// A path as one word of a command for bash or zsh. A shell never takes it for an option, and its invisible characters are
+/// Quotes a path as one word of a command for bash or zsh. The shell never reads the word as an option, and invisible characters are
 /// escaped.
 pub(super) fn path(path: &Path) -> String {
     let bytes = path.as_os_str().as_encoded_bytes();
@@ -19,12 +19,12 @@ pub(super) fn path(path: &Path) -> String {
     }
 }
 
-/// A text as one word of a command for bash or zsh.
+/// Quotes a text as one word of a command for bash or zsh.
 pub(super) fn word(text: &str) -> String {
     path(Path::new(text))
 }
 
-/// A piece of a word between `$'` and `'`.
+/// Escapes a part of a word that is enclosed in `$'` and `'`. Bytes that are not UTF-8 become octal escapes.
 fn ansi_c(chunk: &std::str::Utf8Chunk<'_>) -> String {
     let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
     let character = |c: char| match c {

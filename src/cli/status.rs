@@ -1,4 +1,4 @@
-//! `jabuka status`: the state of the images.
+//! The command `jabuka status`: shows how many images of a folder are rendered.
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -13,34 +13,34 @@ use super::{Failure, say};
 
 /// Show which images are done, running, failed or missing
 ///
-/// It reads the images, and asks no cluster. The exit code is 0 if all images are there, and 1 otherwise.
+/// The command reads the folder of images, and does not contact the cluster. The exit code is 0 if all images are done, and 1 otherwise.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// A folder that `jabuka batch` has written, or one with scripts and images
+    /// A folder written by `jabuka batch`, or a folder with scripts and images
     folder: PathBuf,
-    /// Show it again and again, until all images are there
+    /// Repeat until all images are done
     #[arg(long)]
     watch: bool,
-    /// Read the images, too, and name those that have changed since they were rendered
+    /// Also check the content of the images, and list those that have changed since they were rendered
     #[arg(long, conflicts_with = "watch")]
     verify: bool,
-    /// How it is shown
+    /// The format of the status
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people
+    /// Text for people
     Text,
-    /// For programs: an object; with --watch, one a line
+    /// JSON for programs: an object; with --watch, one object per line
     Json,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    /// The interval between two polls.
+    /// The interval at which `--watch` reads the status again.
     const PAUSE: Duration = Duration::from_secs(2);
-    // On a terminal, the new status replaces the old one.
+    // On a terminal, each new status replaces the previous one.
     let redraw = std::io::stdout().is_terminal() && arguments.format == Format::Text;
     let mut shown = String::new();
     let read = if arguments.verify { Status::verified } else { Status::read };

@@ -1,4 +1,4 @@
-//! `jabuka still`: a moment of a scene → its image.
+//! The command `jabuka still`: renders the image of one moment of a scene.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -24,17 +24,17 @@ use super::{Failure, interrupt, say};
 pub(super) struct Arguments {
     /// The scene file
     scene: PathBuf,
-    /// The moment, in seconds; it need not be that of a frame
+    /// The time of the image, in seconds; it need not be the time of a frame
     #[arg(short, long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
-    /// The PNG to write
+    /// The PNG file to write
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
     #[command(flatten)]
     picture: PictureArguments,
     #[command(flatten)]
     of_scene: SceneArguments,
-    /// Take this view instead of the main camera
+    /// Use this view instead of the main camera
     #[arg(long, value_name = "NAME")]
     view: Option<String>,
     #[command(flatten)]
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let confinement = arguments.of_scene.confinement(Some(&arguments.scene), &[folder.path()]);
     let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;
     let job = Job {
-        // One image has all processors to itself.
+        // There is only one image, so POV-Ray may use all processors for it.
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         ..arguments.povray.job(&sequence, &images, &povray, &arguments.picture)
     };
@@ -88,13 +88,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The folder for the script of a moment. No other command writes there.
+/// Returns the folder for the script of a still image. Other commands do not write to this folder.
 fn script_folder(scene: &Scene, view: Option<&View>) -> PathBuf {
     let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
     Path::new("out/.still").join(format!("{}{view_name}", scene.name))
 }
 
-/// Writes the script of the moment into a folder of its own. No other process changes this folder until the image is rendered.
+/// Simulates the scene and writes the script of the requested moment into `folder`. The returned folder stays locked, so that no other
+/// process changes the script before it is rendered.
 fn write_script(
     arguments: &Arguments,
     scene: &Scene,
@@ -119,7 +120,7 @@ fn write_script(
     Ok(folder)
 }
 
-/// Fails if this time is outside the run.
+/// Returns an error of usage if `time` (s) is outside of the simulated time.
 fn check_time(scene: &Scene, time: f64) -> Result<(), Failure> {
     let simulation = &scene.simulation;
     let end = simulation.duration.max(simulation.time(simulation.frames() - 1));

@@ -1,4 +1,4 @@
-//! The summary of a run, in a few lines.
+//! Summarizes a compiled scene in a few lines for the user.
 
 use std::path::Path;
 use std::time::Duration;
@@ -11,10 +11,10 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// From this drift on, a summary suggests a command that measures the accuracy of the run.
+/// The energy drift, relative to the largest kinetic energy, beyond which the summary suggests `jabuka report`.
 const DOUBTFUL: f64 = 0.01;
 
-/// Summarizes the written files and the accuracy of the run. `path` is that of the scene.
+/// Returns a summary of the written files and of the accuracy of the run. `path` is the path of the scene file.
 pub(super) fn summary(
     run: &Run<'_>,
     path: &Path,
@@ -77,7 +77,7 @@ pub(super) fn summary(
     )
 }
 
-/// The largest number of particles at one time; empty without emitters.
+/// Returns the line with the number of emitters and the maximum number of particles at one time. Empty for a scene without emitters.
 fn particles(scene: &Scene) -> String {
     let most: f64 = scene.emitters.iter().map(|emitter| emitter.most_alive(scene.simulation.end())).sum();
     let count = scene.emitters.len();
@@ -85,12 +85,12 @@ fn particles(scene: &Scene) -> String {
     if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }
 }
 
-/// The energy error of a run, as a line of the summary.
+/// Returns the line with the energy error of a run. `drift` is relative to the largest kinetic energy.
 pub(super) fn drift(drift: f64) -> String {
     format!("drift     {} of the largest kinetic energy\n", percent(drift))
 }
 
-/// The command that measures the accuracy of the run, if the drift is large.
+/// Returns the line that suggests `jabuka report`, with the user's settings. Empty if the energy drift is small.
 fn report(scene: &Scene, path: &Path, drift: f64) -> String {
     if drift.abs() <= DOUBTFUL {
         return String::new();
@@ -99,7 +99,8 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
     format!("how right jabuka report {}{}\n", shell::path(path), set.collect::<String>())
 }
 
-/// The number of impacts, and the energy that contacts have taken.
+/// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also the largest overlap of bodies
+/// and the largest error of joints.
 fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints } = totals;
     let taken =
@@ -112,13 +113,13 @@ fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
 }
 
-/// An energy (J) that contacts have taken; negative if they have added energy.
+/// Formats an energy in J that contacts have taken from the bodies. A negative energy is one that contacts have added.
 fn energy_taken(energy: f64) -> String {
     let verb = if energy < 0.0 { "added" } else { "took" };
     format!("{verb} {} J", short(energy.abs()))
 }
 
-/// A number with four significant digits, without trailing zeros.
+/// Formats a number with four significant digits, without trailing zeros.
 fn short(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
     if number == 0.0 || (1e-5..1e6).contains(&number.abs()) {
@@ -133,7 +134,7 @@ fn percent(part: f64) -> String {
     if percent == 0.0 { "0 %".to_owned() } else { format!("{} %", two_digits(percent)) }
 }
 
-/// A number with two significant digits.
+/// Formats a number with two significant digits.
 pub(super) fn two_digits(number: f64) -> String {
     if number == 0.0 {
         return "0".to_owned();

@@ -1,4 +1,4 @@
-//! `jabuka templates`: writes the built-in templates, so that users can change them.
+//! The command `jabuka templates`: writes the built-in templates of scripts into a folder, so that users can change them.
 
 use std::path::PathBuf;
 
@@ -6,10 +6,10 @@ use jabuka::diagnostic::{Code, Report, visible_path};
 
 use super::{Failure, say};
 
-/// Write the built-in templates into a folder, to be changed and used with `compile --templates`
+/// Write the built-in templates into a folder, to change them and use them with `compile --templates`
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The folder
+    /// The folder for the templates
     folder: PathBuf,
 }
 

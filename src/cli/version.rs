@@ -1,11 +1,11 @@
-//! `jabuka --version --verbose`: the programs available for rendering.
+//! The output of `jabuka --version --verbose`: the versions of the programs used for rendering.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use jabuka::sandbox;
 
-/// Whether details are requested as well. clap stops at `--version`, so it does not parse the arguments after it.
+/// Returns true if the command line contains `--verbose` or `-v`. clap stops parsing at `--version`, so the arguments are searched here.
 pub(super) fn is_verbose() -> bool {
     std::env::args_os().skip(1).any(|argument| {
         let argument = argument.to_string_lossy();
@@ -14,7 +14,7 @@ pub(super) fn is_verbose() -> bool {
     })
 }
 
-/// The versions of jabuka, POV-Ray and ffmpeg, and what the sandbox enforces.
+/// Returns the versions of jabuka, POV-Ray and ffmpeg, and a description of what the sandbox enforces.
 pub(super) fn report() -> String {
     format!(
         "jabuka   {}\nPOV-Ray  {}\nffmpeg   {}\nsandbox  {}\n",
@@ -25,7 +25,7 @@ pub(super) fn report() -> String {
     )
 }
 
-/// The version in a program's output, after some words, and the program's path.
+/// Returns the version and the path of a program. `option` makes the program print its version, which follows the words `before`.
 fn found(name: &str, option: &str, before: &str) -> String {
     let Ok(path) = which::which(name) else { return format!("not found: no `{name}` on the PATH") };
     match ask(&path, option, before) {

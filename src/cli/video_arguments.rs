@@ -1,26 +1,26 @@
-//! The arguments for the speed and quality of a film.
+//! The command-line arguments for the frame rate and quality of a film.
 
 use clap::ValueEnum;
 use jabuka::render::{Film, FilmError, Quality};
 
-/// How fast and how good a film is.
+/// The frame rate and quality of a film.
 #[derive(clap::Args)]
 pub(super) struct VideoArguments {
-    /// Frames per second of the film [default: those of the scene, or 25 where these are not from 1 to 120]
+    /// The frame rate of the film, per second [default: that of the scene, or 25 if that is not from 1 to 120]
     #[arg(long, value_name = "RATE", value_parser = parse_rate)]
     pub(super) video_rate: Option<f64>,
-    /// How good the film is, against the size of its file [default: good]
+    /// The quality of the film; a higher quality needs a larger file [default: good]
     #[arg(long, value_enum)]
     video_quality: Option<VideoQuality>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum VideoQuality {
-    /// A small file, quickly made
+    /// A small file that is made quickly
     Draft,
-    /// Hard to tell from the images
+    /// Visually almost identical to the images
     Good,
-    /// For films that are cut and encoded again: about twice the size
+    /// For films that will be edited and encoded again: about twice the size
     Final,
 }
 
@@ -31,17 +31,17 @@ fn parse_rate(argument: &str) -> Result<f64, String> {
 }
 
 impl VideoArguments {
-    /// Whether any option is given.
+    /// Returns true if the user gave the frame rate or the quality of a film.
     pub(super) fn are_given(&self) -> bool {
         self.video_rate.is_some() || self.video_quality.is_some()
     }
 
-    /// The film in the requested quality.
+    /// Returns the film with the requested quality. Unchanged if the user gave none.
     pub(super) fn applied_to(&self, film: Film) -> Result<Film, FilmError> {
         self.quality().map_or(Ok(film.clone()), |quality| film.with_quality(quality))
     }
 
-    /// The requested quality.
+    /// Returns the requested quality of the film. `None` if the user gave none.
     pub(super) fn quality(&self) -> Option<Quality> {
         self.video_quality.map(|name| match name {
             VideoQuality::Draft => Quality::Draft,
