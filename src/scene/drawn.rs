@@ -9,7 +9,7 @@ use crate::random::Stream;
 /// A constant number, or a formula with random numbers that is sampled anew for each particle.
 #[derive(Clone, Debug)]
 pub enum Drawn {
-    /// The same number for all particles.
+    /// A number that is the same for all particles.
     Constant(f64),
     /// A formula of the time and of random numbers.
     Formula(Arc<DrawnFormula>),

@@ -14,7 +14,7 @@ use crate::dynamics::{
 pub struct Force {
     /// The name of the force, unique among forces.
     pub name: String,
-    /// The kind of the force.
+    /// The kind of the force, with its parameters.
     pub kind: ForceKind,
     /// The indices of the emitters whose particles the force acts on.
     pub emitters: Vec<usize>,

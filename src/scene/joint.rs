@@ -16,7 +16,7 @@ use crate::dynamics::{
 pub struct Joint {
     /// The name of the joint, unique among joints.
     pub name: String,
-    /// The kind of the joint.
+    /// The kind of the joint, with its parameters.
     pub kind: JointKind,
     /// The motor that drives the joint like a spring with a damper. `None` if the joint has no such motor.
     pub servo: Option<Servo>,

@@ -23,7 +23,7 @@ pub struct Label {
 /// A piece of a label's text.
 #[derive(Clone, Debug)]
 pub enum Piece {
-    /// Constant text.
+    /// Text that is the same in all frames.
     Words(String),
     /// The value of a formula at the time of the frame.
     Value {
@@ -39,24 +39,24 @@ pub enum Piece {
 /// The format of a number in a label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Three significant digits.
+    /// A number with three significant digits.
     Short,
-    /// A fixed number of decimals.
+    /// A number with this many decimals.
     Decimals(usize),
-    /// Scientific notation with a fixed number of decimals and a power of ten.
+    /// Scientific notation with this many decimals and a power of ten.
     Scientific(usize),
 }
 
 /// The position of a label in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LabelPlace {
-    /// At an edge or corner of the picture.
+    /// The label stands in a corner of the picture, or at the middle of an edge.
     Corner(Corner),
-    /// Beside a body.
+    /// The label stands beside a body and moves with it.
     Body {
-        /// The index of the body.
+        /// The index of the body beside which the label stands.
         body: usize,
-        /// The side of the body.
+        /// The side of the body on which the label stands.
         side: Side,
         /// Whether each ghost of the body also has a label, with the values at the time of the ghost.
         ghosts: bool,
@@ -107,13 +107,13 @@ impl Corner {
 /// The side of a body on which its label stands, as seen in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Above the body.
+    /// The label stands above the body.
     Above,
-    /// Below the body.
+    /// The label stands below the body.
     Below,
-    /// Left of the body.
+    /// The label stands to the left of the body.
     Left,
-    /// Right of the body.
+    /// The label stands to the right of the body.
     Right,
 }
 
@@ -135,7 +135,7 @@ impl Side {
 /// A quantity that labels can show. It has a value at each time of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// A quantity of the whole run.
+    /// A quantity of the whole run, such as the time or the total energy.
     Run(RunMeasure),
     /// A quantity of one body. The number is the index of the body in the scene.
     Body(usize, BodyMeasure),
@@ -160,7 +160,7 @@ impl Measure {
 pub enum RunMeasure {
     /// The simulated time, s.
     Time,
-    /// The number of the frame.
+    /// The index of the frame. The first frame has index 0.
     Frame,
     /// The kinetic and potential energy of the whole scene, J.
     Energy,
@@ -191,21 +191,21 @@ pub enum BodyMeasure {
     Location(usize),
     /// The magnitude of the velocity, m/s.
     Speed,
-    /// A component of the velocity, m/s. The number is the axis: 0 for x, 1 for y, 2 for z.
+    /// A component of the body's velocity, m/s. The number is the axis: 0 for x, 1 for y, 2 for z.
     Velocity(usize),
-    /// The magnitude of the acceleration, m/s².
+    /// The magnitude of the body's acceleration, m/s².
     Accelerating,
-    /// A component of the acceleration, m/s². The number is the axis: 0 for x, 1 for y, 2 for z.
+    /// A component of the body's acceleration, m/s². The number is the axis: 0 for x, 1 for y, 2 for z.
     Acceleration(usize),
     /// The magnitude of the net force on the body, N.
     Pull,
     /// A component of the net force on the body, N. The number is the axis: 0 for x, 1 for y, 2 for z.
     Force(usize),
-    /// The magnitude of the angular velocity, rad/s.
+    /// The magnitude of the body's angular velocity, rad/s.
     Spin,
-    /// The mass, kg.
+    /// The mass of the body, kg.
     Mass,
-    /// The magnitude of the momentum, kg·m/s.
+    /// The magnitude of the body's momentum, kg·m/s.
     Momentum,
     /// The kinetic energy of translation and rotation, J.
     Kinetic,
@@ -325,7 +325,7 @@ impl JointMeasure {
     }
 }
 
-/// A bar in the picture with the length that it stands for.
+/// A scale bar in the picture: a bar of known length, with that length written beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaleBar {
     /// The length of the bar, m. `None` for about a fifth of the picture's width.

@@ -7,7 +7,7 @@ use super::{Color, Finish, Look};
 /// A material of the library, such as `gold`.
 #[derive(Debug, PartialEq)]
 pub struct LibraryMaterial {
-    /// The name of the material in scenes.
+    /// The name of the material in scenes, such as `gold`.
     pub name: &'static str,
     /// A short description of the look, for lists of materials. It has no full stop.
     pub meaning: &'static str,
@@ -103,7 +103,7 @@ const fn painted(name: &'static str, family: &'static str, meaning: &'static str
 /// The family of the materials that consist of a [`Finish`] alone.
 const FINISH: &str = "finish";
 
-/// All materials of the library, sorted by family.
+/// All materials of the library, grouped by family.
 pub const MATERIALS: &[LibraryMaterial] = &[
     opaque("matte", FINISH, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
     opaque("satin", FINISH, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),

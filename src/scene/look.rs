@@ -22,16 +22,16 @@ pub struct Material {
 /// The look of a material: its color, pattern and finish.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
-    /// A single color with a finish.
+    /// A single color, and a finish that says how the surface reflects light.
     Plain {
         /// The color of the material.
         color: Color,
-        /// How the surface reflects light.
+        /// The finish: how the surface reflects light, such as matte or glossy.
         finish: Finish,
     },
-    /// A material of the library.
+    /// A material of the library, such as `gold`.
     Library {
-        /// The material of the library.
+        /// The entry of the material in the library.
         material: &'static LibraryMaterial,
         /// The color that the material is given. `None` if the material has fixed colors.
         color: Option<Color>,
@@ -64,7 +64,7 @@ impl Look {
     }
 }
 
-/// How a surface reflects light.
+/// The finish of a surface: how it reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
     /// Like chalk: no highlight.
@@ -75,7 +75,7 @@ pub enum Finish {
     Glossy,
     /// Like polished metal of the material's color.
     Metal,
-    /// Like a mirror.
+    /// A perfect mirror.
     Mirror,
     /// Emits light evenly.
     Luminous,
@@ -123,9 +123,9 @@ pub struct Camera {
     pub location: Option<DVec3>,
     /// The initial target of the camera, m: the point in the middle of the picture. `None` for a target that jabuka derives.
     pub look_at: Option<DVec3>,
-    /// The motion of the camera.
+    /// The motion of the camera, such as an orbit around its target.
     pub motion: CameraMotion,
-    /// The projection of the camera.
+    /// The projection of the camera: perspective or orthographic.
     pub projection: Projection,
     /// The blur of objects that are out of focus. `None` if all objects are sharp.
     pub blur: Option<Blur>,
@@ -170,7 +170,7 @@ impl CameraMotion {
     }
 }
 
-/// The projection of a camera.
+/// The projection with which a camera maps the scene to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// A perspective projection, in which distant objects look smaller.
@@ -196,7 +196,7 @@ pub struct Blur {
     pub samples: u32,
 }
 
-/// Motion blur: an image is the mean of several moments while the shutter is open.
+/// The shutter of a camera, for motion blur: an image is the mean of several moments while the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shutter {
     /// The time for which the shutter is open, s. It is greater than 0. The shutter opens at the time of the frame.
@@ -247,7 +247,7 @@ pub struct Light {
     pub shadows: bool,
 }
 
-/// The kinds of lights.
+/// The kinds of light sources.
 #[derive(Clone, Debug)]
 pub enum LightKind {
     /// A point light, which shines in all directions.
@@ -259,10 +259,10 @@ pub enum LightKind {
     Area {
         /// The center of the light as a function of time, m.
         location: TimedVector,
-        /// The diameter of the light, m.
+        /// The diameter of the light source, m.
         size: f64,
     },
-    /// Parallel light, as from the sun.
+    /// A light with parallel rays, like sunlight.
     Sun {
         /// The direction in which the light travels, a unit vector.
         direction: DVec3,
@@ -336,7 +336,7 @@ pub struct PovRay {
 pub struct Asset {
     /// The path of the copy in scripts, relative to the folder of all copies, with `/` as separator.
     pub name: String,
-    /// The path of the original file.
+    /// The path of the original file, from which the copy is made.
     pub path: PathBuf,
 }
 
@@ -347,7 +347,7 @@ pub struct OwnTemplate {
     pub name: String,
     /// The path of the template's file, for diagnostics.
     pub path: String,
-    /// The text of the template.
+    /// The text of the template's file.
     pub text: String,
 }
 
@@ -360,7 +360,7 @@ pub enum Include {
     Text {
         /// The name of the file in the scene.
         name: String,
-        /// The text of the file.
+        /// The text of the include file.
         text: String,
     },
 }

@@ -75,7 +75,7 @@ pub struct Scene {
     pub name: String,
     /// The title of the scene. `None` if the scene gives no title.
     pub title: Option<String>,
-    /// The settings of the simulation.
+    /// The settings of the simulation: times, integrator, gravity and contacts.
     pub simulation: Simulation,
     /// The bodies, in the order of the file. A copy made by `repeat` is a body of its own.
     pub bodies: Vec<Body>,
@@ -87,9 +87,9 @@ pub struct Scene {
     pub emitters: Vec<Emitter>,
     /// The materials: first those of the file in its order, then those of single bodies, the library and the palette.
     pub materials: Vec<Material>,
-    /// The main camera.
+    /// The main camera, from `[camera]`.
     pub camera: Camera,
-    /// The additional cameras, in the order of the file.
+    /// The additional cameras (`[view.NAME]`), in the order of the file.
     pub views: Vec<View>,
     /// The lights, in the order of the file. If the list is empty, the lights of the preset are used.
     pub lights: Vec<Light>,

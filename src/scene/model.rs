@@ -8,12 +8,12 @@ use super::motion::BodyMotion;
 use super::{Collider, ContactLaw, Showing};
 use crate::dynamics::{Method, Presence, RigidBody, Shape};
 
-/// The settings of the simulation.
+/// The settings of the simulation: times, integrator, gravity and contacts.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     /// The duration of the simulation, s. The time of the last frame may differ, because it is rounded to a whole number of frames.
     pub duration: f64,
-    /// The frame rate, frames per second.
+    /// The number of frames per second of simulated time.
     pub frame_rate: f64,
     /// The largest timestep, s. Infinite for an adaptive integrator, which chooses its own timesteps.
     pub step: f64,
@@ -62,7 +62,7 @@ impl Simulation {
 pub struct Body {
     /// The name of the body, unique among bodies.
     pub name: Arc<str>,
-    /// The shape of the body.
+    /// The shape of the body in the simulation, from which contacts and moments of inertia are computed.
     pub shape: Shape,
     /// The initial state and the mass properties of the body.
     pub start: RigidBody,

@@ -5,14 +5,14 @@ use crate::diagnostic::Span;
 /// The source spans of names and values in a scene's text, for errors that occur during a run.
 #[derive(Clone, Debug, Default)]
 pub struct Places {
-    /// The span of each body's name, in the order of [`Scene::bodies`](super::Scene::bodies).
+    /// The source span of each body's name, in the order of [`Scene::bodies`](super::Scene::bodies).
     pub bodies: Vec<Span>,
-    /// The span of each joint's name, in the order of [`Scene::joints`](super::Scene::joints).
+    /// The source span of each joint's name, in the order of [`Scene::joints`](super::Scene::joints).
     pub joints: Vec<Span>,
-    /// The span of the value of `simulation.contacts`. `None` if the scene does not set it.
+    /// The source span of the value of `simulation.contacts`. `None` if the scene does not set it.
     pub contacts: Option<Span>,
-    /// The span of the key `camera`. `None` if the scene has no `[camera]` table.
+    /// The source span of the key `camera`. `None` if the scene has no `[camera]` table.
     pub camera: Option<Span>,
-    /// The span of the value of `povray.unit`. `None` if the scene does not set it.
+    /// The source span of the value of `povray.unit`. `None` if the scene does not set it.
     pub unit: Option<Span>,
 }

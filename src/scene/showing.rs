@@ -113,7 +113,7 @@ pub struct BodyAxes {
 pub struct Ghosts {
     /// The interval of time between two ghosts, s. The first ghost is at time 0.
     pub every: f64,
-    /// Whether each ghost has the arrows of the body.
+    /// Whether the arrows of the body are also drawn on each ghost.
     pub arrows: bool,
 }
 
@@ -122,7 +122,7 @@ pub struct Ghosts {
 pub struct Trail {
     /// The time that the trail covers, s. `None` for the whole time since the start.
     pub duration: Option<f64>,
-    /// The width of the trail, m. `None` for a width that is easy to see.
+    /// The width of the drawn trail, m. `None` for a width that is easy to see.
     pub width: Option<f64>,
     /// The color of the trail. `None` for the color of the body.
     pub color: Option<Color>,
@@ -144,11 +144,11 @@ pub struct SpringLook {
 /// The line with which a spring is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpringLine {
-    /// A coil of wire.
+    /// The spring is drawn as a coil of wire.
     Coil {
         /// The number of turns of the coil. `None` for a number that suits the spring.
         turns: Option<u32>,
     },
-    /// A straight line from end to end.
+    /// The spring is drawn as a straight line from end to end.
     Straight,
 }

@@ -14,7 +14,7 @@ use crate::dynamics::{Motion, Track};
 pub enum Timed {
     /// A number that does not change.
     Constant(f64),
-    /// A formula of the time.
+    /// A formula of the time `t`.
     Formula(Arc<TimeFormula>),
 }
 
@@ -145,7 +145,7 @@ impl TimeFormula {
 }
 
 impl Timed {
-    /// Returns the value at time `t` (s), which may be non-finite.
+    /// Returns the number at time `t` (s). The result may be non-finite.
     pub fn at(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(value) => *value,
@@ -153,7 +153,7 @@ impl Timed {
         }
     }
 
-    /// Returns the first derivative with respect to time at time `t` (s).
+    /// Returns the number's first derivative with respect to time, at time `t` (s).
     pub fn rate(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -161,7 +161,7 @@ impl Timed {
         }
     }
 
-    /// Returns the second derivative with respect to time at time `t` (s).
+    /// Returns the number's second derivative with respect to time, at time `t` (s).
     pub fn curvature(&self, t: f64) -> f64 {
         match self {
             Timed::Constant(_) => 0.0,
@@ -193,7 +193,7 @@ impl TimedVector {
         }
     }
 
-    /// Returns the first derivative with respect to time at time `t` (s).
+    /// Returns the vector's first derivative with respect to time, at time `t` (s).
     pub fn rate(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].rate(t))),
@@ -201,7 +201,7 @@ impl TimedVector {
         }
     }
 
-    /// Returns the second derivative with respect to time at time `t` (s).
+    /// Returns the vector's second derivative with respect to time, at time `t` (s).
     pub fn curvature(&self, t: f64) -> DVec3 {
         match self {
             TimedVector::Each(each) => DVec3::from_array([0, 1, 2].map(|i: usize| each[i].curvature(t))),
@@ -209,7 +209,7 @@ impl TimedVector {
         }
     }
 
-    /// Returns whether any component may change with time.
+    /// Returns whether any component of the vector may change with time.
     pub fn changes(&self) -> bool {
         match self {
             TimedVector::Each(each) => each.iter().any(Timed::changes),

@@ -41,7 +41,7 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
 pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Asset, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    // The SDL has the name in a string literal, which the name must not terminate.
+    // The SDL contains the name as a string literal, so the name must not contain quotes or backslashes.
     let bad = || {
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";
         error(Code::BadAsset, format!("`{name}` cannot be the name of an asset")).help(help)

@@ -21,7 +21,7 @@ const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
 /// The parts of the body read before the current one. Copies of a body share these parts.
 struct Last {
-    /// The shape table of that body.
+    /// The shape table of the body read before.
     table: Option<Table>,
     shape: Shape,
     look: Arc<BodyLook>,
@@ -270,7 +270,8 @@ fn euler(angles: DVec3) -> DQuat {
     turn(DVec3::Z, angles.z) * turn(DVec3::Y, angles.y) * turn(DVec3::X, angles.x)
 }
 
-/// Returns the index in `materials` of a material that belongs to one body. Copies of a body with equal looks share one material.
+/// Returns the index in `materials` of the material that the body's own `material` table describes. Copies of a body with equal looks
+/// share one material.
 fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
     /// The number of most recent materials that are compared with the new look.
     const LATEST: usize = 16;

@@ -34,7 +34,7 @@ pub(super) fn collider(
     simulation: &Simulation,
     context: &mut Context<'_>,
 ) -> Option<Collider> {
-    // Return without warnings: `check` reports the keys that need contacts.
+    // Without contacts, no body collides. `check` reports the keys that need contacts.
     simulation.contacts?;
     let mut has_no_effect = |keys: &[&str], why: &str| {
         for key in keys {

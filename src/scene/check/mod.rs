@@ -50,7 +50,7 @@ use crate::dynamics::{Presence, Track};
 
 /// The inputs of [`check`].
 pub(super) struct Input<'a> {
-    /// The name of the scene.
+    /// The name of the scene, which is the file name without its extension.
     pub(super) name: &'a str,
     /// The name under which diagnostics show the scene's file.
     pub(super) shown: &'a str,
@@ -75,7 +75,7 @@ struct Context<'a> {
     forces_are_wrong: bool,
     /// Whether a body has an error. If true, a body's location may be a placeholder.
     bodies_are_wrong: bool,
-    /// The names of the forces with errors.
+    /// The names of the forces in which an error was found.
     wrong_forces: HashSet<Arc<str>>,
     /// Whether the table being checked gives defaults, such as `[defaults.body]`. If true, required keys may be missing.
     is_partial: bool,

@@ -36,7 +36,7 @@ pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
 pub(super) fn include(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Include, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
-    // The script has the name in a string literal, which the name must not terminate.
+    // The script contains the name as a string literal, so the name must not contain quotes or backslashes.
     if name.is_empty() || name.chars().any(|c| c.is_control() || matches!(c, '"' | '\\')) {
         let message = format!("`{name}` cannot be the name of an include file");
         let help = "it cannot be empty, nor contain quotes, backslashes or control characters; `/` leads into folders";

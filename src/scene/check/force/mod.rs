@@ -23,7 +23,7 @@ struct Reader<'a, 'c> {
     bodies: &'a [Body],
     emitters: &'a [Emitter],
     simulation: &'a Simulation,
-    /// Whether the force acts on particles.
+    /// Whether the force acts on the particles of an emitter.
     has_particles: bool,
     /// The property that a body lacks if this force does not act on it, in words for warnings.
     lack: &'static str,

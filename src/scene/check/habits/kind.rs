@@ -38,7 +38,8 @@ pub(in crate::scene::check) fn meant_kind(
     by_word(table, spec).or_else(|| by_keys(table, spec, path))
 }
 
-/// Returns the path from a table to its kinds, and the grammar with these kinds. The kinds of a body are those of its `shape`.
+/// Returns the path of keys to the table that names the kind, and the grammar of that table. For a body, this is the table `shape`, which
+/// names the kind of its shape. For a force or a joint, the path is empty.
 fn kinds_of(spec: &'static TableSpec) -> Option<(Vec<&'static str>, &'static TableSpec)> {
     match (&spec.rule, spec.key("shape").map(|key| &key.kind)) {
         (Rule::ExactlyOne(_), _) => Some((Vec::new(), spec)),
