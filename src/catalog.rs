@@ -1,6 +1,6 @@
-//! What there is to choose from in a scene: integrators, shapes, colors and so on, each with a line about it.
+//! Lists the names that a scene can use: integrators, shapes, colors and so on, each with a one-line description.
 //!
-//! The names come from the tables that scenes are checked with. A new category is one line in [`CATEGORIES`].
+//! The names come from the same tables that the check of a scene uses. A new category is one line in [`CATEGORIES`].
 
 use crate::dynamics::Method;
 use crate::scene::color_names;
@@ -8,17 +8,17 @@ use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
 use crate::scene::{BodyMeasure, ContactLaw, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
 
-/// Things of one sort to choose from.
+/// A category of names that scenes can use, such as shapes.
 pub struct Category {
-    /// The word for them: `shapes`.
+    /// The name of the category, such as `shapes`.
     pub name: &'static str,
-    /// Where in a scene they are named.
+    /// The key or table of a scene in which these names are used.
     pub place: &'static str,
-    /// Each with its name and what there is to know about it.
+    /// Returns all names of the category, each with a one-line description.
     pub entries: fn() -> Vec<(&'static str, String)>,
 }
 
-/// All of them.
+/// All categories, in the order in which `jabuka list` shows them.
 pub static CATEGORIES: &[Category] = &[
     Category { name: "integrators", place: "`integrator` of [simulation]", entries: integrators },
     Category { name: "contacts", place: "`contacts` of [simulation]", entries: contacts },
@@ -60,7 +60,7 @@ fn environments() -> Vec<(&'static str, String)> {
     Preset::ALL.iter().map(|preset| (preset.name(), preset.meaning().to_owned())).collect()
 }
 
-/// The functions and constants of formulas.
+/// Returns the functions and constants of formulas, with their descriptions.
 fn functions() -> Vec<(&'static str, String)> {
     let functions = FUNCTIONS.iter().map(|f| (f.name, format!("`{}`: {}", f.usage(), f.meaning)));
     let constants = CONSTANTS.iter().map(|(name, _, meaning)| (*name, (*meaning).to_owned()));
@@ -74,7 +74,8 @@ fn measures() -> Vec<(&'static str, String)> {
     run.chain(body).chain(joint).collect()
 }
 
-/// What a table of which exactly one key is given can be, with the keys of each.
+/// Returns the alternatives of a table that must have exactly one of several keys, such as the shapes. Each comes with its meaning and its
+/// own keys. `way` are the keys that lead to the table.
 fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
     let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
     let variants = keys.iter().filter(|key| names.contains(&key.name));
@@ -87,7 +88,7 @@ fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
     variants.map(entry).collect()
 }
 
-/// The table that these keys lead to.
+/// Returns the grammar of the table that a path of keys leads to.
 fn table(way: &[&str]) -> Option<&'static TableSpec> {
     way.iter().try_fold(&SCENE, |table, name| match &table.key(name)?.kind {
         Kind::Named(inner) => Some(*inner),

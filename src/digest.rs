@@ -1,12 +1,12 @@
-//! SHA-256: the digests by which files, names and random numbers are known.
+//! SHA-256 digests. They identify files and names, and seed random numbers.
 
 #[cfg(not(feature = "render"))]
 use hmac_sha256::Hash as Implementation;
-// It is several times faster, which counts for large files.
+// The crate `sha2` is several times faster, which matters for large files.
 #[cfg(feature = "render")]
 use sha2::{Digest, Sha256 as Implementation};
 
-/// A digest of bytes that come one after another.
+/// Computes the SHA-256 digest of bytes that are added piece by piece.
 pub(crate) struct Sha256(Implementation);
 
 impl Sha256 {
@@ -24,7 +24,7 @@ impl Sha256 {
         digest
     }
 
-    /// The digest of these bytes.
+    /// Returns the SHA-256 digest of the given bytes.
     pub(crate) fn digest(bytes: impl AsRef<[u8]>) -> [u8; 32] {
         let mut digest = Sha256::new();
         digest.update(bytes);
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn the_digest_is_that_of_the_standard() {
-        // FIPS 180-4: the digest of "abc".
+        // The digest of "abc" is an example of the standard, FIPS 180-4.
         let hex: String = Sha256::digest("abc").iter().map(|byte| format!("{byte:02x}")).collect();
         assert_eq!(hex, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }

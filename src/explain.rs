@@ -1,24 +1,24 @@
-//! What every code of a diagnostic means, with an example that gets it and one that does not.
+//! Explains the code of each diagnostic, with an example that causes the error and a corrected one.
 
 use crate::diagnostic::{Code, nearest};
 
-/// What one code means: the text of its file in `explanations/`.
+/// The explanation of one code: the text of its file in `explanations/`.
 #[derive(Clone, Copy, Debug)]
 pub struct Explanation {
-    /// The code.
+    /// The code of the diagnostic.
     pub code: Code,
 }
 
-/// All of them, in the order of the codes.
+/// Returns the explanations of all codes, in the order of the codes.
 pub fn explanations() -> impl ExactSizeIterator<Item = Explanation> {
     Code::ALL.iter().map(|&code| Explanation { code })
 }
 
 impl Explanation {
-    /// The explanation of a code, by its name.
+    /// Returns the explanation of the code with this name.
     ///
     /// # Errors
-    /// The nearest code that there is, if one is near.
+    /// If no code has this name. The error is the most similar name, if one is similar enough.
     pub fn of(name: &str) -> Result<Explanation, Option<&'static str>> {
         match Code::named(name) {
             Some(code) => Ok(Explanation { code }),
@@ -26,22 +26,22 @@ impl Explanation {
         }
     }
 
-    /// What it means, in one line.
+    /// Returns the meaning of the code, in one line.
     pub fn title(&self) -> &'static str {
         self.code.explanation().lines().next().unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// The example that gets the code: a scene, or commands after `$ `.
+    /// Returns the example that causes the error: a scene, or commands after `$ `.
     pub fn wrong(&self) -> String {
         self.example("\nWrong:\n")
     }
 
-    /// The example that does not get it.
+    /// Returns the corrected example, which does not cause the error.
     pub fn right(&self) -> String {
         self.example("\nRight:\n")
     }
 
-    /// The indented lines below a heading.
+    /// Returns the indented lines below a heading of the explanation, without their indentation.
     fn example(&self, heading: &str) -> String {
         let after = self.code.explanation().split_once(heading).map_or("", |(_, after)| after);
         let lines = after.lines().take_while(|line| line.is_empty() || line.starts_with("    "));

@@ -1,48 +1,49 @@
 //! jabuka compiles a scene written in TOML into POV-Ray scripts, one per frame.
 //!
-//! The stages, in the order in which a scene passes through them:
+//! A scene passes through these stages, in this order:
 //!
 //! | stage | from → to | what it knows |
 //! | --- | --- | --- |
-//! | [`scene`] | text → checked [`Scene`] | the scene language; every mistake at its place |
+//! | [`scene`] | text → checked [`Scene`] | the scene language; reports every error at its position |
 //! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
 //! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
-//! | [`report`] | scene → how right its run is | how runs are compared; nothing that draws scenes |
-//! | [`picture`] | frames → what their pictures show | camera, lights, arrows, texts, in metres; no program that draws |
-//! | [`emit`] | frames → scripts | POV-Ray's words; no force and no integrator |
-//! | [`output`] | scripts → files | names, whole files, a folder that survives a kill |
+//! | [`report`] | scene → accuracy of its run | how runs are compared; nothing that draws scenes |
+//! | [`picture`] | frames → contents of their pictures | camera, lights, arrows, texts, in meters; no renderer |
+//! | [`emit`] | frames → scripts | POV-Ray's language; no forces and no integrators |
+//! | [`output`] | scripts → files | file names; complete files even if the process is killed |
 //! | [`render`] | scripts → images → film | POV-Ray's options; which images are up to date; ffmpeg |
 //!
-//! [`Run`] takes a scene through them. [`overwrite`] decides which files a command may replace. [`diagnostic`] is what all of them say errors with, and [`explain`] what the codes of errors mean; [`catalog`] is
-//! what there is to choose from, and [`starter`] a scene to start from. [`surface`] has the triangles of shapes and plain looks of materials, and
-//! [`export`] tables and models, for programs that are not POV-Ray; [`preview`] shows a scene in the browser while it is written.
-//! [`sandbox`] confines the programs that jabuka starts.
+//! [`Run`] takes a scene through these stages. [`overwrite`] decides which files a command may replace. [`diagnostic`] represents the
+//! errors and warnings of all stages, and [`explain`] explains their codes. [`catalog`] lists the names that scenes can use, and
+//! [`starter`] writes an example scene. For programs other than POV-Ray, [`surface`] has the triangles of shapes and simple materials, and
+//! [`export`] writes tables and models. [`preview`] shows a scene in the browser while the user edits it. [`sandbox`] confines the
+//! programs that jabuka starts.
 //!
 //! # Features
 //!
-//! All are on by default. In a project of your own, `default-features = false` leaves a library that reads scenes, simulates them, and makes
-//! scripts, tables and models, with about 40 crates, also for a browser (`wasm32-unknown-unknown`).
+//! All features are on by default. In your own project, `default-features = false` leaves a library that reads scenes, simulates them, and
+//! makes scripts, tables and models. It has about 40 dependencies, and also works in a browser (`wasm32-unknown-unknown`).
 //!
-//! | feature | what it brings |
+//! | feature | what it adds |
 //! | --- | --- |
 //! | `cli` | the program `jabuka` |
 //! | `render` | the modules `output`, `render`, `cache`, `overwrite` and `sandbox`: files, POV-Ray, ffmpeg |
 //! | `preview` | the module `preview` |
-//! | `threads` | several processor cores |
+//! | `threads` | the use of several processor cores |
 //! | `time-stepping` | contacts of many bodies, `contacts = "time-stepping"` |
 //!
-//! # Forces and methods of your own
+//! # Your own forces and methods
 //!
-//! A type that implements [`dynamics::Force`] is a force, and one that implements [`dynamics::Integrator`] a method. [`simulate::world`] makes the world
-//! of a scene. Add your force to it with [`World::add_force`](dynamics::World::add_force), and set your method with
-//! [`World::set_integrator`](dynamics::World::set_integrator). [`simulate::Recorded::of`] runs that world, and [`Run::of`] makes scripts of the run.
-//! `examples/own_force.rs` does all this in about a hundred lines. If you advance bodies in your own way altogether, implement [`dynamics::Dynamics`],
-//! or make single frames from snapshots with [`simulate::Frame::of`].
+//! A type that implements [`dynamics::Force`] is a force, and a type that implements [`dynamics::Integrator`] is a method.
+//! [`simulate::world`] makes the world of a scene. Add your force to the world with [`World::add_force`](dynamics::World::add_force), and
+//! set your method with [`World::set_integrator`](dynamics::World::set_integrator). [`simulate::Recorded::of`] runs the world, and
+//! [`Run::of`] makes scripts of the run. `examples/own_force.rs` does all of this in about a hundred lines. To advance bodies in an
+//! entirely different way, implement [`dynamics::Dynamics`], or make single frames from snapshots with [`simulate::Frame::of`].
 //!
 //! # A snapshot test of a scene
 //!
-//! A script is text that is the same on every run and machine, so a test can hold it against a stored one. With
-//! [insta](https://insta.rs), the last line of this example is `insta::assert_snapshot!(script)`:
+//! A script has the same text on every run and machine, so a test can compare it with a stored text. With [insta](https://insta.rs), the
+//! last line of this example is `insta::assert_snapshot!(script)`:
 //!
 //! ```
 //! use jabuka::Scene;

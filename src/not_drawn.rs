@@ -1,10 +1,10 @@
-//! Warnings of what a scene asks for and no picture shows.
+//! Warnings about arrows, trails and other things that a scene requests but no image shows.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::{Asking, NotDrawn, Why, number};
 use crate::scene::Quantity;
 
-/// The warning that something the scene asks for is not drawn: what, from when on, why, and what to write.
+/// Returns the warning that a requested arrow, trail, ghost or similar is not drawn. It gives the time, the reason, and the key to change.
 pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     let NotDrawn { what, name, why, others } = missing;
     let (what, key) = match what {
@@ -71,7 +71,7 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
     Diagnostic::warning(Code::NotDrawn, message).help(help)
 }
 
-/// A number with three digits.
+/// Formats a number with three significant digits.
 fn rounded(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 3);

@@ -1,6 +1,7 @@
-//! Decides which files a command may replace: none that it reads, and none that jabuka keeps in its own folders.
+//! Decides which files a command may replace. Protected are the files that the command reads, and those in folders that jabuka manages.
 //!
-//! A file is identified by its device and inode, so links, `..`, hard links and names that differ in case give the same answer.
+//! A file is identified by its device and inode, so symbolic links, hard links, `..`, and names that differ only in case are recognized as
+//! the same file.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -15,31 +16,31 @@ use crate::render;
 use crate::scene::Scene;
 use crate::scene::sdl::FileKind;
 
-/// The reason for protecting a file that SDL reads.
+/// The reason, shown in errors, for protecting a file that the scene's SDL reads.
 const READ_BY_SDL: &str = "the SDL of the scene reads it";
 
-/// The files that a command must not change.
+/// The files and folders that a command must not overwrite.
 #[derive(Debug, Default)]
 pub struct Kept {
     inputs: Vec<Input>,
-    /// The names and identities of assets, which are copied into folders of scripts.
+    /// The names and identities of the scene's assets, which are copied into the folders of scripts.
     assets: Vec<(String, Option<Identity>)>,
     /// The folders that the command fills with scripts and images. They may not exist yet.
     folders: Vec<PathBuf>,
-    /// The files that the SDL of a trusted scene names. Relative names start from the folder of the scripts.
+    /// The files that the SDL of a trusted scene reads, by name. Relative names start from the folder of the scripts.
     named: Vec<(FileKind, String)>,
 }
 
-/// A file that the command reads.
+/// A file that the command reads, and must not overwrite.
 #[derive(Debug)]
 struct Input {
-    /// The path without links and `..`.
+    /// The path of the file, without links and `..`.
     path: PathBuf,
     identity: Option<Identity>,
     use_of_it: &'static str,
 }
 
-/// The identity of a file: device and inode.
+/// The identity of a file: its device number and inode number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Identity(u64, u64);
 
@@ -49,7 +50,7 @@ impl Identity {
     }
 }
 
-/// Why a file may not be replaced.
+/// The error that a file must not be overwritten, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CannotOverwrite {
     path: PathBuf,
@@ -57,7 +58,7 @@ pub struct CannotOverwrite {
 }
 
 impl CannotOverwrite {
-    /// The error as a diagnostic.
+    /// Converts the error to a report with one diagnostic.
     pub fn report(&self) -> Report {
         let help = "name another file";
         let diagnostic = Diagnostic::error(Code::CannotOverwrite, self.to_string()).help(help);
@@ -74,8 +75,8 @@ impl fmt::Display for CannotOverwrite {
 impl std::error::Error for CannotOverwrite {}
 
 impl Kept {
-    /// All inputs of a scene: its file, includes, tables, meshes, heightfields, assets and templates; and the files that its
-    /// SDL reads, as far as their names can be found in it.
+    /// Protects all inputs of a scene: its file, included files, tables, meshes, heightfields, assets and templates, and the files that
+    /// its SDL reads, as far as their names can be found in the SDL.
     pub fn of_scene(scene: &Scene) -> Kept {
         let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
         let kept = Kept {
@@ -89,7 +90,7 @@ impl Kept {
         kept.and_files(render::named(Path::new("/"), &absolute), READ_BY_SDL)
     }
 
-    /// These files, which the command reads. The reason ends a sentence: `the scene is made from it`.
+    /// Protects further files that the command reads. `use_of_it` is the end of an error message, such as `the scene is made from it`.
     #[must_use]
     pub fn and_files<P: AsRef<Path>>(
         mut self,
@@ -104,10 +105,10 @@ impl Kept {
         self
     }
 
-    /// Adds a folder that the command fills with scripts or images. None of these may replace an input of the command.
+    /// Adds a folder that the command fills with scripts or images. No file that it writes there may replace an input of the command.
     ///
     /// # Errors
-    /// If an input has the name of a file that will be written there.
+    /// If an input has the path of a file that will be written into the folder.
     pub fn and_folder(mut self, folder: &Path) -> Result<Kept, CannotOverwrite> {
         let resolved = resolved(folder);
         let is_replaced = |input: &&Input| {
@@ -121,15 +122,16 @@ impl Kept {
             return Err(CannotOverwrite { path: input.path.clone(), why: input.use_of_it.to_owned() });
         }
         self.folders.push(resolved);
-        // Rendering may read files from an earlier run, and compiling replaces these.
+        // Rendering may read files that an earlier run wrote into this folder. They may be replaced by the new scripts, but by nothing
+        // else.
         let read = render::named(folder, &self.named);
         Ok(self.and_files(read, READ_BY_SDL))
     }
 
-    /// Checks that a file may be written here, replacing an existing one.
+    /// Checks that a file may be written at this path, where it may replace an existing file.
     ///
     /// # Errors
-    /// If it may not.
+    /// If the file at this path is protected.
     pub fn check(&self, path: &Path) -> Result<(), CannotOverwrite> {
         let cannot = |why: String| Err(CannotOverwrite { path: path.to_owned(), why });
         let identity = Identity::of(path);
@@ -137,7 +139,7 @@ impl Kept {
         {
             return cannot(input.use_of_it.to_owned());
         }
-        // For a link, both the link itself and its target count.
+        // If the path is a symbolic link, both the link and its target are checked.
         let beside = path.parent().map(|parent| resolved(parent).join(path.file_name().unwrap_or_default()));
         for place in beside.into_iter().chain([resolved(path)]) {
             let Some(folder) = place.parent() else { continue };
@@ -155,7 +157,7 @@ impl Kept {
         Ok(())
     }
 
-    /// Whether jabuka keeps, or will keep, scripts or images in a folder.
+    /// Returns true if a folder contains, or will contain, scripts or images of jabuka.
     fn is_ours(&self, folder: &Path) -> bool {
         self.folders.iter().any(|known| known == folder)
             || output::read_manifest(&folder.join(MANIFEST)).is_some()
@@ -163,13 +165,13 @@ impl Kept {
     }
 }
 
-/// Whether jabuka writes a file of this name into its folders: a script or a file that belongs to it, an image.
+/// Returns true if jabuka uses this file name in its folders: for a script, for a file beside the scripts, or for an image.
 fn is_our_name(name: &str) -> bool {
     let image = name.strip_suffix(".png").is_some_and(|stem| output::is_own_name(&format!("{stem}.pov")));
     image || output::is_own_name(name) || name.starts_with(".jabuka")
 }
 
-/// A path without links and `..`, as far as it exists.
+/// Returns the absolute path without links and `..`. The part of the path that does not exist is kept.
 fn resolved(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let parts: Vec<Component<'_>> = absolute.components().collect();
@@ -225,7 +227,7 @@ mod tests {
         for name in ["film.mp4", "frame_3.png", "images/frame_0003.png", "sheet.png"] {
             assert_eq!(kept.check(&at("out/scene").join(name)), Ok(()), "{name}");
         }
-        // Images from another command.
+        // The folder `.jabuka` marks a folder of images that another command has rendered.
         fs::create_dir_all(at("images/.jabuka")).unwrap();
         said(Kept::default().check(&at("images/frame_0003.png")));
         assert_eq!(Kept::default().check(&at("images/sheet.png")), Ok(()));
@@ -268,7 +270,7 @@ mod tests {
             assert!(said(kept.check(&at(name))).ends_with("and the SDL of the scene reads it"), "{name}");
         }
         assert_eq!(kept.check(&at("free.png")), Ok(()));
-        // A relative name starts from the folder of the scripts.
+        // A relative name in SDL starts from the folder of the scripts, which is unknown until it is added.
         assert_eq!(kept.check(&at("out/near.png")), Ok(()));
         let kept = kept.and_folder(&at("out")).unwrap();
         assert!(said(kept.check(&at("out/near.png"))).ends_with("and the SDL of the scene reads it"));

@@ -1,4 +1,4 @@
-//! Random numbers that are the same on every run and machine.
+//! Random numbers that are the same on every run and every machine.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -7,12 +7,13 @@ use crate::digest::Sha256;
 
 /// A stream of random numbers.
 ///
-/// Every place of a scene has its own, by its path and the scene's seed: what is added elsewhere changes none of its numbers.
+/// Each key of a scene has its own stream, which is determined by the scene's seed and the path of the key. Adding anything else to the
+/// scene does not change the numbers of a stream.
 #[derive(Clone, Debug)]
 pub struct Stream(ChaCha8Rng);
 
 impl Stream {
-    /// The stream of a place.
+    /// Creates the random stream for a path in a scene, such as `body.ball.location[1]`.
     #[must_use]
     pub fn new(seed: u64, path: &str) -> Stream {
         let mut hash = Sha256::new();
@@ -21,7 +22,8 @@ impl Stream {
         Stream(ChaCha8Rng::from_seed(hash.finalize()))
     }
 
-    /// One of 2⁶⁴ streams of the same place, each from its beginning, whatever has been drawn from this one.
+    /// Returns one of 2⁶⁴ independent streams for the same path. Each starts from its beginning, regardless of the numbers drawn from
+    /// `self` so far.
     #[must_use]
     pub fn branch(&self, number: u64) -> Stream {
         let mut branch = self.0.clone();
@@ -30,16 +32,16 @@ impl Stream {
         Stream(branch)
     }
 
-    /// From 0 up to 1, which itself never comes.
+    /// Draws a uniformly distributed number from 0 to 1, excluding 1.
     #[allow(clippy::cast_precision_loss, reason = "53 bits are what a number holds")]
     pub fn uniform(&mut self) -> f64 {
         const SPACING: f64 = 1.0 / (1u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 * SPACING
     }
 
-    /// After the normal distribution around 0 with deviation 1, by Box and Muller's method.
+    /// Draws a normally distributed number with mean 0 and standard deviation 1, by the Box–Muller method.
     pub fn normal(&mut self) -> f64 {
-        // The logarithm of 0 is none.
+        // The argument of the logarithm is never 0, because `uniform` never returns 1.
         let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
         radius * libm::cos(std::f64::consts::TAU * self.uniform())
     }
@@ -53,7 +55,7 @@ mod tests {
     fn the_same_place_has_the_same_numbers_for_ever() {
         let mut stream = Stream::new(0, "body.ball.location[1]");
         let numbers = [stream.uniform(), stream.uniform(), stream.normal()];
-        // The same, but for the last digit of a logarithm, by a few lines of Python with the rounds of ChaCha8 written out.
+        // A short Python program with the rounds of ChaCha8 written out gives the same numbers, up to the last digit of a logarithm.
         assert_eq!(numbers, [0.011158441926262475, 0.6062048921625598, -0.8852880506164754]);
     }
 
@@ -83,7 +85,7 @@ mod tests {
             let mut stream = Stream::new(3, "x");
             (0..COUNT).map(|_| of(&mut stream)).sum::<f64>() / f64::from(COUNT)
         };
-        // Four deviations of such a mean: sqrt(variance / COUNT).
+        // The tolerance is four standard deviations of the mean: 4 √(variance / COUNT).
         assert!((mean(&Stream::uniform) - 0.5).abs() < 4.0 * 0.289 / 316.0);
         assert!((mean(&|s| s.uniform() * s.uniform()) - 0.25).abs() < 4.0 * 0.22 / 316.0);
         assert!(mean(&Stream::normal).abs() < 4.0 / 316.0);

@@ -1,4 +1,4 @@
-//! A simulated scene that can be made into scripts.
+//! A simulated scene, ready to be converted into scripts.
 
 #[cfg(feature = "render")]
 use crate::cache;
@@ -11,31 +11,31 @@ use crate::simulate::{
     Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, Survey,
 };
 
-/// A scene with its finished run, whose frames can be made into scripts.
+/// A scene with its finished simulation and the plan for the scripts of its frames.
 pub struct Run<'a> {
     recorded: Recorded<'a>,
     emitter: Emitter,
-    /// The name of the view; none for the main camera.
+    /// The name of the view, or `None` for the main camera.
     view: Option<String>,
-    /// The motion blur of the camera.
+    /// The motion blur of the camera. `None` without motion blur.
     shutter: Option<Shutter>,
 }
 
-/// Why a run cannot be drawn.
+/// The error that a scene could not be simulated or converted into scripts.
 #[derive(Clone, Debug)]
 pub enum RunError {
-    /// The run cannot be simulated or read.
+    /// The simulation failed, or its recording could not be read.
     Simulate(SimulateError),
-    /// A script cannot be written.
+    /// A script could not be written.
     Emit(EmitError),
 }
 
 impl<'a> Run<'a> {
-    /// Simulates the scene. The part of the recording beyond a megabyte goes to a nameless file; without the feature `render`,
-    /// it stays in memory.
+    /// Simulates the scene. If the recording exceeds a megabyte, the excess is written to a temporary file. Without the feature `render`,
+    /// all of it stays in memory.
     ///
     /// # Errors
-    /// If the run becomes non-finite, there is no room for its recording, or a template fails.
+    /// If the motion becomes non-finite, the recording cannot be stored, or a template fails.
     pub fn new(scene: &'a Scene) -> Result<Run<'a>, RunError> {
         #[cfg(feature = "render")]
         let recorded = cache::simulate(scene)?;
@@ -44,7 +44,7 @@ impl<'a> Run<'a> {
         Run::of(recorded)
     }
 
-    /// Uses an existing run of a scene.
+    /// Makes a `Run` for the main camera from a finished simulation.
     ///
     /// # Errors
     /// If a template fails.
@@ -54,7 +54,7 @@ impl<'a> Run<'a> {
         Ok(Run { recorded, emitter, view: None, shutter: scene.camera.shutter })
     }
 
-    /// The same run through one of the scene's other cameras.
+    /// Returns the same simulation as seen by another camera (view) of the scene.
     ///
     /// # Errors
     /// If a template fails.
@@ -64,38 +64,38 @@ impl<'a> Run<'a> {
         Ok(Run { recorded: self.recorded.clone(), emitter, view, shutter })
     }
 
-    /// The scene.
+    /// Returns the scene that was simulated.
     pub fn scene(&self) -> &'a Scene {
         self.recorded.scene()
     }
 
-    /// The simulated run.
+    /// Returns the recording of the simulation.
     pub fn recorded(&self) -> &Recorded<'a> {
         &self.recorded
     }
 
-    /// The name of the view; none for the main camera.
+    /// Returns the name of the view, or `None` for the main camera.
     pub fn view(&self) -> Option<&str> {
         self.view.as_deref()
     }
 
-    /// The motion blur of the camera, if it has any.
+    /// Returns the motion blur of the camera, if it has motion blur.
     pub fn shutter(&self) -> Option<Shutter> {
         self.shutter
     }
 
-    /// Figures on the whole run.
+    /// Returns statistics of the whole simulation, such as the extent of the motion and the energy error.
     pub fn survey(&self) -> &Survey {
         self.recorded.survey()
     }
 
-    /// The emitter, which turns frames into scripts.
+    /// Returns the emitter, which converts frames into scripts.
     pub fn emitter(&self) -> &Emitter {
         &self.emitter
     }
 
-    /// The warnings of the run, such as bodies that pass through planes or each other, bodies too thin or too small to be seen,
-    /// or an energy that drifts.
+    /// Returns all warnings about the simulation and its images. Examples are bodies that pass through planes or each other, bodies too
+    /// thin or too small to be seen, and an energy that drifts.
     pub fn warnings(&self) -> Vec<Diagnostic> {
         let crossings = self.survey().crossings.iter().map(crossing);
         let thin = self.emitter.too_thin().map(|body| {
@@ -120,21 +120,21 @@ impl<'a> Run<'a> {
             .collect()
     }
 
-    /// The frames, from the initial state.
+    /// Iterates over the recorded frames, from the initial state on.
     pub fn frames(&self) -> Frames<'a> {
         self.recorded.frames()
     }
 
-    /// The moment at any time (s), and the run after it while the shutter is open. Times outside the run are moved to its
-    /// beginning or end.
+    /// Returns the state at any time (s), and the motion after it while the camera's shutter is open. A time before or after the
+    /// simulation is replaced by its beginning or end.
     ///
     /// # Errors
-    /// If the run becomes non-finite, or its recording cannot be read.
+    /// If the motion becomes non-finite, or the recording cannot be read.
     pub fn at(&self, time: f64) -> Result<Exposure, RunError> {
         Ok(self.recorded.at(time)?)
     }
 
-    /// The script of a frame.
+    /// Returns the script of a frame.
     ///
     /// # Errors
     /// If the position of a body cannot be written, or a template fails.
@@ -142,7 +142,7 @@ impl<'a> Run<'a> {
         self.emitter.script(frame)
     }
 
-    /// The script of an image with motion blur, which begins at an exposure's frame. None if the camera has no motion blur.
+    /// Returns the script of an image with motion blur. The exposure begins at its frame. `None` if the camera has no motion blur.
     ///
     /// # Errors
     /// If the position of a body cannot be written, a template fails, or the recording cannot be read.
@@ -158,7 +158,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// All warnings that a run can have.
+/// The codes of all warnings that [`Run::warnings`] can return.
 #[cfg(feature = "render")]
 pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::CorrectedStart,
@@ -172,7 +172,7 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::FirstOrder,
 ];
 
-/// The warning that the energy error is larger than anyone would accept knowingly.
+/// Returns a warning if the energy error of the simulation exceeds 5 %.
 fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
     let (drift, of, help) = match scene.simulation.contacts {
@@ -189,7 +189,7 @@ fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 
-/// The warning that a first-order method is too inaccurate for the contacts. It gives the energy error.
+/// Returns a warning if a first-order method makes event-driven contacts inaccurate. The warning gives the energy error.
 fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 1e-6;
     let simulation = &scene.simulation;
@@ -206,7 +206,7 @@ fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
     is_said.then(|| warning.help(help))
 }
 
-/// The warning that the largest body is too small to be seen, in this picture or in a picture of the whole run.
+/// Returns the warning that the largest body is too small to be seen, in the images of this camera or in an image of the whole motion.
 fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     let name = &largest.name;
     let in_whole = |does: String| {
@@ -230,7 +230,8 @@ fn too_small(scene: &Scene, plan: &Plan, largest: &Largest) -> Diagnostic {
     Diagnostic::warning(Code::TooSmall, message).help(help)
 }
 
-/// The warning that a grid has fewer lines than the scene asks for.
+/// Returns the warning that the grid is drawn with wider spacing than the scene gives. The arguments are the given and the drawn spacing,
+/// m.
 fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
     let (given, drawn) = (rounded(given), rounded(drawn));
     let message =
@@ -238,14 +239,14 @@ fn grid_too_fine((given, drawn): (f64, f64)) -> Diagnostic {
     Diagnostic::warning(Code::TooFine, message).help(format!("give `spacing = {drawn}` or more in [grid]"))
 }
 
-/// A number with three significant digits.
+/// Formats a number with three significant digits.
 fn rounded(number: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, number, 3);
     out
 }
 
-/// The warning that a body starts with another velocity than the scene gives it.
+/// Returns the warning that a body starts with a velocity that differs from the one in the scene, because of its joints.
 fn corrected(corrected: &Corrected) -> Diagnostic {
     let vector = |vector: glam::DVec3| vector.to_array().map(rounded).join(", ");
     let others = match corrected.others {
@@ -264,10 +265,10 @@ fn corrected(corrected: &Corrected) -> Diagnostic {
     Diagnostic::warning(Code::CorrectedStart, message).help(help)
 }
 
-/// The setting that makes bodies stop each other.
+/// The advice, for warnings, that turns on contacts between bodies.
 const STOPS: &str = "`simulation.contacts = \"event-driven\"` stops bodies where they touch";
 
-/// The warning that a body goes through a plane.
+/// Returns the warning that a body passes through a plane.
 fn crossing(crossing: &Crossing) -> Diagnostic {
     let plane = crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
     let others = match crossing.others {
@@ -279,7 +280,7 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
     Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
 }
 
-/// The warning that two bodies overlap.
+/// Returns the warning that two bodies overlap.
 fn overlap(overlap: &Overlap) -> Diagnostic {
     let [one, two] = &overlap.bodies;
     let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
@@ -287,7 +288,7 @@ fn overlap(overlap: &Overlap) -> Diagnostic {
 }
 
 impl RunError {
-    /// The kind of mistake, as a diagnostic's code.
+    /// Returns the code of the error, which `jabuka explain` explains.
     pub fn code(&self) -> Code {
         match self {
             RunError::Simulate(error) => error.code(),
@@ -295,7 +296,7 @@ impl RunError {
         }
     }
 
-    /// The error as a diagnostic, with its places in the scene or a template.
+    /// Converts the error to a report, with its positions in the scene or in a template.
     pub fn report(&self) -> Report {
         match self {
             RunError::Simulate(error) => error.report(),
@@ -303,7 +304,7 @@ impl RunError {
         }
     }
 
-    /// A way to mend it, unless the message makes it plain.
+    /// Returns advice on how to correct the error. `None` if the message says enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             RunError::Simulate(error) => error.help(),

@@ -1,4 +1,4 @@
-//! The scene that a new one starts from.
+//! The example scene that `jabuka new` writes.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 /// A scene that shows the main keys, with comments.
 pub const STARTER: &str = include_str!("starter.toml");
 
-/// Writes the starter into a new file, and returns its path: the given one, with `.toml` where that is missing.
+/// Writes the example scene into a new file. Returns its path: the given one, with `.toml` added if it is missing.
 ///
 /// # Errors
-/// If there is such a file already, or none can be written.
+/// If the file exists already, or cannot be written.
 pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     if path.extension().is_none_or(|extension| extension != "toml") {
@@ -18,7 +18,7 @@ pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
     }
     let mut file = File::create_new(&path)?;
     file.write_all(STARTER.as_bytes()).inspect_err(|_| {
-        // Half a scene is none; where this fails too, the error is said anyway.
+        // Remove the incomplete file. If removing fails, too, the error of writing is reported anyway.
         let _ = fs::remove_file(&path);
     })?;
     Ok(path)

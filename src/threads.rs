@@ -1,15 +1,15 @@
-//! Work on many processor cores at once, or on one without the feature `threads`. The results are the same bit for bit.
+//! Runs work on several processor cores, or on one core without the feature `threads`. The results have the same bits in both cases.
 
 #[cfg(feature = "threads")]
 pub(crate) use rayon::join;
 
-/// Calls both, one after the other.
+/// Calls both functions, one after the other, and returns both results.
 #[cfg(not(feature = "threads"))]
 pub(crate) fn join<A, B>(one: impl FnOnce() -> A, other: impl FnOnce() -> B) -> (A, B) {
     (one(), other())
 }
 
-/// Calls `work` with each of the items.
+/// Calls `work` with each of the items, in parallel.
 #[cfg(feature = "threads")]
 pub(crate) fn each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Send + Sync) {
     use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
@@ -17,7 +17,7 @@ pub(crate) fn each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Send + Sync
     items.par_iter_mut().for_each(work);
 }
 
-/// Calls `work` with each of the items.
+/// Calls `work` with each of the items, one after another.
 #[cfg(not(feature = "threads"))]
 pub(crate) fn each<T>(items: &mut [T], work: impl Fn(&mut T)) {
     items.iter_mut().for_each(work);
