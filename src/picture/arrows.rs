@@ -92,7 +92,7 @@ pub(super) type Scales = [f64; Quantity::COUNT];
 pub(super) struct Arrows {
     /// The bodies with arrows or axes, each with its index, in the order of the scene.
     bodies: Vec<(usize, Body)>,
-    /// The arrows of these bodies, in the same order.
+    /// The requested arrows of all bodies, in the order of the bodies.
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,

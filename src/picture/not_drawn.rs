@@ -82,11 +82,11 @@ pub enum Why {
         /// A length for which the picture has room.
         fit: f64,
     },
-    /// The bodies at the ends of the spring leave no room for it.
+    /// The bodies at the ends of the spring are too close together to draw the spring.
     NoRoom {
         /// The radius of the spring.
         radius: f64,
-        /// A radius for which there is room. `None` if the bodies touch or overlap.
+        /// A radius at which the spring would be drawn. `None` if the bodies at its ends touch or overlap.
         fit: Option<f64>,
     },
 }

@@ -46,7 +46,7 @@ impl Course {
     pub(super) fn points(&self, length: f64, ratio: f64, down: Option<DVec3>) -> Vec<DVec3> {
         let [first, last] = [0, 1].map(|i| self.ends[i].distance(self.over[i]));
         let slack = 0.5 * (length - first - ratio * last).max(0.0);
-        // Slack this small is a rounding error.
+        // A very small slack is a rounding error.
         let slack = if slack > 1e-9 * length { slack } else { 0.0 };
         let part = |from: DVec3, to: DVec3, slack: f64| hanging([from, to], from.distance(to) + slack, down);
         let mut points = vec![self.ends[0]];

@@ -187,7 +187,7 @@ impl Rectangle {
         }
     }
 
-    /// True if this rectangle contains another one.
+    /// True if this rectangle contains another rectangle.
     fn covers(self, other: Rectangle) -> bool {
         self.left <= other.left
             && other.right <= self.right
@@ -265,7 +265,7 @@ mod tests {
         }
     }
 
-    /// The cells make the search faster. They must not change its result.
+    /// The division of the picture into cells makes the search faster, and must not change its result.
     #[test]
     fn parts_are_free_as_if_each_were_held_against_all_that_is_taken() {
         let mut state: u32 = 7;

@@ -61,7 +61,7 @@ impl Scope {
             let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
             width / eye.placed().width_of_view(span.bounds)
         };
-        // If only a few of many bodies fly far away, the camera ignores them.
+        // The camera ignores strays: a few bodies that fly far away from many others.
         let all = survey.without_strays.as_ref().unwrap_or(all);
         let in_whole = seen(all);
         let alone = alone_over_ground(scene).filter(|body| in_whole < least_alone(scene, *body, all));

@@ -15,7 +15,7 @@ pub struct Stage {
     pub size: f64,
     /// The center of the box around the framed motion.
     pub center: DVec3,
-    /// The ground. `None` if it is not drawn.
+    /// The ground below the bodies. `None` if no ground is drawn.
     pub ground: Option<StageGround>,
     /// The edge length of a tile on checkered planes.
     pub tile: f64,

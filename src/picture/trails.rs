@@ -28,7 +28,7 @@ const REMEMBERED: usize = 32;
 pub struct Trail {
     /// The index of the body.
     pub body: usize,
-    /// The points of the trail, m, by increasing time. There are at least two.
+    /// The points of the trail, m, by increasing time. The list has at least two points.
     pub points: Vec<DVec3>,
     /// The complete stretches of the trail, in order. Each stretch is the same in all frames that contain it.
     pub stretches: Vec<Stretch>,
@@ -59,7 +59,7 @@ pub struct Stretch {
 }
 
 impl Trail {
-    /// Sets the width of a trail without a given width to a stroke (m).
+    /// Uses the width `stroke` (m) for a trail without a given width.
     fn of_width(self, stroke: f64) -> Trail {
         let radius = if self.radius > 0.0 { self.radius } else { stroke / 2.0 };
         Trail { radius, ..self }
@@ -84,7 +84,7 @@ pub(super) struct Trails {
 
 #[derive(Clone, Debug)]
 struct Planned {
-    /// The trail without points. Its radius is 0 if the scene gives no width.
+    /// The trail without points. The radius is 0 if the scene gives no width.
     trail: Trail,
     /// The smallest distance between two points, m. It is the same in all frames, so that stretches can be reused.
     least: f64,
@@ -139,7 +139,8 @@ impl Remembered {
 }
 
 impl Trails {
-    /// Plans the trails of a scene. The narrowest stroke of the run (m) determines the fineness of trails without a given width.
+    /// Plans the trails of a scene. `narrowest` is the smallest default width of a trail in the run (m). It
+    /// determines the fineness of trails without a given width.
     pub(super) fn new(scene: &Scene, narrowest: f64) -> Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
@@ -162,12 +163,12 @@ impl Trails {
         Trails { trails }
     }
 
-    /// The requested trails without points. Those without a given width are as wide as a stroke (m).
+    /// The requested trails without points. A trail without a given width gets the width `stroke` (m).
     pub(super) fn planned(&self, stroke: f64) -> impl Iterator<Item = Trail> {
         self.trails.iter().map(move |planned| planned.trail.clone().of_width(stroke))
     }
 
-    /// Computes the trails up to a frame. Those without a given width are as wide as a stroke (m).
+    /// Computes the trails up to a frame. A trail without a given width gets the width `stroke` (m).
     pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
         let trail = |way: &Way| {
             let of = self.trails.binary_search_by_key(&way.body, |planned| planned.trail.body).ok()?;
@@ -180,7 +181,7 @@ impl Trails {
     }
 }
 
-/// The points of a trail while they are collected along a path.
+/// A trail under construction along a path.
 struct Line {
     points: Vec<DVec3>,
     stretches: Vec<Stretch>,
@@ -228,7 +229,7 @@ impl Line {
         line
     }
 
-    /// Appends a point unless it is too near to the last one.
+    /// Appends a point to the trail. Skips points that are too near to the last point.
     fn put(&mut self, point: DVec3) {
         if self.points.last().is_none_or(|last| last.distance(point) > self.least) {
             self.points.push(point);

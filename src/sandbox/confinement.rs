@@ -37,7 +37,7 @@ pub struct Confinement {
     writable: Vec<PathBuf>,
 }
 
-/// The needs of one program.
+/// The files, folders and priority that one program needs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Needs<'a> {
     /// The files and folders that the program reads, except those that every program may read.
@@ -74,7 +74,7 @@ impl Confinement {
         self.launcher.is_some() && !self.reads_all
     }
 
-    /// True if programs are confined, because there is a launcher.
+    /// True if programs are confined: the confinement has a launcher.
     pub(crate) fn is_enforced(&self) -> bool {
         self.launcher.is_some()
     }

@@ -90,7 +90,7 @@ impl Launch {
         if let Err(error) = set_parent_process_death_signal(Some(Signal::KILL)) {
             return Some(LaunchError::Refused(error.to_string()));
         }
-        // If the parent ended before this line, there will be no signal.
+        // A parent that ended before this line causes no signal, so check that the parent still exists.
         let parent = getppid().map(Pid::as_raw_pid);
         (self.parent.is_some() && self.parent != parent).then_some(LaunchError::Orphan)
     }

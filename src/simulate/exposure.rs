@@ -1,4 +1,4 @@
-//! The moments that a camera sees while its shutter is open.
+//! Reads the moments that a camera sees while its shutter is open.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::scene::Shutter;
 pub struct Exposure {
     /// The state at the time when the shutter opens.
     pub frame: Frame,
-    /// The trails, ghosts and lagging points up to the time when the shutter opens.
+    /// The trails, ghosts and delayed camera targets up to the time when the shutter opens.
     history: History,
     /// The particles at the last frame before the shutter opens, or at the frame itself.
     clouds: Clouds,

@@ -22,9 +22,9 @@ pub struct Frames<'a> {
     clouds: Clouds,
 }
 
-/// Where the moments of a run come from.
+/// The source of a run's moments: a simulation or a recording.
 enum Source<'a> {
-    /// A simulation, and its moments that have been computed but not yet returned.
+    /// A running simulation, and a queue of computed moments that have not been returned.
     Live(Simulation<'a>, VecDeque<Entry>),
     /// A recording, and a reader of its moments.
     Recorded(Arc<Recording>, Reader),
@@ -109,7 +109,7 @@ impl<'a> Frames<'a> {
         Err(SimulateError::Recording("the recording ends before this time".to_owned()))
     }
 
-    /// True if frames have trails, ghosts or lagging points.
+    /// True if frames have trails, ghosts or delayed camera targets.
     pub fn remember_anything(&self) -> bool {
         !self.history.is_idle()
     }
@@ -122,7 +122,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// The trails, ghosts and lagging points up to the last frame.
+    /// The trails, ghosts and delayed camera targets up to the last frame.
     pub(super) fn history(&self) -> &History {
         &self.history
     }
@@ -184,7 +184,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Adds particles, trails, ghosts and lagging points to a moment.
+    /// Adds particles, trails, ghosts and delayed camera targets to a moment.
     fn see(&mut self, is_frame: bool, mut moment: Frame) -> Frame {
         if is_frame {
             self.clouds.note(&moment);

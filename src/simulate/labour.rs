@@ -41,7 +41,7 @@ impl Labour {
         }
     }
 
-    /// The number of pair interactions in the frame with this index.
+    /// The expected number of pair interactions in the frame with this index.
     pub fn of_frame(&self, index: usize) -> u64 {
         if index == 0 { self.first } else { self.each }
     }
@@ -58,7 +58,7 @@ impl Labour {
     }
 }
 
-/// Counts the force evaluations in a step of a method by a trial run.
+/// Counts the force evaluations that an integration method makes per step, by a trial run.
 pub fn evaluations(method: &'static Method) -> u64 {
     struct Counting(Arc<AtomicU64>);
 

@@ -15,7 +15,7 @@ pub struct Load {
     pub body: usize,
     /// The kind of force: weight, normal force or friction.
     pub quantity: Quantity,
-    /// The look of the arrow.
+    /// The scale and the color of the arrow.
     pub arrow: Arrow,
     /// The point of action, m: the center of the body, or the center of pressure of the contact.
     pub root: DVec3,

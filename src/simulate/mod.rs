@@ -77,7 +77,7 @@ pub use vectors::{JointEnd, axis, root, shown, surface};
 pub struct Diverged {
     /// The name of the first body with a non-finite position or velocity.
     pub body: String,
-    /// The time of the frame with this state, s.
+    /// The time of the frame with the non-finite state, s.
     pub time: f64,
 }
 

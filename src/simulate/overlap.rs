@@ -41,7 +41,7 @@ pub(super) struct Watch<'a> {
     /// For each watched body, whether it was present in the last checked frame.
     were_there: Vec<bool>,
     found: Option<Overlap>,
-    /// True after the watch has ended.
+    /// True after the search for overlaps has ended.
     is_over: bool,
     /// The number of frames to skip.
     pause: u64,
@@ -113,7 +113,7 @@ impl<'a> Watch<'a> {
         self.pause = cost / self.usual();
     }
 
-    /// Returns the first overlap. `None` if no bodies moved into each other.
+    /// Returns the first two bodies that moved into each other. `None` without an overlap.
     pub(super) fn finish(self) -> Option<Overlap> {
         self.found
     }

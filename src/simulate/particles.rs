@@ -34,7 +34,7 @@ pub(super) struct Clouds {
     steps: u32,
     /// The time of the last frame (s), and the bodies in that frame.
     before: Option<(f64, Arc<[BodySnapshot]>)>,
-    /// The first frame that is needed. Earlier frames are ignored.
+    /// The first frame that the particles are computed from. Earlier frames are ignored.
     begin: usize,
 }
 
@@ -119,7 +119,7 @@ impl Clouds {
         let time = frame as f64 * self.interval;
         let needed = |maker: &Maker| Cloud::needed_from(&maker.emitter.source, time);
         let from = self.makers.iter().map(needed).fold(time, f64::min);
-        // One frame earlier, because the quotient may be rounded up.
+        // Start one frame earlier, because the quotient may be rounded up.
         ((from / self.interval).floor() as usize).saturating_sub(1).min(frame)
     }
 

@@ -42,7 +42,7 @@ pub struct Ghost {
     pub contacts: Vec<ContactSnapshot>,
 }
 
-/// Collects the trails, ghosts and lagging points of a run, frame by frame.
+/// Collects the trails, ghosts and delayed camera targets of a run, frame by frame.
 #[derive(Clone, Default)]
 pub(super) struct History {
     /// The bodies with trails or ghosts: the index of each, and the things shown with it.
@@ -92,7 +92,7 @@ impl History {
         }
     }
 
-    /// True if the scene needs no trails, ghosts or lagging points.
+    /// True if the scene needs no trails, ghosts or delayed camera targets.
     pub(super) fn is_idle(&self) -> bool {
         self.asks.is_empty() && self.lagging.is_empty()
     }
@@ -130,7 +130,7 @@ impl History {
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
 
-    /// Updates the trails and lagging points with a frame.
+    /// Updates the trails and delayed camera targets with a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         for number in 0..self.asks.len() {
@@ -140,7 +140,7 @@ impl History {
             let corners = self.corners(number, frame, trail);
             let (way, is_away) = (&mut self.ways[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
-                // A body may return at another place, so its old trail ends here.
+                // A body may return at another place, so clear the trail from before its absence.
                 way.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
@@ -175,7 +175,7 @@ impl History {
         corners::between((before, &(moment.time, *now)), &self.impacts, impulse, (self.masses[number], trail))
     }
 
-    /// The trails, ghosts and lagging points of a moment at or after the last frame.
+    /// The trails, ghosts and delayed camera targets of a moment at or after the last frame.
     pub(super) fn before(&self, moment: &Frame) -> Past {
         let mut trails = Vec::new();
         for (number, ((body, showing), way)) in self.asks.iter().zip(&self.ways).enumerate() {

@@ -48,7 +48,7 @@ struct Line {
 }
 
 impl Line {
-    /// The scale at which a steeper line becomes larger than this one.
+    /// The scale at which a steeper line becomes larger than this line.
     fn overtaken_by(self, steeper: Line) -> f64 {
         (self.start - steeper.start) / (steeper.slope - self.slope)
     }

@@ -25,7 +25,7 @@ pub(super) struct Simulation<'a> {
     next: usize,
     intervals: usize,
     counts: ImpactCounts,
-    /// Impacts since the last entry. They belong to the next one.
+    /// The impacts since the last entry, which will be part of the next entry.
     waiting: Vec<Impact>,
 }
 

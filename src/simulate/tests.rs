@@ -169,7 +169,7 @@ mod between_frames {
                 assert!(times.iter().zip([0.0035, 0.0105, 0.0175, 0.0245, 0.0315]).all(near), "{times:?}");
                 assert!(moments.iter().all(|moment| moment.index == exposure.frame.index));
             }
-            // A frame among others equals the frame computed alone.
+            // The frame from a sequence of frames must equal the frame computed alone.
             let alone = recorded.at(exposures[4].frame.time).unwrap();
             assert_eq!(alone.frame, exposures[4].frame);
             let of = |exposure: &Exposure| exposure.moments(shutter).map(Result::unwrap).collect::<Vec<_>>();

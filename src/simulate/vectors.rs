@@ -30,7 +30,7 @@ pub fn root(body: &Body, frame: &BodySnapshot, vector: DVec3) -> DVec3 {
     frame.location + along * surface(&body.drawn(), frame.orientation, along)
 }
 
-/// The end of a joint at which its arrows begin.
+/// The end of a joint at which the joint's arrows begin.
 #[derive(Clone, Debug)]
 pub struct JointEnd {
     /// The index of the joint.

@@ -8,7 +8,7 @@ use crate::scene::{Color, Finish, LibraryMaterial, Look, PlainLook, Preset};
 pub struct Appearance {
     /// The color of the material: red, green, blue, and opacity (1 for opaque).
     pub color: [f64; 4],
-    /// 1 for a metal, 0 for other materials.
+    /// The metalness of the material: 1 for a metal, 0 for other materials.
     pub metallic: f64,
     /// The roughness of the surface: from 0 for a perfect mirror to 1 for chalk.
     pub roughness: f64,

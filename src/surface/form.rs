@@ -19,7 +19,7 @@ pub struct Form(Kind);
 enum Kind {
     /// A base shape that a function computes from a few numbers.
     Made { name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles },
-    /// A mesh in its own units.
+    /// A mesh, in the units of the mesh.
     Mesh(Arc<Mesh>),
 }
 

@@ -183,7 +183,7 @@ impl Ruler {
         let across = marks(a0, a1).map(|a| (a, [corner(a, near), corner(a, far)]));
         let along = marks(b0, b1).filter(|b| !is_hidden(*b)).map(|b| (b, [corner(a0, b), corner(a1, b)]));
         let (across, along): (Vec<_>, Vec<_>) = (across.collect(), along.collect());
-        // The coordinate axes are lines through 0. They are wider.
+        // The lines through 0 are the coordinate axes, and are drawn wider.
         let width = |number: f64| if number == 0.0 { 2.2 * radius } else { radius };
         let lines = across.iter().chain(&along).filter(|(_, [from, to])| from != to);
         let lines = lines.map(|(number, [from, to])| Line { from: *from, to: *to, radius: width(*number) });

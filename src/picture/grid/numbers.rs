@@ -31,7 +31,7 @@ pub(in super::super) struct Ruled {
 pub(super) struct Axis {
     /// The side of the line ends on which the numbers are written.
     pub(super) beside: Beside,
-    /// The numbers of the lines that begin at this edge, in order.
+    /// The numbers of the grid lines that begin at the edge, in order.
     pub(super) numbers: Vec<Number>,
     /// The name of the axis, with its unit.
     pub(super) title: String,

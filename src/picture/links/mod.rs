@@ -103,7 +103,7 @@ impl Link<'_> {
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
 
-    /// The distance of the part's surface from its middle line, m.
+    /// The radius of the part around its middle line, m. For a coil, this includes the wire.
     pub(super) fn reach(&self) -> f64 {
         match self.form {
             LinkForm::Coil { radius, wire, .. } => radius + wire,
@@ -164,7 +164,7 @@ enum Form {
     /// A rod through a point. `along` is its direction, a unit vector in the axes of the point's body. `reach` holds the positions of its
     /// two ends along this direction.
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
-    /// A rope of a given length. It hangs if it is slack.
+    /// A rope of a given length between two points. A slack rope hangs in a curve.
     Rope { between: [Anchor; 2], length: f64, radius: f64 },
     /// The rope of a pulley, over wheels with the radius `wheel`.
     OverWheels { pulley: Pulley, wheel: f64, radius: f64 },
@@ -192,19 +192,19 @@ impl Links {
         &self.springs
     }
 
-    /// The parts that are fastened to a body, as drawn in a frame.
+    /// The parts of springs and joints that are fastened to a body, with their positions in a frame.
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
         its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
     }
 
-    /// All parts, as drawn in a frame.
+    /// All parts of springs and joints that are visible in a frame, with their positions.
     pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
         self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
     }
 
-    /// All parts of the run, including those that are not drawn in some frames.
+    /// All parts of springs and joints, including those that are not drawn in some frames.
     pub(super) fn planned(&self) -> impl Iterator<Item = PlannedLink<'_>> {
         self.parts.iter().map(|part| PlannedLink {
             name: &part.name,

@@ -36,8 +36,8 @@ impl Largest {
         })
     }
 
-    /// True if a warning is needed. If the camera frames the whole run, the body must be too small; if it frames the start, always; if it
-    /// follows a body, the body must be too small in the whole run.
+    /// True if the size of the body needs a warning: always if the camera frames only the start of a run, otherwise if the body looks
+    /// like a dot. If the camera follows a body, the size in a picture of the whole run counts.
     pub(super) fn is_too_small(&self, part: Part) -> bool {
         match part {
             Part::Whole => self.pixels < SMALLEST_SEEN,

@@ -115,7 +115,7 @@ impl Plan {
         let sizes = Sizes {
             view: early,
             stroke: width,
-            // The camera was placed for these rounded scales.
+            // Use the rounded scales that the camera was placed for.
             arrows: arrows.still_sizes(scales, early, width),
         };
         // The ground is placed below the bodies. Arrows and axes may extend below the ground.

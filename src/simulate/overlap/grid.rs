@@ -47,12 +47,12 @@ impl Cell {
     }
 }
 
-/// A hash table from cells to the bodies in them.
+/// A hash table that maps each cell to the bodies in the cell.
 #[derive(Default)]
 pub(super) struct Grid {
     /// The last body in each slot of the hash table. A cell has one slot; several cells may share a slot.
     last: Vec<u32>,
-    /// For each body, the previous body in the same slot.
+    /// For each body, the previous body in the same slot of the hash table, or `NONE`.
     before: Vec<u32>,
 }
 

@@ -23,11 +23,11 @@ pub struct Way {
 /// A point of the path of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passed {
-    /// The time at which the body was there, s.
+    /// The time at which the body passed the point, s.
     pub time: f64,
-    /// The position in world axes, m.
+    /// The position of the point in world axes, m.
     pub location: DVec3,
-    /// The velocity in world axes, m/s.
+    /// The velocity of the body at the point, in world axes, m/s.
     pub velocity: DVec3,
     /// The number of the frame, for a point that is stored for later frames. `None` at an impact, and for interpolated and present
     /// positions.

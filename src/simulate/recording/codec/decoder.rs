@@ -201,7 +201,7 @@ fn numbers_in<T, const N: usize>(bytes: &[u8], of: impl Fn(&[f64; N]) -> T) -> i
 /// A list of runs with the bytes of their values, and the remaining bytes.
 type Runs<'a> = ((Vec<Run>, &'a [u8]), &'a [u8]);
 
-/// Reads a list of runs, whose masks select from these columns.
+/// Reads a list of runs. Their masks select from the given columns.
 fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
@@ -216,7 +216,7 @@ fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
     Ok(((runs, values), rest))
 }
 
-/// The number of values that a mask selects.
+/// The number of values that a mask selects for a body, joint or count.
 fn width(mask: u8, columns: &[usize]) -> usize {
     if mask == ABSENT {
         return 0;

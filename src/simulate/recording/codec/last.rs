@@ -21,7 +21,7 @@ impl Last {
         }
     }
 
-    /// Resets the values at the start of a page.
+    /// Resets the values of the previous moment for the start of a page.
     pub(super) fn begin_page(&mut self) {
         self.bodies.fill(AT_REST);
         self.joints.fill([0.0; JOINT_NUMBERS]);
