@@ -1,31 +1,31 @@
-//! Ends of springs and joints.
+//! The ends of springs and joints.
 
 use glam::{DQuat, DVec3};
 
 use super::BodyId;
 
-/// The end of a spring or a joint: the point to which it is fastened.
+/// An end of a spring or a joint: the point of a body or of the world to which it is fastened.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Anchor {
-    /// A point of a body.
+    /// A point that moves with a body.
     Body {
-        /// The body.
+        /// The body that the end is fastened to.
         id: BodyId,
-        /// The point in the body's frame, relative to its centre of mass, m.
+        /// The point in body axes, relative to the body's center of mass, m.
         at: DVec3,
     },
-    /// A point of the world, m.
+    /// A fixed point of the world, m.
     Point(DVec3),
 }
 
 impl Anchor {
-    /// The centre of mass of a body.
+    /// Creates an end at the center of mass of a body.
     #[must_use]
     pub const fn centre(id: BodyId) -> Anchor {
         Anchor::Body { id, at: DVec3::ZERO }
     }
 
-    /// The body, if it is one.
+    /// Returns the body that the end is fastened to; `None` for a point of the world.
     #[must_use]
     pub fn body(self) -> Option<BodyId> {
         match self {
@@ -34,13 +34,14 @@ impl Anchor {
         }
     }
 
-    /// Whether it is the centre of mass of a body.
+    /// Returns true if the end is at the center of mass of a body.
     #[must_use]
     pub fn is_centre(self) -> bool {
         matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
     }
 
-    /// The position of the end, m. The closure returns the location and orientation (`world_from_body`) of a body.
+    /// Returns the position of the end, world axes, m. The closure returns the position of a body and its rotation from body axes to world
+    /// axes.
     #[must_use]
     pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
         match self {

@@ -1,64 +1,64 @@
-//! Energy and momentum, and how well a run conserves them.
+//! Energy and momentum of a world, and how well a run conserves them.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{Accounts, Model, State};
 
-/// The conserved quantities at one moment.
+/// The energies and momenta of all bodies at one moment, and the drift of the energy.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Balance {
-    /// Kinetic energy of translation and rotation, Σ ½ m v² + ½ L·ω, J.
+    /// The kinetic energy of translation and rotation, Σ ½ m v² + ½ L·ω, J.
     pub kinetic: f64,
-    /// Potential energy of every force that has one, J.
+    /// The potential energy of all forces that have one, J.
     pub potential: f64,
-    /// The energy brought in so far by everything without a potential, by name.
+    /// The energy that forces without a potential, impacts and motors have brought in so far, J, one entry for each account.
     pub accounts: Accounts,
-    /// Kinetic and potential energy, J.
+    /// The sum of the kinetic and the potential energy, J.
     pub total: f64,
-    /// Σ m v, kg m/s.
+    /// The total linear momentum Σ m v, world axes, kg m/s.
     pub linear_momentum: DVec3,
-    /// Angular momentum about the origin of the world, Σ x × m v + L, kg m²/s.
+    /// The total angular momentum about the origin of the world, Σ x × m v + L, kg m²/s.
     pub angular_momentum: DVec3,
-    /// The dimensionless integration error of the energy: (E − E₀ − all accounts) / the largest kinetic energy so far; 0 as long as
+    /// The dimensionless integration error of the energy: (E − E₀ − all accounts) / the largest kinetic energy so far. It is 0 as long as
     /// nothing has moved.
     pub drift: f64,
 }
 
-/// Keeps the expected energy, for comparison with measurements.
+/// The ledger of the expected energy, with which measured energies are compared.
 ///
-/// E₀ is the energy brought in from outside: by the bodies and forces at the start, and by every later change to them. A change is booked
-/// in two parts. [`open`](Self::open) notes the energy before the first of several changes, [`close`](Self::close) the energy after the
-/// last. So adding ten thousand bodies takes two measurements.
+/// The expected energy E₀ is brought in from outside: by the bodies and forces at the start, and by every later change to them. A change
+/// is booked in two parts. [`open`](Self::open) stores the energy before the first of several changes, and [`close`](Self::close) measures
+/// the energy after the last. Adding ten thousand bodies therefore takes only two measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EnergyLedger {
     brought_in: f64,
-    /// The energy before the changes that are not booked yet.
+    /// The energy before the changes that are not booked yet, J. `None` if all changes are booked.
     before: Option<f64>,
     largest_kinetic: f64,
 }
 
 impl EnergyLedger {
-    /// The ledger of an empty world, before bodies are added.
+    /// Creates the ledger of an empty world, before bodies are added.
     #[must_use]
     pub fn new() -> Self {
         Self { brought_in: 0.0, before: Some(0.0), largest_kinetic: 0.0 }
     }
 
-    /// Must be called before bodies or forces are changed by hand.
+    /// Stores the energy before a change. Must be called before bodies or forces are changed from outside.
     pub fn open(&mut self, model: &Model, time: f64, state: &State) {
         if self.before.is_none() {
             self.before = Some(mechanical(model, time, state));
         }
     }
 
-    /// Must be called before constraints remove velocities that violate them. The given motion sets the scale of later measurements, even
-    /// if nothing of it remains.
+    /// Includes the present kinetic energy in the largest one. Must be called before constraints remove velocities that violate them: the
+    /// initial motion sets the scale of the drift, even if nothing of it remains.
     pub fn see_given(&mut self, model: &Model, state: &State) {
         self.largest_kinetic = self.largest_kinetic.max(kinetic(model, state));
     }
 
-    /// Must be called before time advances: books the changes since [`open`](Self::open), if there were any.
+    /// Books the changes since [`open`](Self::open), if there were any. Must be called before time advances.
     pub fn close(&mut self, model: &Model, time: f64, state: &State) {
         if let Some(before) = self.before.take() {
             let kinetic = kinetic(model, state);
@@ -67,7 +67,7 @@ impl EnergyLedger {
         }
     }
 
-    /// Measures all conserved quantities, and the drift from the expected energy.
+    /// Measures the energies and momenta, and the drift from the expected energy. Books open changes first.
     pub fn measure(&mut self, model: &Model, time: f64, state: &State) -> Balance {
         self.close(model, time, state);
         let balance = self.peek(model, time, state);
@@ -75,7 +75,8 @@ impl EnergyLedger {
         balance
     }
 
-    /// Like [`measure`](Self::measure), but for a moment between two steps: it leaves the ledger unchanged.
+    /// Measures the energies and momenta as [`measure`](Self::measure) does, but at a moment between two steps: the ledger does not
+    /// change.
     #[must_use]
     pub fn peek(&self, model: &Model, time: f64, state: &State) -> Balance {
         let kinetic = kinetic(model, state);
@@ -99,12 +100,12 @@ impl Default for EnergyLedger {
     }
 }
 
-/// The bodies that move by forces; the motion of others does not count.
+/// Returns the indices of the bodies that forces move. The motion of all other bodies does not count in the balance.
 fn free(model: &Model) -> impl Iterator<Item = usize> + '_ {
     model.inverse_mass().iter().enumerate().filter(|(_, inverse)| **inverse != 0.0).map(|(i, _)| i)
 }
 
-/// Kinetic and potential energy, J.
+/// Returns the sum of the kinetic and the potential energy of a state, J.
 pub(super) fn mechanical(model: &Model, time: f64, state: &State) -> f64 {
     kinetic(model, state) + model.potential(time, state)
 }
@@ -149,7 +150,8 @@ mod tests {
         );
         world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -10.0, 0.0) });
         let balance = world.balance();
-        // ½·2·4² + ½·(⅖·2·1²)·5²; m g h; m v; x × m v + I ω. The fixed body counts for nothing.
+        // Kinetic energy ½·2·4² + ½·(⅖·2·1²)·5²; potential energy m g h; momentum m v; angular momentum x × m v + I ω. The fixed body
+        // contributes nothing.
         assert!((balance.kinetic - 26.0).abs() < 1e-14);
         assert!((balance.potential - 60.0).abs() < 1e-14);
         assert!((balance.total - 86.0).abs() < 1e-14);
@@ -166,7 +168,7 @@ mod tests {
         assert_eq!(world.balance().drift, 0.0);
     }
 
-    /// Without booking the changes, the drift would be of the size of the energies brought in: 0.1 and more.
+    /// If the changes were not booked, the drift would be as large as the energies that they bring in: 0.1 and more.
     #[test]
     fn changes_by_hand_are_not_drift() {
         let mut world = World::new();

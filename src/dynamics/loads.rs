@@ -1,16 +1,16 @@
-//! Forces and torques on the bodies at one moment.
+//! The loads on all bodies at one moment: forces and torques.
 
 use glam::DVec3;
 
 use super::Accounts;
 
-/// The sums of all forces and torques at one moment: one entry for each body.
+/// The sums of all forces and torques at one moment, with one entry for each body.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Loads {
-    /// Resultant force on each body, N.
+    /// The resultant force on each body, world axes, N.
     pub force: Vec<DVec3>,
-    /// Resultant torque on each body about its centre of mass, world axes, N m.
+    /// The resultant torque on each body about its center of mass, world axes, N m.
     pub torque: Vec<DVec3>,
-    /// Power of everything without a potential, F·v + τ·ω, summed over the bodies, W: one entry for each account.
+    /// The power F·v + τ·ω of all forces without a potential, summed over the bodies, W: one entry for each account.
     pub power: Accounts,
 }

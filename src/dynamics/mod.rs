@@ -121,42 +121,43 @@ pub use system::System;
 pub use track::{Interpolation, Key, Track};
 pub use world::World;
 
-/// Advances bodies in time. The rest of the program uses this interface, and does not depend on the implementation.
+/// An engine that advances bodies in time. The rest of the program uses this interface, and does not depend on the implementation.
 pub trait Dynamics: Send {
-    /// The time reached, s.
+    /// Returns the time that the engine has reached, s.
     fn time(&self) -> f64;
 
-    /// Advances to time `t`, s; afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
+    /// Advances to time `t`, s. Afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
     /// finite) changes nothing.
     ///
-    /// `see` receives a snapshot for each of `moments`. These are times (s) in rising order, later than now and not later than `t`. They
-    /// do not affect the run: it is the same, bit for bit, without them.
+    /// `see` receives a snapshot for each of `moments`: times (s) in ascending order, later than now and not later than `t`. They do not
+    /// affect the run: it is the same, bit for bit, without them.
     ///
     /// # Errors
-    /// If the run cannot continue, or a moment is not finite.
+    /// If the run cannot continue, or if a body's position or velocity at one of the moments is not finite.
     fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown>;
 
-    /// The snapshot of the present moment. The drift is relative to the largest kinetic energy of all snapshots so far.
+    /// Returns a snapshot of the current moment. Its drift is relative to the largest kinetic energy of all snapshots so far.
     ///
     /// # Errors
-    /// If a body's position is not finite.
+    /// If a body's position or velocity is not finite, or if the run cannot continue.
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown>;
 
-    /// The impacts since the last call, in the order in which they happened.
+    /// Returns the impacts since the last call, in the order in which they happened. Empty for an engine without impacts.
     fn impacts(&mut self) -> Vec<Impact> {
         Vec::new()
     }
 
-    /// The number of steps so far.
+    /// Returns the number of integration steps so far.
     fn steps(&self) -> u64;
 
-    /// The present moment as bytes, from which [`resume`](Self::resume) continues with the same bits; `None` if this is not possible. The
-    /// impacts must have been taken before.
+    /// Returns the current state of the engine as bytes, from which [`resume`](Self::resume) continues with the same bits. `None` if the
+    /// engine cannot save its state. The impacts must have been taken before.
     fn checkpoint(&mut self) -> Option<Vec<u8>> {
         None
     }
 
-    /// Continues from a checkpoint of the same run. Returns false if it is not one. The run must not have advanced before.
+    /// Continues from a checkpoint of the same run. Returns false if the bytes are no valid checkpoint. The run must not have advanced
+    /// before.
     fn resume(&mut self, _checkpoint: &[u8]) -> bool {
         false
     }

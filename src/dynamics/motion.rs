@@ -1,27 +1,27 @@
-//! Given motion, which does not follow from forces.
+//! Given motions of bodies, which do not follow from forces.
 
 use glam::{DQuat, DVec3};
 
-/// The pose and the motion of a body at one moment.
+/// The pose, the velocities and the acceleration of a body at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {
-    /// The location of the centre of mass, m.
+    /// The position of the center of mass, world axes, m.
     pub location: DVec3,
-    /// Its velocity, m/s.
+    /// The velocity of the center of mass, world axes, m/s.
     pub velocity: DVec3,
-    /// Its acceleration, m/s².
+    /// The acceleration of the center of mass, world axes, m/s².
     pub acceleration: DVec3,
-    /// The orientation (`world_from_body`).
+    /// The rotation from body axes to world axes.
     pub orientation: DQuat,
-    /// The angular velocity, world axes, rad/s.
+    /// The angular velocity of the body, world axes, rad/s.
     pub angular_velocity: DVec3,
 }
 
-/// A given motion: the position of a body at any time, regardless of forces.
+/// A given motion of a body: its pose at any time, regardless of forces.
 pub trait Motion: Send + Sync {
-    /// The pose and the motion of the body at time `t`, s. Velocities and acceleration must be the derivatives of the pose.
+    /// Returns the pose and the motion of the body at time `t`, s. Velocities and acceleration must be the derivatives of the pose.
     fn at(&self, t: f64) -> Kinematics;
 
-    /// The angular acceleration at time `t`, world axes, rad/s²: the derivative of the angular velocity.
+    /// Returns the angular acceleration of the body at time `t` (s), world axes, rad/s²: the derivative of the angular velocity.
     fn angular_acceleration(&self, t: f64) -> DVec3;
 }

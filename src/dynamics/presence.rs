@@ -1,18 +1,18 @@
-//! The presence of bodies: their births and deaths.
+//! The presence of bodies in time: their births and deaths.
 
 use std::sync::Arc;
 
-/// The times at which a body is present: always, or during some intervals. Both ends belong to an interval.
+/// The times at which a body is present: always, or during some closed intervals.
 ///
 /// An absent body does not move, has no energy and no momentum, and neither exerts nor feels forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Presence(Option<Arc<[[f64; 2]]>>);
 
 impl Presence {
-    /// A body that is always present.
+    /// The presence of a body that exists at all times.
     pub const ALWAYS: Presence = Presence(None);
 
-    /// A body that is present during these intervals (s). They are in rising order, and do not touch.
+    /// Creates the presence during these intervals (s). The intervals are in ascending order and do not touch each other.
     #[must_use]
     pub fn during(intervals: &[[f64; 2]]) -> Presence {
         if let [[start, end]] = *intervals
@@ -24,19 +24,19 @@ impl Presence {
         Presence(Some(intervals.into()))
     }
 
-    /// Whether the body is always present.
+    /// Returns true if the body is present at all times.
     #[must_use]
     pub fn is_always(&self) -> bool {
         self.0.is_none()
     }
 
-    /// The intervals in which the body is present, s.
+    /// Returns the intervals in which the body is present, s.
     #[must_use]
     pub fn intervals(&self) -> &[[f64; 2]] {
         self.0.as_deref().unwrap_or(&[[f64::NEG_INFINITY, f64::INFINITY]])
     }
 
-    /// Whether the body is present at time `t`, s.
+    /// Returns true if the body is present at time `t`, s.
     #[must_use]
     pub fn at(&self, t: f64) -> bool {
         let Some(intervals) = &self.0 else { return true };
@@ -44,20 +44,20 @@ impl Presence {
         begun > 0 && t <= intervals[begun - 1][1]
     }
 
-    /// Whether the body is present at some time from `start` to `end`, s.
+    /// Returns true if the body is present at some time from `start` to `end`, s.
     #[must_use]
     pub fn meets(&self, start: f64, end: f64) -> bool {
         self.intervals().iter().any(|[from, to]| *from <= end && start <= *to)
     }
 
-    /// The first time from `t` on at which the body is present, s.
+    /// Returns the first time from `t` on at which the body is present, s. `None` if it is absent from then on.
     #[must_use]
     pub fn first_from(&self, t: f64) -> Option<f64> {
         let mut ahead = self.intervals().iter().filter(|[_, end]| *end >= t);
         ahead.next().map(|[start, _]| start.max(t))
     }
 
-    /// The intersection: the body is present when both say so.
+    /// Returns the intersection of two presences: the times that belong to both.
     #[must_use]
     pub fn and(&self, other: &Presence) -> Presence {
         match (&self.0, &other.0) {
@@ -75,15 +75,15 @@ impl Presence {
     }
 }
 
-/// A change of a body's presence. At equal times, births come before deaths, so a body whose interval is a single moment is present at
-/// that moment.
+/// A change of a body's presence. At equal times, births are ordered before deaths, so a body whose interval is a single moment is present
+/// at this moment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Change {
     Birth,
     Death,
 }
 
-/// A birth or a death.
+/// The birth or death of a body at a given time.
 #[derive(Clone, Copy, Debug)]
 struct Event {
     time: f64,
@@ -91,36 +91,37 @@ struct Event {
     body: usize,
 }
 
-/// The future births and deaths of a run.
+/// The schedule of the births and deaths of all bodies in a run.
 #[derive(Clone, Default)]
 pub(super) struct Calendar {
-    /// In order of time, once sorted.
+    /// The births and deaths. They are in order of time if `is_sorted` is true.
     events: Vec<Event>,
-    /// The number of past events.
+    /// The number of events at the beginning of the list that have already happened.
     over: usize,
     is_sorted: bool,
 }
 
-/// An interval without births or deaths, and the moments in it.
+/// An interval of time without births or deaths, with the requested moments in it.
 pub(super) struct Leg<'a> {
-    /// The time of its end, s.
+    /// The time at which the interval ends, s.
     pub(super) end: f64,
-    /// The moments before its end, s.
+    /// The requested moments before the end of the interval, s.
     pub(super) within: &'a [f64],
-    /// The moments at its end, when bodies born then are already present, and bodies that die then are still present.
+    /// The requested moments at the end of the interval, s. At this time, newborn bodies are already present, and dying bodies are still
+    /// present.
     pub(super) at_end: &'a [f64],
-    /// The moments after it.
+    /// The requested moments after the interval, s.
     pub(super) later: &'a [f64],
 }
 
 impl Calendar {
-    /// Notes the births and deaths of a body after time `t`. Returns whether the body is present now.
+    /// Schedules the births and deaths of a body after time `t`, s. Returns true if the body is present at `t`.
     pub(super) fn note(&mut self, body: usize, presence: &Presence, t: f64) -> bool {
         self.events.drain(..std::mem::take(&mut self.over));
         self.is_sorted = false;
         for &[start, end] in presence.intervals() {
             for (time, change) in [(start, Change::Birth), (end, Change::Death)] {
-                // A death at time `t` itself is still to come: the body is present now.
+                // A death at time `t` itself lies ahead: at `t`, the body is still present.
                 if time > t && time < f64::INFINITY || time == t && change == Change::Death {
                     self.events.push(Event { time, change, body });
                 }
@@ -129,13 +130,14 @@ impl Calendar {
         presence.at(t)
     }
 
-    /// The time of the next birth or death, s.
+    /// Returns the time of the next birth or death, s. `None` if no more are scheduled.
     pub(super) fn next(&mut self) -> Option<f64> {
         self.sort();
         self.events.get(self.over).map(|event| event.time)
     }
 
-    /// The interval up to the next birth or death, but at most to `t`, with the requested moments (in rising order) in it.
+    /// Returns the interval up to the next birth or death, or up to `t` if that is earlier. `moments` are the requested times (s), in
+    /// ascending order.
     pub(super) fn leg<'a>(&mut self, t: f64, moments: &'a [f64]) -> Leg<'a> {
         let end = self.next().map_or(t, |next| next.min(t));
         let (within, rest) = moments.split_at(moments.partition_point(|&moment| moment < end));
@@ -143,13 +145,13 @@ impl Calendar {
         Leg { end, within, at_end, later }
     }
 
-    /// The changes when time `t` is reached: a body born then is present, and one that dies then still is. Each body comes with its new
-    /// presence.
+    /// Returns the changes of presence when time `t` (s) is reached, and marks them as past. A body born at `t` is then present, and one
+    /// that dies at `t` still is. Each change holds the index of the body and its new presence.
     pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
     }
 
-    /// The changes when time continues from `t`: a body that dies then is no longer present.
+    /// Returns the changes of presence when time continues from `t` (s), and marks them as past. A body that dies at `t` is then absent.
     pub(super) fn depart(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time <= t)
     }
@@ -172,15 +174,15 @@ impl Calendar {
     }
 }
 
-/// Checkpoints of time stepping.
+/// Functions for the checkpoints of the engine for time-stepping.
 #[cfg(feature = "time-stepping")]
 impl Calendar {
-    /// The number of past births and deaths.
+    /// Returns the number of births and deaths that have already happened.
     pub(super) fn over(&self) -> usize {
         self.over
     }
 
-    /// Skips to a number of past births and deaths.
+    /// Sets the number of births and deaths that have already happened, when a checkpoint is resumed.
     pub(super) fn set_over(&mut self, over: usize) {
         self.sort();
         self.over = over.min(self.events.len());
@@ -225,7 +227,7 @@ mod tests {
         assert_eq!(calendar.next(), Some(1.0));
         assert_eq!(calendar.arrive(1.0), [(1, true)]);
         assert_eq!(calendar.depart(1.0), [(0, false), (1, false)]);
-        // Several changes are reported together.
+        // Several changes since the last call are returned together.
         assert_eq!(calendar.arrive(9.0), [(1, true), (1, false)]);
         assert_eq!(calendar.next(), None);
     }

@@ -1,16 +1,16 @@
-//! Disjoint sets of numbers.
+//! Disjoint sets of indices (union–find).
 
-/// Disjoint sets of the numbers from 0 on, as a union–find forest: each number points to another one of its set, and the first one to
-/// itself.
+/// Disjoint sets of the indices from 0 on, as a union–find forest. Each entry points to an index of the same set that is not larger; the
+/// smallest index of a set points to itself.
 pub(super) struct Sets(Vec<usize>);
 
 impl Sets {
-    /// As many sets, each of one number.
+    /// Creates `numbers` sets, each of one index.
     pub(super) fn new(numbers: usize) -> Sets {
         Sets((0..numbers).collect())
     }
 
-    /// The smallest number in the set of `number`.
+    /// Returns the smallest index in the set of `number`, which identifies the set.
     pub(super) fn first(&mut self, number: usize) -> usize {
         let mut first = number;
         while self.0[first] != first {
@@ -20,7 +20,7 @@ impl Sets {
         first
     }
 
-    /// Unites the sets of two numbers.
+    /// Merges the sets of two indices.
     pub(super) fn unite(&mut self, a: usize, b: usize) {
         let (a, b) = (self.first(a), self.first(b));
         self.0[a.max(b)] = a.min(b);

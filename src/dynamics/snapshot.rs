@@ -1,45 +1,45 @@
-//! The state of all bodies at one moment.
+//! Snapshots: all observable quantities of a run at one moment.
 
 use glam::{DQuat, DVec3};
 
 use super::{Balance, BodyId, ContactSnapshot, Loads, Model, Reaction, State, Undefined};
 
-/// All bodies at one moment of a run.
+/// All bodies, reactions, contacts and energies at one moment of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
-    /// The time, s.
+    /// The time of the snapshot, s.
     pub time: f64,
     /// The present bodies, in the order of their ids.
     pub bodies: Vec<BodySnapshot>,
-    /// The reactions of constraints on the bodies, in the order in which they were added.
+    /// The reaction of each constraint, in the order in which the constraints were added.
     pub reactions: Vec<Reaction>,
-    /// The lasting contacts, in the order of the ids of their bodies.
+    /// The lasting contacts of bodies, in the order of the bodies' ids.
     pub contacts: Vec<ContactSnapshot>,
-    /// The greatest penetration of bodies, m; 0 if contacts are exact, or there are none.
+    /// The largest penetration depth of two bodies, m; 0 if contacts are exact or if there are none.
     pub penetration: f64,
-    /// Energies, momenta and the drift.
+    /// The energies, the momenta, and the drift of the energy.
     pub balance: Balance,
 }
 
-/// A body at one moment.
+/// The pose, the velocities and the force of one body at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodySnapshot {
-    /// The number of the body in the world.
+    /// The index of the body in the world.
     pub id: usize,
-    /// Its centre of mass, m.
+    /// The position of the body's center of mass, world axes, m.
     pub location: DVec3,
-    /// The rotation from its own axes to the world's.
+    /// The rotation from body axes to world axes.
     pub orientation: DQuat,
-    /// Its velocity, m/s.
+    /// The velocity of the body's center of mass, world axes, m/s.
     pub velocity: DVec3,
-    /// Its angular velocity in world axes, rad/s.
+    /// The angular velocity of the body, world axes, rad/s.
     pub angular_velocity: DVec3,
-    /// The sum of the forces on it, N; m a if its motion is given.
+    /// The sum of all forces on the body, world axes, N. For a body with a given motion, this is m a.
     pub force: DVec3,
 }
 
 impl BodySnapshot {
-    /// The present bodies, in the order of their ids. `loads` has the sums of the forces on them.
+    /// Returns the snapshots of all present bodies, in the order of their ids. `loads` holds the forces at this moment.
     pub(super) fn of_all(model: &Model, state: &State, loads: &Loads) -> Vec<BodySnapshot> {
         let body = |id: usize| BodySnapshot {
             id,
@@ -56,65 +56,65 @@ impl BodySnapshot {
 /// The reason why a run cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
-    /// A body's position or velocity is not finite: the method cannot follow this motion with this step.
+    /// The position or velocity of a body is not finite: the method cannot follow this motion with this step.
     Diverged {
-        /// The body.
+        /// The body with a position or velocity that is not finite.
         body: BodyId,
-        /// The time, s.
+        /// The time of the first snapshot with such a value, s.
         time: f64,
     },
-    /// A force on a body has no finite value, so its motion has none either.
+    /// A force on a body has no finite value, so the body's motion is undefined.
     Undefined {
         /// The index of the force, in the order in which forces were added.
         force: usize,
-        /// The body, the time and the position.
+        /// The body, the time and the position at which the force is undefined.
         at: Undefined,
     },
-    /// A constraint cannot be kept.
+    /// A constraint, such as a joint, cannot be satisfied.
     Broken {
-        /// Its index, in the order in which constraints were added.
+        /// The index of the constraint, in the order in which constraints were added.
         constraint: usize,
-        /// The time, s.
+        /// The time at which the constraint failed, s.
         time: f64,
-        /// The error of the joint, in metres, or in radians for a rotation.
+        /// The remaining error of the constraint, in meters, or in radians for a rotation.
         missing: f64,
     },
-    /// Two bodies overlap when contacts begin.
+    /// Two bodies already overlap when contacts between them begin.
     Overlapping {
-        /// The bodies.
+        /// The two overlapping bodies.
         bodies: [BodyId; 2],
-        /// The time, s.
+        /// The time at which contacts began, s.
         time: f64,
-        /// The depth of the penetration, m.
+        /// The depth by which the bodies overlap, m.
         depth: f64,
     },
-    /// No step is short enough for a body.
+    /// An adaptive method finds no step that is short enough for the required accuracy.
     Stalled {
-        /// The body.
+        /// The body whose motion needs the shorter step.
         body: BodyId,
-        /// The time, s.
+        /// The time that the run has reached, s.
         time: f64,
     },
-    /// Impacts follow each other endlessly.
+    /// Impacts between bodies follow each other endlessly, or bodies cannot be separated.
     Jammed {
-        /// The bodies of the last impact.
+        /// The two bodies of the last impact, or those that cannot be separated.
         bodies: [BodyId; 2],
-        /// The time, s.
+        /// The time at which the run stopped, s.
         time: f64,
     },
 }
 
 impl Snapshot {
-    /// A body, if it is present.
+    /// Returns the snapshot of a body; `None` if the body is absent.
     #[must_use]
     pub fn body(&self, id: usize) -> Option<&BodySnapshot> {
         find(&self.bodies, id)
     }
 
-    /// The snapshot, unless a body's position or velocity is not finite.
+    /// Returns the snapshot itself if all positions and velocities are finite.
     ///
     /// # Errors
-    /// Names the first such body.
+    /// Names the first body whose position or velocity is not finite.
     pub fn checked(self) -> Result<Snapshot, Breakdown> {
         match self.bodies.iter().find(|body| !body.is_finite()) {
             None => Ok(self),
@@ -123,9 +123,9 @@ impl Snapshot {
     }
 }
 
-/// The body with an id, from a list in the order of ids.
+/// Returns the snapshot of the body with an id, from a list in the order of ids. `None` if the list does not contain this body.
 pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> {
-    // In most runs, all bodies are always present.
+    // If all bodies are present, as in most runs, the id is the index in the list.
     match bodies.get(id) {
         Some(body) if body.id == id => Some(body),
         _ => bodies.binary_search_by_key(&id, |body| body.id).ok().map(|place| &bodies[place]),
@@ -133,7 +133,7 @@ pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> 
 }
 
 impl BodySnapshot {
-    /// Whether the body's position and velocity are finite.
+    /// Returns true if the body's position and velocities are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.location.is_finite()
@@ -142,7 +142,8 @@ impl BodySnapshot {
             && self.angular_velocity.is_finite()
     }
 
-    /// The position and velocity of a point of the body. The point is given in the body's own axes, relative to its centre of mass, m.
+    /// Returns the position (m) and the velocity (m/s) of a point of the body, world axes. The point is given in body axes, relative to
+    /// the center of mass, m.
     #[must_use]
     pub fn point(&self, at: DVec3) -> (DVec3, DVec3) {
         if at == DVec3::ZERO {

@@ -1,4 +1,4 @@
-//! Everything that changes with time.
+//! The state of the bodies: all quantities that change with time.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -9,48 +9,48 @@ use serde::{Deserialize, Serialize};
 /// [`Model::angular_velocity`](super::Model::angular_velocity) gives the angular velocity.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Locations of the centres of mass, m.
+    /// The position of each body's center of mass, world axes, m.
     pub location: Vec<DVec3>,
-    /// Velocities of the centres of mass, m/s.
+    /// The velocity of each body's center of mass, world axes, m/s.
     pub velocity: Vec<DVec3>,
-    /// Orientations of the principal axes of inertia, unit quaternions. They equal `world_from_body`, except for compounds and meshes.
-    /// [`World::orientation`](super::World::orientation) is right for all bodies.
+    /// The orientation of each body's principal axes of inertia, as a unit quaternion. It equals the rotation from body axes to world
+    /// axes, except for compounds and meshes. [`World::orientation`](super::World::orientation) is right for all bodies.
     pub orientation: Vec<DQuat>,
-    /// Angular momenta, each about the body's own centre of mass, world axes, kg m²/s.
+    /// The angular momentum of each body about its center of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,
-    /// The energy brought in so far by everything without a potential. It is integrated along with the motion, so that energy balances to
-    /// the accuracy of the method.
+    /// The energy that forces without a potential, impacts and motors have brought in so far, J. It is integrated along with the motion,
+    /// so that energy balances to the accuracy of the method.
     pub accounts: Accounts,
 }
 
-/// The energy brought in so far by everything without a potential, J; negative if energy was removed. To add an account, add a field
-/// here, in [`NAMES`](Self::NAMES), and in the two functions below.
+/// The energy that forces without a potential, impacts and motors have brought in so far, J; negative if they removed energy. To add an
+/// account, add a field to this struct and to [`NAMES`](Self::NAMES), and extend the two functions that convert arrays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accounts {
-    /// The work of the forces without a potential: the integral of their power over time.
+    /// The work of the forces without a potential, J: the integral of their power over time.
     pub work: f64,
-    /// The work of the motors of joints.
+    /// The work of the motors of joints, J.
     pub motors: f64,
-    /// The energy lost when a joint hits a limit or a rope becomes taut; never positive. In time-stepping, it also holds the energy that
-    /// yielding joints absorb and release.
+    /// The energy change when a joint hits a limit or a rope becomes taut, J: negative when energy is lost. In time-stepping, it also holds
+    /// the energy that yielding joints absorb and release.
     pub limits: f64,
-    /// The energy lost at impacts; never positive.
+    /// The energy change at impacts, J: negative when energy is lost.
     pub impacts: f64,
-    /// The energy lost to sliding and rolling friction between bodies in contact; never positive.
+    /// The energy change by sliding and rolling friction between bodies in contact, J: negative when energy is lost.
     pub friction: f64,
 }
 
-/// The account for the work of a force without a potential.
+/// The account in which the work of a force without a potential is booked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkAccount {
-    /// [`Accounts::work`].
+    /// The general account for the work of forces, [`Accounts::work`].
     Work,
-    /// [`Accounts::motors`].
+    /// The account for the work of motors, [`Accounts::motors`].
     Motors,
 }
 
 impl WorkAccount {
-    /// The entry of this account, J or W.
+    /// Returns the entry of this account: energy in J, or power in W.
     pub fn of(self, accounts: &mut Accounts) -> &mut f64 {
         match self {
             WorkAccount::Work => &mut accounts.work,
@@ -63,25 +63,26 @@ impl Accounts {
     /// The names of the accounts, in the order of [`to_array`](Self::to_array).
     pub const NAMES: [&'static str; 5] = ["work", "motors", "limits", "impacts", "friction"];
 
-    /// All entries, in the order of the names.
+    /// Returns all entries as an array, in the order of [`NAMES`](Self::NAMES).
     #[must_use]
     pub fn to_array(self) -> [f64; Self::NAMES.len()] {
         [self.work, self.motors, self.limits, self.impacts, self.friction]
     }
 
-    /// The accounts with these entries, in the order of the names.
+    /// Creates accounts from an array of entries, in the order of [`NAMES`](Self::NAMES).
     #[must_use]
     pub fn from_array([work, motors, limits, impacts, friction]: [f64; Self::NAMES.len()]) -> Self {
         Self { work, motors, limits, impacts, friction }
     }
 
-    /// Adds `factor` times each entry of `others`: for powers (W) and a time (s), the energy brought in during that time.
+    /// Adds `factor` times each entry of `others`. If `others` holds powers (W) and `factor` is a time (s), this adds the energy brought
+    /// in during that time.
     pub fn add(&mut self, factor: f64, others: Accounts) {
         let (own, others) = (self.to_array(), others.to_array());
         *self = Accounts::from_array(std::array::from_fn(|i| own[i] + factor * others[i]));
     }
 
-    /// The sum of all, J.
+    /// Returns the sum of all accounts, J.
     #[must_use]
     pub fn total(self) -> f64 {
         self.to_array().into_iter().sum()
@@ -89,7 +90,7 @@ impl Accounts {
 }
 
 impl State {
-    /// Reserves memory for more bodies.
+    /// Reserves memory for this many more bodies.
     pub(super) fn reserve(&mut self, bodies: usize) {
         self.location.reserve_exact(bodies);
         self.velocity.reserve_exact(bodies);
@@ -97,7 +98,7 @@ impl State {
         self.angular_momentum.reserve_exact(bodies);
     }
 
-    /// Copies some bodies, or all if `None`, from another state of as many bodies, and its accounts.
+    /// Copies the given bodies (all if `None`) and the accounts from another state with the same number of bodies.
     pub(super) fn take_over(&mut self, source: &State, bodies: Option<&[usize]>) {
         let Some(bodies) = bodies else {
             self.clone_from(source);
@@ -112,20 +113,20 @@ impl State {
         self.accounts = source.accounts;
     }
 
-    /// The number of bodies.
+    /// Returns the number of bodies in the state.
     #[must_use]
     pub fn len(&self) -> usize {
         self.location.len()
     }
 
-    /// Whether there is no body.
+    /// Returns true if the state has no bodies.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.location.is_empty()
     }
 }
 
-// Written by hand for `clone_from`: the derived one allocates, and Runge–Kutta methods copy a state at every stage.
+// Implemented by hand because of `clone_from`: the derived version would allocate, and Runge–Kutta methods copy a state at every stage.
 impl Clone for State {
     fn clone(&self) -> Self {
         Self {

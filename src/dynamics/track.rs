@@ -1,53 +1,53 @@
-//! A motion given at some times: keyframes, or the record of another simulation.
+//! A motion given by poses at some times: keyframes, or the recording of another simulation.
 
 use glam::{DQuat, DVec3};
 
 use super::{Kinematics, Motion};
 
-/// The interpolation between two keys.
+/// How a motion is interpolated between two keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// Linear interpolation: velocities jump.
+    /// Linear interpolation: velocities jump at the keys.
     Linear,
     /// Interpolation by cubic Hermite polynomials: velocities are continuous.
     Cubic,
 }
 
-/// A pose at a time.
+/// A key of a motion: the pose of a body at a given time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
-    /// The time, s.
+    /// The time of the key, s.
     pub time: f64,
-    /// The location of the centre of mass, m.
+    /// The position of the center of mass, world axes, m.
     pub location: DVec3,
-    /// The orientation (`world_from_body`).
+    /// The rotation from body axes to world axes.
     pub orientation: DQuat,
-    /// The velocity (m/s), if known.
+    /// The velocity of the center of mass (world axes, m/s), if known.
     pub velocity: Option<DVec3>,
-    /// The angular velocity (world axes, rad/s), if known.
+    /// The angular velocity of the body (world axes, rad/s), if known.
     pub angular_velocity: Option<DVec3>,
 }
 
-/// A motion through given poses. Before the first and after the last, the body is at rest there.
+/// A motion that interpolates given poses. Before the first and after the last pose, the body is at rest there.
 #[derive(Clone, Debug)]
 pub struct Track {
     keys: Vec<Key>,
     interpolation: Interpolation,
-    /// For cubic interpolation: the slopes of location and orientation at each key.
+    /// For cubic interpolation: the time derivatives of location and orientation at each key. Empty for linear interpolation.
     slopes: Vec<(DVec3, DQuat)>,
 }
 
 impl Track {
-    /// The motion through some keys, whose times must rise.
+    /// Creates the motion through some keys, whose times must be ascending.
     ///
-    /// If a key of a cubic track has no velocity, its slope is that of the parabola through it and its neighbours. At both ends,
-    /// `at_rest` sets this slope to 0 instead of that between the two end keys.
+    /// If a key of a cubic track has no velocity, its slope is that of the parabola through the key and its two neighbors. At both ends of
+    /// the track, `at_rest` sets this slope to 0; otherwise it is the slope between the two outermost keys.
     #[must_use]
     pub fn new(keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
         Track::with_gaps(keys, &[], interpolation, at_rest)
     }
 
-    /// The same track with gaps. Each gap is given by the index of the key after it, in rising order. The slopes of each part between
+    /// Creates a motion with gaps. Each gap is given by the index of the key after it, in ascending order. The slopes in each part between
     /// gaps depend on that part alone.
     #[must_use]
     pub fn with_gaps(
@@ -56,7 +56,8 @@ impl Track {
         interpolation: Interpolation,
         at_rest: bool,
     ) -> Track {
-        // q and −q are the same orientation. The signs are chosen so that the rotation between neighbours is the shorter one.
+        // The quaternions q and −q are the same orientation. The signs are chosen so that the rotation between neighboring keys is the
+        // shorter one.
         for i in 1..keys.len() {
             if keys[i].orientation.dot(keys[i - 1].orientation) < 0.0 {
                 keys[i].orientation = -keys[i].orientation;
@@ -70,14 +71,14 @@ impl Track {
         Track { keys, interpolation, slopes }
     }
 
-    /// The times of the first and the last key, s; `None` if there is no key.
+    /// Returns the times of the first and the last key, s. `None` if there are no keys.
     #[must_use]
     pub fn span(&self) -> Option<[f64; 2]> {
         Some([self.keys.first()?.time, self.keys.last()?.time])
     }
 }
 
-/// The slope of location and orientation at a key.
+/// Computes the time derivatives of location and orientation at key `i`.
 fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat) {
     let joins = |i: &usize| gaps.binary_search(i).is_err();
     let before = Some(i).filter(joins).and_then(|i| keys.get(i.checked_sub(1)?));
@@ -89,7 +90,7 @@ fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat
     };
     let (location, orientation) = match (before, after) {
         (Some(a), Some(b)) => {
-            // The slope of the parabola: each side is weighted by the length of the other.
+            // The slope of the parabola: the slope of each side is weighted by the length of the other side.
             let weight = (b.time - key.time) / (b.time - a.time);
             let (left, right) = (rise(a, key), rise(key, b));
             (left.0 * weight + right.0 * (1.0 - weight), left.1 * weight + right.1 * (1.0 - weight))
@@ -103,7 +104,7 @@ fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat
     (key.velocity.unwrap_or(location), turning.unwrap_or(orientation))
 }
 
-/// An angular velocity as a quaternion without real part.
+/// Returns an angular velocity as a quaternion without real part.
 fn spin(omega: DVec3) -> DQuat {
     DQuat::from_xyzw(omega.x, omega.y, omega.z, 0.0)
 }
@@ -120,7 +121,7 @@ impl Motion for Track {
         };
         let (Some(a), Some(b)) = (after.checked_sub(1).map(|i| &self.keys[i]), self.keys.get(after)) else {
             let end = if after == 0 { self.keys.first() } else { self.keys.last() };
-            // At the exact end, the body still moves.
+            // At the time of the last key, the body still moves.
             return match end {
                 Some(last) if after > 1 && last.time == t => self.between(after - 2, t),
                 Some(key) => rest(key),
@@ -146,7 +147,7 @@ impl Motion for Track {
     }
 }
 
-/// A quaternion of any length, with its time derivatives.
+/// A quaternion of any length that represents an orientation, with its first and second time derivatives.
 struct Turning {
     quaternion: DQuat,
     rate: DQuat,
@@ -154,8 +155,8 @@ struct Turning {
 }
 
 impl Turning {
-    /// With w = Q' Q* / |Q|², the angular velocity is twice its vector part, and the angular acceleration is 2 vec(Q'' Q*) / |Q|² − 2
-    /// Re(w) ω. The length of Q has no effect on the rotation.
+    /// Computes the angular acceleration, world axes, rad/s². With w = Q' Q* / |Q|², the angular velocity ω is twice the vector part of w,
+    /// and the angular acceleration is 2 vec(Q'' Q*) / |Q|² − 2 Re(w) ω. The length of Q has no effect on the rotation.
     fn acceleration(&self) -> DVec3 {
         let per_square = 1.0 / self.quaternion.length_squared();
         let conjugate = self.quaternion.conjugate() * per_square;
@@ -165,7 +166,7 @@ impl Turning {
 }
 
 impl Track {
-    /// The pose between a key and the next.
+    /// Returns the pose and the motion at time `t` (s) between key `i` and the next key.
     fn between(&self, i: usize, t: f64) -> Kinematics {
         let (a, b) = (&self.keys[i], &self.keys[i + 1]);
         let duration = b.time - a.time;
@@ -189,7 +190,8 @@ impl Track {
         let Turning { quaternion, rate, .. } = self.turning(i, t);
         let length = quaternion.length();
         let orientation = quaternion * (1.0 / length);
-        // The part of the rate that rotates. The rest changes the length, which the division by the length undoes.
+        // Only the vector part of this product rotates the body. The real part changes the length of the quaternion, which the
+        // normalization removes.
         let turning = rate * (1.0 / length) * orientation.conjugate();
         Kinematics {
             location: a.location * h00 + m0 * h10 + b.location * h01 + m1 * h11,
@@ -200,7 +202,7 @@ impl Track {
         }
     }
 
-    /// The rotation between a key and the next with cubic interpolation.
+    /// Returns the quaternion and its derivatives at time `t` (s) between key `i` and the next key, with cubic interpolation.
     fn turning(&self, i: usize, t: f64) -> Turning {
         let (a, b) = (&self.keys[i], &self.keys[i + 1]);
         let duration = b.time - a.time;
@@ -216,19 +218,20 @@ impl Track {
     }
 }
 
-/// The cubic Hermite polynomials: for the value and the slope at the start, then for the value and the slope at the end.
+/// Returns the four cubic Hermite polynomials at `s`: those for the value and the slope at the start, then those for the value and the
+/// slope at the end.
 fn hermite(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
     [(1.0 + 2.0 * s) * r * r, s * r * r, s * s * (3.0 - 2.0 * s), -s * s * r]
 }
 
-/// Their derivatives.
+/// Returns the first derivatives of the four cubic Hermite polynomials at `s`.
 fn hermite_slope(s: f64) -> [f64; 4] {
     let r = 1.0 - s;
     [-6.0 * s * r, r * (1.0 - 3.0 * s), 6.0 * s * r, s * (3.0 * s - 2.0)]
 }
 
-/// Their second derivatives.
+/// Returns the second derivatives of the four cubic Hermite polynomials at `s`.
 fn hermite_curvature(s: f64) -> [f64; 4] {
     [12.0 * s - 6.0, 6.0 * s - 4.0, 6.0 - 12.0 * s, 6.0 * s - 2.0]
 }
@@ -237,7 +240,7 @@ fn hermite_curvature(s: f64) -> [f64; 4] {
 mod tests {
     use super::*;
 
-    /// A body that moves on a circle and rotates with it.
+    /// Returns a key of a body that moves on a unit circle and rotates with it, at 1 rad/s. With `known`, the key has velocities.
     fn key(t: f64, known: bool) -> Key {
         let (sin, cos) = libm::sincos(t);
         Key {
@@ -250,12 +253,12 @@ mod tests {
     }
 
     fn circle(interpolation: Interpolation, known: bool, step: f64) -> Track {
-        // More than a full rotation, so that quaternions change their sign.
+        // The keys cover more than a full turn, so the quaternions change their sign.
         let keys = (0..).map(|i| f64::from(i) * step).take_while(|t| *t <= 8.0);
         Track::new(keys.map(|t| key(t, known)).collect(), interpolation, false)
     }
 
-    /// The largest position error between keys in the middle of the track.
+    /// Returns the largest error of position (m) or angle (rad) between keys, in the middle of the track.
     fn error(track: &Track) -> f64 {
         let times = (0..1000).map(|i| 2.0 + f64::from(i) * 0.004);
         let off = |t: f64| {
@@ -266,7 +269,8 @@ mod tests {
         times.map(off).fold(0.0, f64::max)
     }
 
-    /// Halving the step divides the error by 2ᵖ: p is 2 for linear interpolation, 3 for slopes of parabolas, 4 for known slopes.
+    /// Halving the interval of the keys divides the error by 2ᵖ. The order p is 2 for linear interpolation, 3 for slopes of parabolas, 4
+    /// for known slopes.
     #[test]
     fn it_goes_through_its_keys_and_is_as_accurate_between_as_its_order_says() {
         use Interpolation::{Cubic, Linear};
@@ -282,7 +286,7 @@ mod tests {
         }
     }
 
-    /// Compares with difference quotients over 2e-6, whose rounding error is 1e-16 / 1e-6.
+    /// Compares velocities and accelerations with difference quotients over 2e-6 s, whose rounding error is 1e-16 / 1e-6.
     #[test]
     fn velocities_are_the_derivatives_of_the_place() {
         const H: f64 = 1e-6;
@@ -317,7 +321,7 @@ mod tests {
         assert!(track.at(8.0).velocity.length() > 0.9, "at the end it still moves");
         let one = Track::new(vec![key(1.0, false)], Interpolation::Cubic, true);
         assert_eq!(one.at(1.0).location, key(1.0, false).location);
-        // At rest at both ends, the path between two keys is a smooth step.
+        // At rest at both ends, the motion between two keys accelerates and slows down smoothly.
         let two = Track::new(vec![key(0.0, false), key(1.0, false)], Interpolation::Cubic, true);
         assert_eq!((two.at(0.0).velocity, two.at(1.0).velocity), (DVec3::ZERO, DVec3::ZERO));
         let middle = (key(0.0, false).location + key(1.0, false).location) / 2.0;
