@@ -1,4 +1,4 @@
-//! Compounds: several solids as one rigid body.
+//! Compounds: several solids that form one rigid body.
 
 use std::sync::Arc;
 
@@ -7,31 +7,31 @@ use glam::{DMat3, DQuat, DVec3};
 use super::Shape;
 use super::principal::principal;
 
-/// A solid in a compound.
+/// A solid that is part of a compound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// The shape of the part. It is finite, or has no mass.
+    /// The shape of the part. An infinite shape adds neither volume nor mass.
     pub shape: Shape,
-    /// The location of the part's centre of mass, m.
+    /// The location of the part's centre of mass in the frame of the compound, m.
     pub location: DVec3,
-    /// The orientation of the part.
+    /// The rotation from the part's axes to the axes of the compound.
     pub orientation: DQuat,
 }
 
-/// Several solids of one density as one rigid body. The mass of an overlap counts for each part.
+/// Several solids of the same density that form one rigid body. Where parts overlap, the mass of each part counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compound {
-    /// The parts. Clones of a compound share them.
+    /// The parts, which clones of a compound share.
     parts: Arc<[Part]>,
     volume: f64,
-    /// The principal moments of inertia per mass, m².
+    /// The principal moments of inertia, divided by the mass, m².
     inertia: DVec3,
     principal_axes: DQuat,
 }
 
 impl Compound {
-    /// Creates a compound from parts. Moves the origin to the common centre of mass and keeps the axes, so the origin
-    /// of the given parts does not matter.
+    /// Creates a compound from parts. The origin is moved to the common centre of mass, and the axes are kept. So the origin of the given
+    /// locations does not matter.
     #[must_use]
     pub fn new(mut parts: Vec<Part>) -> Compound {
         let volume_of = |part: &Part| part.shape.volume().unwrap_or(0.0);
@@ -44,7 +44,7 @@ impl Compound {
         Compound { parts: parts.into(), volume, inertia, principal_axes }
     }
 
-    /// The parts, in a frame whose origin is the centre of mass of the compound.
+    /// The parts of the compound, in a frame whose origin is the compound's centre of mass.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -62,7 +62,7 @@ impl Compound {
         self.principal_axes
     }
 
-    /// The largest reach of a part in a direction in the frame of the compound, m.
+    /// Returns the largest extent of any part in a direction in the frame of the compound, m.
     pub(super) fn support(&self, direction: DVec3) -> Option<f64> {
         let reach = |part: &Part| {
             Some(part.location.dot(direction) + part.shape.support(part.orientation, direction)?)
@@ -86,8 +86,9 @@ impl Compound {
     }
 }
 
-/// The inertia tensor of a part about the origin, per mass, m²: the tensor about its own centre, rotated, plus that of
-/// its centre by the parallel axis theorem (Goldstein, *Classical Mechanics*, ch. 5).
+/// Returns the inertia tensor of a part about the compound's origin, divided by the part's mass, m². It is the tensor about the part's own
+/// centre, rotated, plus the tensor of a point mass at that centre, by the parallel axis theorem (Goldstein, *Classical Mechanics*, ch.
+/// 5).
 fn tensor(part: &Part) -> DMat3 {
     let turn = DMat3::from_quat(part.orientation * part.shape.principal_axes());
     let own = turn * DMat3::from_diagonal(part.shape.inertia(1.0)) * turn.transpose();

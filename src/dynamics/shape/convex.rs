@@ -1,48 +1,49 @@
-//! Intersection test for two convex shapes.
+//! Tests whether two convex shapes intersect.
 
 use glam::{DQuat, DVec3};
 
 use super::Shape;
 
-/// The largest number of iterations in the search for a common point. Round shapes that just touch need the most.
+/// The largest number of iterations in the search for a common point. Round shapes that just touch need the most iterations.
 const MAX_STEPS: usize = 64;
 
-/// A convex shape with a location, an orientation and a scale.
+/// A convex shape with a location, an orientation and a size in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
-    /// The shape.
+    /// The shape before it is scaled.
     pub shape: &'a Shape,
     /// The location of the centre of mass, m.
     pub location: DVec3,
-    /// The orientation of the shape.
+    /// The rotation from the shape's axes to world axes.
     pub orientation: DQuat,
     /// The factor by which the shape is enlarged.
     pub scale: f64,
 }
 
 impl Placed<'_> {
-    /// The point of the shape that is farthest in a direction, m.
+    /// Returns the point of the shape that is farthest in a direction, world axes, m.
     fn farthest(&self, direction: DVec3) -> DVec3 {
         let point = self.shape.farthest(self.orientation.conjugate() * direction).unwrap_or(DVec3::ZERO);
         self.location + self.scale * (self.orientation * point)
     }
 
-    /// Whether two convex shapes have a common point. `false` if the search does not converge.
+    /// Returns whether two convex shapes have a common point; false if the search does not converge.
     ///
-    /// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, IEEE J. Robotics and Automation 4 (1988) 193; balls by their
-    /// distance.
+    /// Two spheres are compared by their distance, other shapes by the GJK algorithm. Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi,
+    /// IEEE J. Robotics and Automation 4 (1988) 193.
     #[must_use]
     pub fn meets(&self, other: &Placed<'_>) -> bool {
         let between = other.location - self.location;
         if let (Shape::Sphere { radius: a }, Shape::Sphere { radius: b }) = (self.shape, other.shape) {
             return between.length() < a * self.scale + b * other.scale;
         }
-        // The points of the Minkowski difference of the shapes. The difference contains the origin if the shapes meet.
+        // This closure returns points of the Minkowski difference of the shapes. The difference contains the origin exactly if the shapes
+        // have a common point.
         let difference = |direction: DVec3| self.farthest(direction) - other.farthest(-direction);
         let mut simplex = vec![difference(if between == DVec3::ZERO { DVec3::X } else { between })];
         let mut nearest = simplex[0];
         for _ in 0..MAX_STEPS {
-            // At smaller distances, rounding errors decide.
+            // At smaller distances, rounding errors would decide the result.
             if nearest.length_squared() <= 1e-24 * between.length_squared() {
                 return true;
             }
@@ -60,8 +61,8 @@ impl Placed<'_> {
     }
 }
 
-/// Finds the point of the simplex that is nearest to the origin, and reduces the simplex to the vertices of the corner,
-/// edge or face that contains the point. `None` if a tetrahedron contains the origin.
+/// Returns the point of the simplex that is nearest to the origin, and reduces the simplex to the vertices of the corner, edge or face
+/// that contains this point. Returns `None` if a tetrahedron contains the origin.
 fn reduce(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
     match *simplex.as_slice() {
         [a, b] => Some(of_edge(simplex, a, b)),
@@ -70,7 +71,7 @@ fn reduce(simplex: &mut Vec<DVec3>) -> Option<DVec3> {
             let mut best: Option<(DVec3, Vec<DVec3>)> = None;
             for (a, b, c, opposite) in [(a, b, c, d), (a, c, d, b), (a, d, b, c), (b, d, c, a)] {
                 let normal = (b - a).cross(c - a);
-                // Skip this face: the origin and the opposite vertex are on the same side of it.
+                // This face is skipped, because the origin and the opposite vertex are on the same side of it.
                 if normal.dot(-a) * normal.dot(opposite - a) > 0.0 {
                     continue;
                 }
@@ -100,8 +101,8 @@ fn of_edge(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3) -> DVec3 {
     end
 }
 
-/// Finds the point of the triangle a, b, c that is nearest to the origin, and reduces `simplex` to the vertices of the
-/// corner, edge or face that contains the point. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
+/// Returns the point of the triangle a, b, c that is nearest to the origin, and reduces `simplex` to the vertices of the corner, edge or
+/// face that contains this point. Source: C. Ericson, *Real-Time Collision Detection* (2005), 5.1.5.
 fn of_triangle(simplex: &mut Vec<DVec3>, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let [d1, d2] = [ab.dot(-a), ac.dot(-a)];
@@ -154,16 +155,16 @@ mod tests {
         for (one, two, place, turn, meets) in [
             (&ball, &ball, [1.99, 0.0, 0.0], 0.0, true),
             (&ball, &ball, [2.01, 0.0, 0.0], 0.0, false),
-            // Corner to corner along the diagonal: the boxes end at √3.
+            // Along the diagonal, the corners of both cubes are √3 m from their centres.
             (&cube, &cube, [1.99, 1.99, 1.99], 0.0, true),
             (&cube, &cube, [2.01, 0.0, 0.0], 0.0, false),
-            // Turned by 45 degrees, it reaches √2.
+            // A cube that is rotated by 45 degrees extends √2 m along x.
             (&cube, &cube, [2.41, 0.0, 0.0], 45.0, true),
             (&cube, &cube, [2.42, 0.0, 0.0], 45.0, false),
             (&ball, &cube, [1.57, 1.57, 1.57], 0.0, true),
             (&ball, &cube, [1.58, 1.58, 1.58], 0.0, false),
             (&soft, &cube, [1.99, 0.0, 0.0], 0.0, true),
-            // Its corner is (√3 − 1) / 2 m nearer than that of the cube.
+            // The rounded corner is (√3 − 1) / 2 m nearer to the centre than the corner of the cube.
             (&soft, &soft, [1.57, 1.57, 1.57], 0.0, true),
             (&soft, &soft, [1.6, 1.6, 1.6], 0.0, false),
             (&can, &ball, [0.0, 2.99, 0.0], 0.0, true),
@@ -182,7 +183,8 @@ mod tests {
         }
     }
 
-    /// For balls, the answer is known. A box that is all rounding is a ball, but needs iterations.
+    /// A box with the largest possible rounding is a ball, so the distance of the centres tells whether it touches another ball. Its
+    /// intersection test needs iterations, that of a sphere does not.
     #[test]
     fn round_boxes_meet_as_balls_do() {
         let (ball, round) =

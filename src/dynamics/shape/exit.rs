@@ -4,16 +4,16 @@ use glam::{DVec2, DVec3};
 
 use super::{Mesh, Shape, cone_base};
 
-/// The largest number of steps towards a surface. Only a ray that grazes the surface needs more than about twenty.
+/// The largest number of steps along a ray towards a surface. Only rays that graze the surface need more than about twenty steps.
 const MAX_STEPS: usize = 300;
-/// A point is on the surface if its distance is below this fraction of the size of the shape.
+/// A point counts as lying on a surface if its distance is below this fraction of the size of the shape.
 const NEAR: f64 = 1e-12;
-/// The radius of the shafts of axes, in lengths of an arm.
+/// The radius of the shafts of an axes triad, as a fraction of the length of an arm.
 const SHAFT: f64 = 0.03;
 
 impl Shape {
-    /// The distance along a ray to its last point in the shape, m. The ray begins at `origin` (m) and has the unit
-    /// direction `direction`, both in the frame of the body. `None` if the ray misses the shape, and for a plane.
+    /// Returns the distance along a ray from its origin to its last point in the shape, m. The ray begins at `origin` (m) and has the unit
+    /// direction `direction`, both in the frame of the body. Returns `None` if the ray misses the shape, and for a plane.
     #[must_use]
     pub fn exit(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
         match *self {
@@ -32,8 +32,8 @@ impl Shape {
         }
     }
 
-    /// Finds the exit point backwards, from a point outside. Each step against the ray is the distance to the surface,
-    /// so that no step passes through it (sphere tracing).
+    /// Finds the exit point backwards along the ray, from a point outside of the shape. Each step is as long as the distance to the
+    /// surface, so no step passes through the surface (sphere tracing).
     ///
     /// Source: J. C. Hart, The Visual Computer 12 (1996) 527.
     fn traced(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
@@ -52,10 +52,10 @@ impl Shape {
         Some(along)
     }
 
-    /// The signed distance of a point from the surface, m; negative inside. The point is in the frame of the body.
-    /// `None` for shapes that need no distance function.
+    /// Returns the signed distance of a point from the surface, m; negative inside. The point is in the frame of the body. Returns `None`
+    /// for shapes whose exits are computed without a distance function.
     fn distance(&self, point: DVec3) -> Option<f64> {
-        // All shapes below that use `across` are round about y.
+        // Shapes that use `across` have an axis of symmetry along y.
         let across = DVec2::new(point.x, point.z).length();
         Some(match *self {
             Shape::RoundedBox { size, rounding } => {
@@ -93,8 +93,8 @@ fn sphere(origin: DVec3, direction: DVec3, radius: f64) -> Option<f64> {
     (half_chord >= 0.0 && exit >= 0.0).then_some(exit)
 }
 
-/// Finds the exit from a box by the slab method: the ray is inside between the last of the three entries and the first
-/// of the three exits.
+/// Returns the distance to the exit from a box by the slab method: the ray is inside the box between the last of its three entries and the
+/// first of its three exits.
 fn cuboid(origin: DVec3, direction: DVec3, half: DVec3) -> Option<f64> {
     let (mut enters, mut leaves) = (0.0f64, f64::MAX);
     for axis in 0..3 {
@@ -111,8 +111,8 @@ fn cuboid(origin: DVec3, direction: DVec3, half: DVec3) -> Option<f64> {
     (enters <= leaves).then_some(leaves)
 }
 
-/// The signed distance of a point from a frustum. The coordinates of `point` are its distance from the axis and its
-/// height above the base.
+/// Returns the signed distance of a point from a frustum, m; negative inside. The coordinates of `point` are its distance from the axis
+/// and its height above the base.
 ///
 /// Source: I. Quilez, "Capped Cone", in his list of distance functions.
 fn cone(point: DVec2, radius: f64, top_radius: f64, height: f64) -> f64 {
@@ -127,7 +127,7 @@ fn cone(point: DVec2, radius: f64, top_radius: f64, height: f64) -> f64 {
     if inside { -off } else { off }
 }
 
-/// Finds the farthest triangle that a ray meets (Möller and Trumbore, J. Graphics Tools 2 (1997) 21).
+/// Returns the distance to the farthest triangle that a ray intersects (Möller and Trumbore, J. Graphics Tools 2 (1997) 21).
 fn triangles(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<f64> {
     let vertices = mesh.vertices();
     let met = |triangle: &[u32; 3]| {
@@ -143,7 +143,7 @@ fn triangles(mesh: &Mesh, origin: DVec3, direction: DVec3) -> Option<f64> {
         let turned = from_a.cross(ab);
         let v = direction.dot(turned) / volume;
         let along = ac.dot(turned) / volume;
-        // The tolerance makes a ray through an edge meet at least one triangle at that edge, in spite of rounding.
+        // Because of this tolerance, a ray through an edge intersects at least one triangle at that edge in spite of rounding errors.
         (u >= -1e-9 && v >= -1e-9 && u + v <= 1.0 + 1e-9 && along >= 0.0).then_some(along)
     };
     mesh.triangles().iter().filter_map(met).reduce(f64::max)
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
     use crate::dynamics::shape::{Compound, Part};
 
-    /// A ball of triangles, whose corners are at a radius of 1: it reaches between 1 and the cosine of 3.6°.
+    /// Returns a ball of triangles with its corners at a radius of 1, at a scale of 2. Its surface lies between the radii cos 3.6° and 1.
     fn globe() -> Shape {
         let (rows, columns) = (50u32, 100u32);
         let at = |row: u32, column: u32| {
@@ -193,7 +193,7 @@ mod tests {
             (Shape::Box { size: DVec3::ONE }, DVec3::Z * 0.4, DVec3::X, Some(0.5)),
             (Shape::Box { size: DVec3::ONE }, DVec3::Z * 0.6, DVec3::X, None),
             (Shape::RoundedBox { size: DVec3::splat(2.0), rounding: 0.5 }, DVec3::ZERO, DVec3::Y, Some(1.0)),
-            // The corner of a square: to the middle of its rounding, and the radius.
+            // The ray leaves through a rounded edge: the exit is the distance to the axis of the rounding, plus the rounding radius.
             (
                 Shape::RoundedBox { size: DVec3::splat(2.0), rounding: 0.5 },
                 DVec3::ZERO,
@@ -228,7 +228,7 @@ mod tests {
     fn rays_leave_the_last_part_or_triangle_that_they_meet() {
         let part =
             |shape: Shape, x: f64| Part { shape, location: DVec3::X * x, orientation: DQuat::IDENTITY };
-        // A long handle and a heavy head; the centre of mass is in the handle.
+        // A hammer: a long handle and a heavy head.
         let handle = Shape::Box { size: DVec3::new(4.0, 0.1, 0.1) };
         let head = Shape::Box { size: DVec3::new(1.0, 2.0, 1.0) };
         let hammer = Shape::Compound(Compound::new(vec![part(handle, 0.0), part(head.clone(), 2.5)]));
@@ -236,7 +236,7 @@ mod tests {
         let [handle_at, head_at] = [0, 1].map(|number: usize| compound.parts()[number].location.x);
         assert!((hammer.exit(DVec3::ZERO, DVec3::X).unwrap() - head_at - 0.5).abs() < 1e-9);
         assert!((hammer.exit(DVec3::ZERO, -DVec3::X).unwrap() - 2.0 + handle_at).abs() < 1e-9);
-        // Two heads with nothing between them: nothing is there upwards.
+        // Two heads without a connection: a ray upwards from the centre of mass misses both.
         let apart = Shape::Compound(Compound::new(vec![part(head.clone(), -2.0), part(head, 2.0)]));
         assert_eq!(apart.exit(DVec3::ZERO, DVec3::Y), None);
         for direction in [DVec3::X, DVec3::new(0.3, -0.8, 0.5).normalize(), -DVec3::Z] {

@@ -1,4 +1,4 @@
-//! Computes the part of a solid below a plane. For a floating body, this part displaces the liquid.
+//! Computes the part of a solid below a plane, which is the submerged part of a floating body.
 
 mod revolution;
 
@@ -10,9 +10,9 @@ use super::{Mesh, Shape, cone_base};
 /// The part of a shape below a plane, in the frame of the shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Immersed {
-    /// The volume of the part, m³.
+    /// The volume of the submerged part, m³.
     pub volume: f64,
-    /// The integral of the position over the part, m⁴: its volume times its centre.
+    /// The first moment of the submerged part, m⁴: its volume times its centroid.
     pub moment: DVec3,
 }
 
@@ -24,11 +24,11 @@ impl Immersed {
 }
 
 impl Shape {
-    /// The part below the plane up·p = height, m. `up` is a unit vector in the frame of the shape. `None` for shapes
-    /// that cannot be cut: a plane, axes, a box with round edges, and a mesh that is not closed.
+    /// Returns the part of the shape below the plane up·p = height, where `up` is a unit vector in the frame of the shape, and `height` is
+    /// in m. Returns `None` for a plane, axes, a rounded box, and a mesh that is not closed.
     ///
-    /// Balls, boxes and meshes are cut exactly. Shapes that are round about an axis are integrated over slices. The
-    /// error is at most 1e-9 of the whole, and mostly 1e-12.
+    /// The results for spheres, boxes and meshes are exact. Shapes with an axis of symmetry are integrated over slices, with an error of
+    /// at most 1e-9 of the whole, and mostly 1e-12.
     #[must_use]
     pub fn immersed(&self, up: DVec3, height: f64) -> Option<Immersed> {
         Some(match self {
@@ -67,8 +67,8 @@ impl Shape {
     }
 }
 
-/// The part of a ball below a plane at height h above its centre: a cap of height R + h. Its volume is π (R + h)² (2R −
-/// h)/3. Its integral of the height is −π (R² − h²)²/4.
+/// Returns the part of a ball below a plane at height h above its centre: a cap of height R + h. Its volume is π (R + h)² (2R − h)/3, and
+/// its first moment along `up` is −π (R² − h²)²/4.
 fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     let h = height.clamp(-radius, radius);
     let pi = std::f64::consts::PI;
@@ -77,8 +77,8 @@ fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
     Immersed { volume, moment: -0.25 * pi * rest * rest * up }
 }
 
-/// The corners of each face of a box, counter-clockwise as seen from outside. In the number of a corner, bit 0 is 1 for
-/// positive x, bit 1 for positive y, bit 2 for positive z.
+/// The corners of each face of a box, counter-clockwise as seen from outside. In the index of a corner, bit 0 is 1 for positive x, bit 1
+/// for positive y, bit 2 for positive z.
 const FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
@@ -105,12 +105,12 @@ fn of_mesh(mesh: &Mesh, scale: f64, up: DVec3, height: f64) -> Immersed {
     cut.done()
 }
 
-/// Sums pyramids over the parts of a closed surface below a plane. The apex of all pyramids is `tip`, a point of the
-/// plane. So the pyramid over the cut face has height 0 and can be left out.
+/// Sums up pyramids over the part of a closed surface below a plane. The apex of all pyramids is `tip`, a point of the plane. So the
+/// pyramid over the cut face has height 0 and can be left out.
 struct Cut {
     up: DVec3,
     tip: DVec3,
-    /// The sum of the pyramids, relative to `tip`.
+    /// The sum of the pyramids, with the moment relative to `tip`.
     sum: Immersed,
 }
 
@@ -122,7 +122,7 @@ impl Cut {
     fn add(&mut self, corners: [DVec3; 3]) {
         let corners = corners.map(|corner| corner - self.tip);
         let above = corners.map(|corner| corner.dot(self.up));
-        // A plane cuts a triangle to a triangle or a quadrilateral. Its corners are kept in order.
+        // The part of a triangle below a plane is a triangle or a quadrilateral. Its corners keep their order.
         let mut kept = [DVec3::ZERO; 4];
         let mut count = 0;
         for (k, corner) in corners.iter().enumerate() {
@@ -203,7 +203,7 @@ mod tests {
         }
     }
 
-    /// The part below a plane is the part above the opposite plane.
+    /// The parts of a shape below a plane and above it must add up to the whole shape.
     #[test]
     fn both_sides_of_a_plane_make_the_whole() {
         for shape in shapes() {
@@ -220,8 +220,8 @@ mod tests {
         }
     }
 
-    /// By the divergence theorem, the integral of the height grows by the height times the growth of the volume. Central
-    /// differences with 1e-4 are off by 1e-8 times a third derivative, which is of order 1 unless an edge lies in the plane.
+    /// When the plane rises, the moment along `up` must grow by the height of the plane times the growth of the volume. Central
+    /// differences with 1e-4 have an error of 1e-8 times a third derivative, which is of order 1 unless an edge lies in the plane.
     #[test]
     fn the_moment_grows_with_the_volume() {
         const H: f64 = 1e-4;
@@ -238,7 +238,8 @@ mod tests {
         }
     }
 
-    /// Half a cylinder that lies: its centre is 4 R/3π below the axis. A cone that stands on its tip to half its height: an eighth.
+    /// Known results: half of a lying cylinder has its centroid 4 R/3π below the axis. A cone with its tip down, submerged to half its
+    /// height, displaces an eighth of its volume.
     #[test]
     fn known_parts() {
         let lying = Shape::Cylinder { radius: 0.5, height: 2.0 }.immersed(DVec3::X, 0.0).unwrap();
@@ -246,11 +247,12 @@ mod tests {
         assert!((lying.volume - 0.25 * pi).abs() < 1e-13);
         assert!((lying.moment + DVec3::X * (0.25 * pi) * (2.0 / (3.0 * pi))).length() < 1e-13, "{lying:?}");
         let cone = Shape::Cone { radius: 1.0, top_radius: 0.0, height: 2.0 };
-        // The centre is 1.5 m from the tip.
+        // The centre of mass of the cone is 1.5 m from its tip.
         let part = cone.immersed(DVec3::NEG_Y, -0.5).unwrap();
         assert!((part.volume - cone.volume().unwrap() / 8.0).abs() < 1e-13, "{part:?}");
         let corner = Shape::Box { size: DVec3::splat(2.0) };
-        // A corner that three edges of 1 m span: its plane is 1/√3 from the corner, which is √3 from the middle.
+        // A plane cuts off a corner of the cube with three edges of 1 m. The plane is 1/√3 m from the corner, and the corner is √3 m from
+        // the centre.
         let third = 1.0 / 3.0_f64.sqrt();
         let part = corner.immersed(DVec3::splat(third), third - 3.0_f64.sqrt()).unwrap();
         assert!(

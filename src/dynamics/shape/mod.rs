@@ -1,4 +1,4 @@
-//! Shapes: volume, inertia and extent.
+//! Shapes of bodies: their volume, inertia and extent.
 
 mod compound;
 mod convex;
@@ -19,81 +19,81 @@ pub use convex::Placed;
 pub use immersed::Immersed;
 pub use mesh::{Flaw, Mesh};
 
-/// The shape of a body in its own frame. The centre of mass is the origin. Except for compounds and meshes, the
-/// coordinate axes are the principal axes of inertia. An axis of symmetry is along y. Lengths are in metres.
+/// The shape of a body in its own frame. The origin is the centre of mass. Except for compounds and meshes, the coordinate axes are the
+/// principal axes of inertia. An axis of symmetry is along y. Lengths are in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// A solid sphere.
+    /// A solid sphere about the origin.
     Sphere {
-        /// The radius, m.
+        /// The radius of the sphere, m.
         radius: f64,
     },
-    /// A solid box with edges along the axes.
+    /// A solid box with edges parallel to the axes.
     Box {
         /// The full lengths of the edges along x, y and z, m.
         size: DVec3,
     },
-    /// A solid box with round edges and corners: all points within `rounding` of a smaller box.
+    /// A solid box with rounded edges and corners: all points within the distance `rounding` of a smaller box.
     RoundedBox {
-        /// The full lengths of the edges along x, y and z, m.
+        /// The full lengths of the box along x, y and z, m.
         size: DVec3,
-        /// The radius of the edges, m; at most half the smallest edge.
+        /// The radius of the rounded edges and corners, m; at most half of the smallest edge.
         rounding: f64,
     },
-    /// A solid cylinder.
+    /// A solid cylinder along y.
     Cylinder {
-        /// The radius, m.
+        /// The radius of the cylinder, m.
         radius: f64,
-        /// The height, m.
+        /// The height of the cylinder, m.
         height: f64,
     },
-    /// A solid cylinder with a half ball at each end.
+    /// A solid cylinder along y with a half ball at each end.
     Capsule {
-        /// The radius, m.
+        /// The radius of the cylinder and of the half balls, m.
         radius: f64,
-        /// The full height, including the half balls, m; at least twice the radius.
+        /// The full height of the capsule, including the half balls, m; at least twice the radius.
         height: f64,
     },
-    /// A solid cone or frustum, with the base at the bottom. The origin is the centre of mass: for a whole cone, a
-    /// quarter of the height above the base.
+    /// A solid cone or frustum along y, with its base at the bottom. The origin is the centre of mass: for a whole cone, it is a quarter
+    /// of the height above the base.
     Cone {
         /// The radius of the base, m.
         radius: f64,
-        /// The radius of the top, m: 0 for a whole cone.
+        /// The radius of the top, m; 0 for a whole cone.
         top_radius: f64,
-        /// The height, m.
+        /// The height from the base to the top, m.
         height: f64,
     },
-    /// A solid torus: a disk that is rotated about the axis.
+    /// A solid torus about the y axis.
     Torus {
         /// The distance from the axis to the middle of the tube, m.
         radius: f64,
         /// The radius of the tube, m; at most `radius`.
         tube_radius: f64,
     },
-    /// An infinite plane through the origin, with solid ground below.
+    /// An infinite plane through the origin. The half-space below it is solid.
     Plane {
-        /// The unit normal in the frame of the body. It points out of the ground.
+        /// The unit normal of the plane in the frame of the body. It points out of the solid half-space.
         normal: DVec3,
     },
-    /// A triad of axes, which shows an orientation: three arms from the origin along x, y and z. Its volume and inertia
-    /// are those of a solid sphere with radius `length / 2`.
+    /// A triad of axes, which shows an orientation: three arms from the origin along x, y and z. Its volume and inertia are those of a
+    /// solid sphere with the radius `length / 2`.
     Axes {
         /// The length of an arm, m.
         length: f64,
     },
-    /// Several solids as one rigid body.
+    /// Several solids that form one rigid body.
     Compound(Compound),
-    /// The solid inside a surface of triangles. If the surface is not closed, the shape has no volume or inertia.
+    /// The solid inside a surface of triangles. If the surface is not closed, the shape has neither volume nor inertia.
     Mesh {
-        /// The surface. Several bodies may share it.
+        /// The surface of the solid. Several bodies may share it.
         mesh: Arc<Mesh>,
         /// The length of one unit of the mesh, m.
         scale: f64,
     },
 }
 
-/// The largest radius of an arm of the axes, in lengths of an arm.
+/// The largest radius of an arm of an axes triad, as a fraction of the arm's length.
 const ARM_RADIUS: f64 = 0.078;
 
 impl Shape {
@@ -114,7 +114,7 @@ impl Shape {
         }
     }
 
-    /// The volume, m³. `None` for a plane, whose volume is infinite, and for a mesh that is not closed.
+    /// Returns the volume of the shape, m³; `None` for a plane, whose volume is infinite, and for a mesh that is not closed.
     #[must_use]
     pub fn volume(&self) -> Option<f64> {
         Some(match *self {
@@ -132,15 +132,15 @@ impl Shape {
         })
     }
 
-    /// The radius of a ball of the same volume, m. `None` if the shape has no volume.
+    /// Returns the radius of a ball of the same volume, m; `None` if the shape has no finite volume.
     pub(crate) fn radius_of_ball(&self) -> Option<f64> {
         self.volume().map(|volume| libm::cbrt(volume * 0.75 / std::f64::consts::PI))
     }
 
-    /// The principal moments of inertia of a homogeneous solid of `mass` kg, kg m².
+    /// Returns the principal moments of inertia of a homogeneous solid of `mass` kg, kg m².
     ///
-    /// They are infinite for a plane, and unknown for a mesh that is not closed. The result is then zero, which means
-    /// that no torque rotates the body.
+    /// Moments of zero mean that no torque rotates the body: for a plane, whose moments are infinite, and for a mesh that is not closed,
+    /// whose moments are unknown.
     #[must_use]
     pub fn inertia(&self, mass: f64) -> DVec3 {
         match *self {
@@ -158,7 +158,7 @@ impl Shape {
         }
     }
 
-    /// The rotation from the principal axes of inertia to the frame of the body. The identity, except for compounds and
+    /// Returns the rotation from the principal axes of inertia to the frame of the body. It is the identity, except for compounds and
     /// meshes.
     #[must_use]
     pub fn principal_axes(&self) -> DQuat {
@@ -169,16 +169,16 @@ impl Shape {
         }
     }
 
-    /// The reach of the shape from its centre in the unit direction `direction` (world axes), m. This is the support
-    /// function: the largest `p · direction` over all points `p`. `None` for a plane.
+    /// Returns the extent of the shape from its centre of mass in the unit direction `direction` (world axes), m. This is the support
+    /// function: the largest `p · direction` over all points `p`. Returns `None` for a plane.
     #[must_use]
     pub fn support(&self, world_from_body: DQuat, direction: DVec3) -> Option<f64> {
         if let Shape::Sphere { radius } = *self {
-            // A fast path for spheres, the most frequent shape: their reach does not depend on the direction.
+            // This is a fast path for spheres, the most frequent shape. Their extent does not depend on the direction.
             return Some(radius);
         }
         let direction = world_from_body.conjugate() * direction;
-        // The component of the direction across the axis of symmetry.
+        // This is the component of the direction across the axis of symmetry.
         let across = (direction.x * direction.x + direction.z * direction.z).sqrt();
         Some(match *self {
             Shape::Sphere { radius } => radius,
@@ -200,8 +200,8 @@ impl Shape {
         })
     }
 
-    /// The point that is farthest in a direction, m. The direction is in the frame of the body, and need not be a unit
-    /// vector. `None` for shapes that are not convex or not finite.
+    /// Returns the point of the shape that is farthest in a direction, m. The direction is in the frame of the body, and need not be a
+    /// unit vector. Returns `None` for shapes without a rule here, such as planes, tori, compounds and meshes.
     #[must_use]
     pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
         let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };
@@ -227,9 +227,9 @@ impl Shape {
         })
     }
 
-    /// The radius of a ball around the centre of mass that contains the whole shape, m. `None` for a plane.
+    /// Returns the radius of a ball around the centre of mass that contains the whole shape, m; `None` for a plane.
     ///
-    /// It is the smallest such radius, except for compounds, whose radius may be slightly larger.
+    /// It is the smallest such radius, except for compounds, where it may be slightly larger.
     #[must_use]
     pub fn bounding_radius(&self) -> Option<f64> {
         Some(match *self {
@@ -253,11 +253,11 @@ impl Shape {
         })
     }
 
-    /// Half of the smallest thickness, m. POV-Ray cannot draw a shape whose thickness is too small. `None` for a plane
-    /// and a flat mesh.
+    /// Returns half of the smallest thickness of the shape, m; `None` for a plane and for a flat mesh. POV-Ray cannot draw a shape whose
+    /// thickness is too small.
     #[must_use]
     pub fn half_thickness(&self) -> Option<f64> {
-        // The radius of the shafts of axes, in lengths of an arm.
+        // This is the radius of the shafts of an axes triad, as a fraction of an arm's length.
         const SHAFT_RADIUS: f64 = 0.03;
         Some(match *self {
             Shape::Sphere { radius } => radius,
@@ -273,13 +273,14 @@ impl Shape {
         })
     }
 
-    /// The largest reach of the shape along one of its axes, m. `None` for a plane.
+    /// Returns the largest extent of the shape from its centre of mass along the positive x, y and z axes of its body, m; `None` for a
+    /// plane.
     pub fn extent(&self) -> Option<f64> {
         let reach = |axis: DVec3| self.support(DQuat::IDENTITY, axis);
         Some(reach(DVec3::X)?.max(reach(DVec3::Y)?).max(reach(DVec3::Z)?))
     }
 
-    /// The shape, enlarged by a factor. A plane does not change.
+    /// Returns the shape, enlarged by a factor. A plane stays the same.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Shape {
         let mut scaled = self.clone();
@@ -311,14 +312,14 @@ impl Shape {
         scaled
     }
 
-    /// Whether the shape is infinite, as a plane is.
+    /// Returns whether the shape is infinite, which is true only for a plane.
     #[must_use]
     pub fn is_unbounded(&self) -> bool {
         matches!(self, Shape::Plane { .. })
     }
 }
 
-/// The y coordinate of the base of a cone whose centre of mass is the origin, m; negative.
+/// Returns the y coordinate of the base of a cone or frustum whose centre of mass is the origin, m; negative.
 #[must_use]
 pub fn cone_base(radius: f64, top_radius: f64, height: f64) -> f64 {
     -solids::cone_centre(radius, top_radius, height)

@@ -1,17 +1,17 @@
-//! Computes the principal axes of an inertia tensor.
+//! Computes the principal axes and moments of an inertia tensor.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Off-diagonal elements below this fraction of the trace are rounding errors.
+/// Off-diagonal elements below this fraction of the trace are taken for rounding errors.
 const ROUNDING: f64 = 1e-15;
-/// The largest number of sweeps. Far fewer suffice, since each sweep squares the relative off-diagonal elements.
+/// The largest number of sweeps over the off-diagonal elements. Far fewer suffice, because each sweep squares their relative size.
 const MOST_SWEEPS: usize = 30;
 
-/// The eigenvalues of a symmetric matrix, and the rotation from the coordinate axes to its eigenvectors, in the same
-/// order. For a matrix that is diagonal up to rounding: its diagonal, and no rotation.
+/// Returns the eigenvalues of a symmetric matrix, and the rotation from its eigenvectors, in the same order, to the coordinate axes. For a
+/// matrix that is diagonal up to rounding, returns its diagonal and the identity.
 ///
-/// Jacobi's method, in sweeps (W. H. Press et al., *Numerical Recipes*, ch. 11.1). Each rotation makes one element
-/// zero, by the smaller of two angles. The method uses only square roots, so it gives the same bits on all platforms.
+/// Jacobi's method, in sweeps (W. H. Press et al., *Numerical Recipes*, ch. 11.1). Each rotation makes one element zero, by the smaller of
+/// two angles. The method uses only square roots, so it gives the same bits on all platforms.
 pub(super) fn principal(tensor: DMat3) -> (DVec3, DQuat) {
     let mut matrix = tensor.to_cols_array_2d();
     let least = ROUNDING * (matrix[0][0] + matrix[1][1] + matrix[2][2]);

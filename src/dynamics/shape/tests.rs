@@ -1,10 +1,11 @@
-//! Compares the formulas of shapes with sums over their volume.
+//! Tests of the formulas of shapes against numerical sums over their volume.
 
 use std::f64::consts::FRAC_PI_4;
 
 use super::*;
 
-/// The volume, the centre of mass and the principal moments for mass 1, summed over the cells of a grid in a box.
+/// Returns the volume, the centre of mass, and the moments of inertia for mass 1 about the coordinate axes, as sums over the cells of a
+/// grid in a box. `inside` tells whether a point belongs to the shape.
 fn by_cells(low: DVec3, high: DVec3, inside: impl Fn(DVec3) -> bool) -> (f64, DVec3, DVec3) {
     const CELLS: i32 = 160;
     let width = (high - low) / f64::from(CELLS);
@@ -24,12 +25,13 @@ fn by_cells(low: DVec3, high: DVec3, inside: impl Fn(DVec3) -> bool) -> (f64, DV
     (count * width.element_product(), centre / count, moments / count)
 }
 
-/// The relative tolerance of the sums. A cell at a round surface counts fully or not at all, which makes errors of
-/// about 1 % of a layer of cells. The errors have both signs and mostly cancel. Flat faces coincide with faces of
-/// cells. A wrong factor (⅖ for ½) makes an error of 25 %.
+/// The relative tolerance of the sums over cells. A cell at a round surface counts fully or not at all, which makes errors of about 1 % of
+/// a layer of cells. The errors have both signs and mostly cancel. Flat faces coincide with faces of cells. A wrong factor (⅖ for ½) would
+/// make an error of 25 %.
 const GRID_TOLERANCE: f64 = 2e-3;
 
-/// Compares a shape with the sums. The shape must just fit into the box from `low` to `high`.
+/// Checks the volume, the centre of mass and the inertia of a shape against sums over cells. The shape must just fit into the box from
+/// `low` to `high`.
 fn assert_solid(shape: &Shape, low: DVec3, high: DVec3, inside: impl Fn(DVec3) -> bool) {
     let (volume, centre, moments) = by_cells(low, high, inside);
     let given = shape.volume().unwrap();
@@ -42,7 +44,7 @@ fn assert_solid(shape: &Shape, low: DVec3, high: DVec3, inside: impl Fn(DVec3) -
     );
 }
 
-/// The distance of a point from the y axis.
+/// Returns the distance of a point from the y axis.
 fn from_axis(p: DVec3) -> f64 {
     libm::hypot(p.x, p.z)
 }
@@ -107,7 +109,7 @@ fn limits_of_the_shapes_are_other_shapes() {
     same(&Shape::RoundedBox { size: tall, rounding: 0.7 }, &Shape::Capsule { radius, height: 3.0 });
 }
 
-/// Compares the support function with the farthest of many points of the surface, which a search outward finds.
+/// Compares the support function of each shape with a search over all grid points inside the shape.
 #[test]
 fn support_is_the_farthest_point_of_the_solid() {
     let about = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.7, -0.4);
@@ -145,7 +147,7 @@ fn support_is_the_farthest_point_of_the_solid() {
     ];
     for (shape, inside) in solids {
         let (given, found) = (shape.support(about, direction).unwrap(), reach(inside));
-        // The distance between the farthest point and the nearest grid point inside is about one cell, 1/60 m.
+        // The farthest point of the shape is at most about one cell, 1/60 m, from the nearest grid point inside.
         assert!(found <= given + 1e-9 && found > given - 0.02, "{shape:?}: {given} {found}");
     }
 }
@@ -163,11 +165,11 @@ fn a_plane_has_neither_volume_nor_moments_nor_end() {
 fn support_is_the_reach_along_a_direction() {
     let about_z = DQuat::from_rotation_z(FRAC_PI_4);
     let reach = |shape: &Shape, direction| shape.support(about_z, direction).unwrap();
-    // A unit square on its corner reaches half of its diagonal. Its thickness does not depend on its orientation.
+    // A unit square that stands on its corner extends by half of its diagonal. The rotation about z does not change the extent along z.
     let cube = Shape::Box { size: DVec3::new(1.0, 1.0, 4.0) };
     assert!((reach(&cube, DVec3::NEG_Y) - 0.5_f64.sqrt()).abs() < 1e-15);
     assert!((reach(&cube, DVec3::NEG_Z) - 2.0).abs() < 1e-15);
-    // The arms x and y point up, to the left and the right. The lowest point is at the origin, as thick as an arm.
+    // The arms x and y point up, to the right and to the left. The lowest point is at the origin, below it by the radius of an arm.
     let axes = Shape::Axes { length: 2.0 };
     let thick = 2.0 * ARM_RADIUS;
     assert!((reach(&axes, DVec3::Y) - 2.0_f64.sqrt() - thick).abs() < 1e-15);
@@ -194,7 +196,7 @@ fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-13 * b.abs(), "{shape:?}: {a} {b}");
         near(scaled.volume().unwrap(), 27.0 * shape.volume().unwrap());
         near(scaled.inertia(1.0).x, 9.0 * shape.inertia(1.0).x);
-        // Powers of lengths come close to overflow or underflow.
+        // With these factors, powers of lengths come close to overflow or underflow.
         for factor in [1e-90, 1e90] {
             near(shape.scaled(factor).inertia(1.0).y, factor * factor * shape.inertia(1.0).y);
         }
@@ -204,7 +206,8 @@ fn a_scaled_shape_has_the_scaled_volume_inertia_and_reach() {
     }
 }
 
-/// An L of two bricks, rotated as a whole. Its principal axes differ from the axes of the bricks.
+/// Returns a compound of two bricks in the form of an L, rotated by `turn` as a whole. Its principal axes differ from the axes of the
+/// bricks.
 fn ell(turn: DQuat) -> Compound {
     let brick = |size: DVec3, location: DVec3| Part {
         shape: Shape::Box { size },
@@ -231,12 +234,12 @@ fn a_compound_is_the_sum_over_its_cells() {
     let low = -DVec3::new(reach(-DVec3::X), reach(-DVec3::Y), reach(-DVec3::Z));
     let high = DVec3::new(reach(DVec3::X), reach(DVec3::Y), reach(DVec3::Z));
     assert!((high - low).abs_diff_eq(DVec3::new(1.2, 1.6, 0.4), 1e-14));
-    // The inner faces lie within a cell. The error is up to one cell in the 50 cells of a brick's thickness.
+    // The inner faces of the bricks lie within cells of the grid. The error is up to one cell in the 50 cells of a brick's thickness.
     let tolerance = 0.01;
     let (volume, centre, moments) = by_cells(low, high, inside);
     assert!((shape.volume().unwrap() - volume).abs() < tolerance * volume);
     assert!(centre.abs_diff_eq(DVec3::ZERO, tolerance), "{centre}");
-    // The diagonal of the inertia tensor in the body's axes, computed from the principal moments and axes.
+    // The diagonal of the inertia tensor in body axes follows from the principal moments and axes.
     let turn = glam::DMat3::from_quat(shape.principal_axes());
     let tensor = turn * glam::DMat3::from_diagonal(shape.inertia(1.0)) * turn.transpose();
     let own = DVec3::new(tensor.x_axis.x, tensor.y_axis.y, tensor.z_axis.z);
@@ -298,8 +301,8 @@ fn the_ball_around_a_shape_holds_it_and_touches_it() {
                 reach = reach.max(shape.support(DQuat::IDENTITY, direction).unwrap());
             }
         }
-        // The nearest sampled direction is off by at most half a step of 0.0157 rad. It sees 1 − 0.0079²/2 of the
-        // distance.
+        // The nearest sampled direction differs from the exact direction by at most half a step of 0.0157 rad. In that direction, the
+        // extent is smaller by the factor 1 − 0.0079²/2.
         assert!(
             reach <= radius * (1.0 + 1e-12) && reach > radius * (1.0 - 1e-4),
             "{shape:?}: {reach} {radius}"

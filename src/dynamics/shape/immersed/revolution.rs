@@ -1,4 +1,4 @@
-//! Solids that are round about the y axis, slice by slice.
+//! Computes the part of a solid of revolution below a plane, by integration over slices across its axis (y).
 
 use std::f64::consts::PI;
 
@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::Immersed;
 
-/// The nodes and weights of Gauss's quadrature with 16 points, for half of [−1, 1]. Source: M. Abramowitz & I. A. Stegun, *Handbook of
-/// Mathematical Functions*, table 25.4.
+/// The positive nodes and their weights of Gauss–Legendre quadrature with 16 points on [−1, 1]. Source: M. Abramowitz & I. A. Stegun,
+/// *Handbook of Mathematical Functions*, table 25.4.
 const GAUSS: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
@@ -19,26 +19,26 @@ const GAUSS: [(f64, f64); 8] = [
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_1),
 ];
 
-/// A piece of a solid that is round about the y axis.
+/// A section of a solid of revolution about the y axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
-    /// From where to where it goes along the axis, m.
+    /// The lower and the upper end of the section on the y axis, m.
     span: [f64; 2],
     outline: Outline,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Outline {
-    /// The radius at y is `middle + slope · y`.
+    /// A cone: its radius at y is `middle + slope · y`.
     Cone { middle: f64, slope: f64 },
-    /// A ball around a point of the axis.
+    /// A ball around the point y = `centre` of the axis.
     Ball { centre: f64, radius: f64 },
-    /// A tube around the axis, in the plane of the origin.
+    /// A torus around the axis: the middle of its tube is the circle y = 0 at the distance `radius` from the axis.
     Ring { radius: f64, tube: f64 },
 }
 
 impl Profile {
-    /// A cylinder or a frustum with these radii at its ends.
+    /// Creates a cylinder or a frustum with these radii at its lower and upper end.
     pub(super) fn cone(span: [f64; 2], [lower, upper]: [f64; 2]) -> Profile {
         let slope = if span[1] > span[0] { (upper - lower) / (span[1] - span[0]) } else { 0.0 };
         Profile { span, outline: Outline::Cone { middle: lower - slope * span[0], slope } }
@@ -52,16 +52,17 @@ impl Profile {
         Profile { span: [-tube, tube], outline: Outline::Ring { radius, tube } }
     }
 
-    /// The part below the plane up·p = height.
+    /// Returns the part of the section below the plane up·p = height.
     ///
-    /// A slice at y is a disk, of which the plane leaves all, nothing or a segment. The integral is split where the one becomes the other, and
-    /// there it goes like a power 3/2; a + (b − a) τ² (3 − 2τ) makes it smooth in τ. What is round along the axis is smooth in an angle.
+    /// A slice at y is a disk or a ring. The plane leaves all of it, nothing, or a segment. The integral is split where one case changes
+    /// into another. Near these places, it behaves like a power 3/2, so the substitution a + (b − a) τ² (3 − 2τ) makes it smooth in τ. A
+    /// ball or a torus becomes smooth at its ends if an angle replaces y.
     pub(super) fn below(&self, up: DVec3, height: f64) -> Immersed {
         let across = (up.x * up.x + up.z * up.z).sqrt();
         let mut ends = [self.span[0]; 6];
         let inner = self.crossings(up.y, across, height);
         for (end, y) in ends[1..5].iter_mut().zip(inner) {
-            // A NaN is no crossing.
+            // A crossing outside of the section, or NaN, is replaced by the lower end.
             *end = if y > self.span[0] && y < self.span[1] { y } else { self.span[0] };
         }
         ends[5] = self.span[1];
@@ -86,7 +87,7 @@ impl Profile {
         Immersed { volume, moment: axial * DVec3::Y + radial * outwards }
     }
 
-    /// The parameter of a place on the axis in which the outline is smooth: the place itself, or an angle.
+    /// Returns the integration parameter that belongs to y. The outline is smooth in this parameter, which is y itself or an angle.
     fn parameter(&self, y: f64) -> f64 {
         match self.outline {
             Outline::Cone { .. } => y,
@@ -95,7 +96,7 @@ impl Profile {
         }
     }
 
-    /// The place on the axis, and its derivative.
+    /// Returns the coordinate y that belongs to an integration parameter, and its derivative with respect to the parameter.
     fn place(&self, parameter: f64) -> (f64, f64) {
         let (centre, radius) = match self.outline {
             Outline::Cone { .. } => return (parameter, 1.0),
@@ -106,9 +107,10 @@ impl Profile {
         (centre + radius * sin, radius * cos)
     }
 
-    /// The places where the plane touches the outline, or nearly does: at most four. Unused entries are NaN.
+    /// Returns up to four coordinates y at which the plane touches the outline, or nearly touches it. Unused entries are NaN. `along` and
+    /// `across` are the components of `up` along the axis and across it.
     fn crossings(&self, along: f64, across: f64, height: f64) -> [f64; 4] {
-        // (height − along y)² = across² ρ(y)²
+        // These coordinates solve (height − along y)² = across² ρ(y)², where ρ is the radius of the outline.
         match self.outline {
             Outline::Cone { middle, slope } => {
                 let [one, other] = [1.0, -1.0]
@@ -130,7 +132,8 @@ impl Profile {
         }
     }
 
-    /// The area of a slice for which across · s ≤ rest, where s is the place across the axis, and the integral of s over it.
+    /// Returns the area of the part of the slice at y for which across · s ≤ rest, where s is a coordinate in the slice with its origin on
+    /// the axis, and the integral of s over this part.
     fn slice(&self, y: f64, rest: f64, across: f64) -> (f64, f64) {
         let disk = |radius: f64| segment(radius, rest, across);
         match self.outline {
@@ -148,14 +151,15 @@ impl Profile {
     }
 }
 
-/// The two solutions of y² − 2 b y + h² − c² = 0. Where there are none, the place that is nearest to being one: there the plane may all but
-/// touch.
+/// Returns the two solutions of y² − 2 b y + h² − c² = 0. Without real solutions, both results are b, where the left side is smallest and
+/// the plane may nearly touch the outline.
 fn roots(b: f64, h: f64, c: f64) -> [f64; 2] {
     let root = (b * b - (h - c) * (h + c)).max(0.0).sqrt();
     [b - root, b + root]
 }
 
-/// The area of the part of a disk where across · s ≤ rest, and the integral of s over that part.
+/// Returns the area of the part of a disk where across · s ≤ rest, with s from the centre of the disk, and the integral of s over this
+/// part.
 fn segment(radius: f64, rest: f64, across: f64) -> (f64, f64) {
     let reach = across * radius;
     if rest >= reach {

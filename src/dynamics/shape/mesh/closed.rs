@@ -1,37 +1,37 @@
-//! Check that a surface encloses a solid.
+//! Checks whether a surface of triangles encloses a solid.
 
 use glam::DVec3;
 
-/// Why a surface encloses no solid.
+/// The reason why a surface of triangles encloses no solid.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Flaw {
-    /// It has edges at which it ends.
+    /// The surface is open: at some edges, the number of adjacent triangles is odd.
     Open {
-        /// The number of such edges.
+        /// The number of open edges.
         edges: usize,
-        /// The ends of one of them, in the coordinates of its file.
+        /// The two ends of one open edge, in the coordinates of the mesh file.
         first: [DVec3; 2],
     },
-    /// Triangles that meet there do not agree on which side is outside.
+    /// The surface is inconsistent: at some edges, adjacent triangles disagree about which side is outside.
     Inconsistent {
-        /// The number of such edges.
+        /// The number of inconsistent edges.
         edges: usize,
-        /// The ends of one of them, in the coordinates of its file.
+        /// The two ends of one inconsistent edge, in the coordinates of the mesh file.
         first: [DVec3; 2],
     },
-    /// It is closed, and has no volume.
+    /// The surface is closed, but encloses no volume.
     Flat,
 }
 
-/// A triangle's edge from one vertex to another: the smaller number, the larger one, and the sense, in one number, so
-/// that all triangles at an edge stand together when sorted.
+/// Encodes a triangle's edge, from one vertex to another, as one number: the smaller vertex index, the larger index, and the direction in
+/// the lowest bit. After sorting, all triangles at the same edge are adjacent.
 fn edge(from: u32, to: u32) -> u64 {
     let (low, high) = (from.min(to), from.max(to));
     u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
 }
 
-/// Checks that every edge is passed as often in one sense as in the other: then the surface has no boundary, and the
-/// theorem of divergence holds, whether or not more than two triangles meet somewhere. There are fewer than 2³¹ vertices.
+/// Checks that triangles pass every edge equally often in both directions. The surface then has no boundary, and the divergence theorem
+/// holds, even where more than two triangles meet at an edge. The number of vertices must be below 2³¹.
 pub(super) fn check(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), Flaw> {
     let mut edges: Vec<u64> = Vec::with_capacity(3 * triangles.len());
     edges.extend(triangles.iter().flat_map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]));
@@ -47,7 +47,7 @@ pub(super) fn check(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), Fl
         first.get_or_insert(triangles[0]);
     }
     let ends = |edge: u64| [edge >> 33, edge >> 1 & 0xffff_ffff].map(|end| vertices[end as usize]);
-    // An open surface may be inconsistent as well; that it is open comes first.
+    // A surface may be both open and inconsistent. The open edges are then reported.
     match (open, inconsistent) {
         ((edges, Some(first)), _) => Err(Flaw::Open { edges, first: ends(first) }),
         (_, (edges, Some(first))) => Err(Flaw::Inconsistent { edges, first: ends(first) }),

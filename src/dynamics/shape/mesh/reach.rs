@@ -1,15 +1,15 @@
-//! The extent of vertices along a direction.
+//! Computes the extent of a set of vertices.
 
 use glam::DVec3;
 
-/// The number of vertices in a block. Vertices that follow each other in a file are mostly near each other.
+/// The number of vertices in a block. Consecutive vertices of a file are mostly close to each other.
 const VERTICES_OF_A_BLOCK: usize = 64;
 
-/// The boxes around groups of vertices, so that the farthest of a million is found by looking at few of them.
+/// The bounding boxes of blocks of consecutive vertices. With these boxes, the search for the farthest vertex visits only a few blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blocks(Vec<Around>);
 
-/// The middle and half the edges of a box.
+/// A bounding box: its centre, and half of its edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Around {
     middle: DVec3,
@@ -22,11 +22,11 @@ impl Blocks {
         Blocks(vertices.chunks(VERTICES_OF_A_BLOCK).map(around).collect())
     }
 
-    /// The largest product of a vertex and a direction.
+    /// Returns the largest dot product of a vertex with a direction.
     pub(super) fn support(&self, vertices: &[DVec3], direction: DVec3) -> f64 {
         let mut farthest = f64::NEG_INFINITY;
         for (block, vertices) in self.0.iter().zip(vertices.chunks(VERTICES_OF_A_BLOCK)) {
-            // Rounding errors of the bound must not hide a vertex.
+            // This margin keeps rounding errors of the bound from excluding the farthest vertex.
             let rounding = 1e-12 * (block.middle.abs() + block.half).element_sum();
             let most = block.middle.dot(direction) + block.half.dot(direction.abs()) + rounding;
             if most >= farthest {
@@ -42,13 +42,13 @@ fn corners(vertices: &[DVec3]) -> (DVec3, DVec3) {
     vertices.iter().fold((first, first), |(low, high), vertex| (low.min(*vertex), high.max(*vertex)))
 }
 
-/// The middle of the box around some vertices.
+/// Returns the centre of the bounding box of some vertices.
 pub(super) fn middle(vertices: &[DVec3]) -> DVec3 {
     let (low, high) = corners(vertices);
     (low + high) / 2.0
 }
 
-/// The edges of the box around some vertices.
+/// Returns the edge lengths of the bounding box of some vertices.
 pub(super) fn extent(vertices: &[DVec3]) -> DVec3 {
     let (low, high) = corners(vertices);
     high - low

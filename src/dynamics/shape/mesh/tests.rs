@@ -1,4 +1,4 @@
-//! Solids of triangles against closed forms.
+//! Tests of meshes against closed forms of their solids.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -9,23 +9,24 @@ use super::*;
 use crate::dynamics::shape::Shape;
 use crate::dynamics::{METHODS, RigidBody, World};
 
-/// The rounding error of sums over some thousand triangles.
+/// The tolerance for rounding errors of sums over some thousand triangles.
 const ROUNDING: f64 = 1e-12;
 
-/// The surface of a box about a centre, its faces outward.
+/// Returns the surface of a box about a centre, with its faces oriented outwards.
 fn cuboid(size: DVec3, turn: DQuat, centre: DVec3) -> Mesh {
     let corner = |i: u32| {
         let side = |bit: u32| if i >> bit & 1 == 0 { -0.5 } else { 0.5 };
         turn * (size * DVec3::new(side(0), side(1), side(2))) + centre
     };
-    // Each face: its corners around, seen from outside.
+    // Each face lists its corners in counter-clockwise order, seen from outside.
     let faces: [[u32; 4]; 6] =
         [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     Mesh::new("box", (0..8).map(corner).collect(), triangles)
 }
 
-/// A surface that closes both ways: `point(i, j)` of so many rows and columns.
+/// Returns a surface that is closed in both directions. `point(i, j)` returns the vertex at two angles, rad, of which there are `rows` and
+/// `columns`.
 fn ring(rows: u32, columns: u32, point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let angle = |i: u32, of: u32| 2.0 * PI * f64::from(i) / f64::from(of);
     let grid = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
@@ -49,15 +50,15 @@ fn torus(radius: f64, tube_radius: f64, rows: u32, columns: u32) -> Mesh {
     })
 }
 
-/// A ball as a ring whose inner edge has shrunk to the axis: its triangles there have two corners at one place.
+/// Returns a ball, made as a torus whose inner circle has shrunk to the axis. Some triangles there have two corners at the same position.
 fn ball(radius: f64, n: u32) -> Mesh {
     let Mesh { vertices, triangles, .. } = ring(2 * n, n + 1, |around, along| {
-        // Columns 0 to n go from pole to pole.
+        // Columns 0 to n run from one pole to the other.
         let polar = along * f64::from(n + 1) / f64::from(2 * n);
         let from_axis = radius * libm::sin(polar);
         DVec3::new(from_axis * libm::sin(around), radius * libm::cos(polar), from_axis * libm::cos(around))
     });
-    // All vertices at a pole are one, as a reader makes them.
+    // All vertices at a pole are merged into one, as readers of mesh files do.
     let pole = |vertex: u32| match vertex % (n + 1) {
         0 => 0,
         last if last == n => n,
@@ -92,8 +93,8 @@ fn a_box_of_triangles_is_a_box() {
     assert_eq!(cuboid(size, DQuat::IDENTITY, DVec3::ZERO).principal_axes(), DQuat::IDENTITY);
 }
 
-/// A tetrahedron has C = V/20 Σ p pᵀ over its corners about its centre (Tonon, *Explicit Exact Formulas for the 3-D Tetrahedron
-/// Inertia Tensor*, 2004).
+/// The second moment of a tetrahedron about its centre is C = V/20 Σ p pᵀ over its corners p (Tonon, *Explicit Exact Formulas for the 3-D
+/// Tetrahedron Inertia Tensor*, 2004).
 #[test]
 fn a_tetrahedron_has_the_inertia_of_its_corners() {
     let corners =
@@ -112,7 +113,8 @@ fn a_tetrahedron_has_the_inertia_of_its_corners() {
     assert!((mesh.vertices()[2] - (corners[2] - centre)).length() < ROUNDING);
 }
 
-/// A polygon of n corners has n sin(2π/n)/2π of its circle, and a ring of m wedges as much of the full turn.
+/// A regular polygon with n corners has the fraction n sin(2π/n)/2π of the area of its circle. A ring of m wedges has the same fraction,
+/// with m, of the volume of the full ring.
 #[test]
 fn a_torus_of_triangles_has_the_volume_of_its_polygons() {
     let part = |n: u32| f64::from(n) * libm::sin(2.0 * PI / f64::from(n)) / (2.0 * PI);
@@ -126,9 +128,9 @@ fn a_torus_of_triangles_has_the_volume_of_its_polygons() {
     );
 }
 
-/// The error of a surface of flat pieces is of second order in their size: a quarter, with twice as many. Its size is that
-/// of the mean gap between chord and arc, (2π/n)²/12 of the radius on either way around, and moments go with the fifth
-/// power of lengths.
+/// Approximation by flat triangles has an error of second order in their size: twice as many triangles along each direction must leave a
+/// quarter of the error. The bound follows from the mean gap between chord and arc, (2π/n)²/12 of the radius in each of two directions,
+/// and from moments of inertia that grow with the fifth power of lengths.
 #[test]
 fn round_solids_of_triangles_approach_the_round_ones_in_second_order() {
     let error = |mesh: Mesh, round: &Shape| {
@@ -179,13 +181,13 @@ fn what_encloses_nothing_says_why() {
     let open = Mesh::new("", vertices(), triangles.clone());
     assert!(matches!(open.flaw(), Some(Flaw::Open { edges: 4, .. })), "{:?}", open.flaw());
     assert_eq!((open.volume(), open.inertia()), (None, DVec3::ZERO));
-    // The remaining surface lacks its face at +z: its centre is 0.1 below.
+    // The open box lacks its face at +z, so the centre of its surface is 0.1 below the centre of the box.
     assert!((open.support(DVec3::Z) - 0.6).abs() < ROUNDING, "{}", open.support(DVec3::Z));
 
     let flat = Mesh::new("", vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2], [2, 1, 0]]);
     assert_eq!(flat.flaw(), Some(&Flaw::Flat));
     assert_eq!(flat.half_thickness(), None);
-    // A triangle without area neither opens nor closes anything.
+    // A triangle with two equal corners must not change whether the surface is closed.
     triangles.clone_from(&whole.triangles().to_vec());
     triangles.push([3, 3, 5]);
     assert_eq!(Mesh::new("", vertices(), triangles).flaw(), None);
