@@ -1,10 +1,11 @@
-//! Time integration: steps chosen by the method, births and deaths between them, and moments within them.
+//! Time integration by adaptive methods. The method chooses the steps. Births and deaths happen between steps, and requested moments may
+//! lie within steps.
 
 use super::super::{Breakdown, Snapshot};
 use super::{Ahead, Field, Scales, Stepper, Time};
 
 impl<S: Stepper> Ahead<S> {
-    /// Advances to time `t` in steps that end at each birth and death.
+    /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
     pub(super) fn advance_by_events(
         &mut self,
         t: f64,
@@ -32,13 +33,13 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// The snapshot of the present moment; it leaves the energy ledger unchanged.
+    /// Returns the snapshot of the present moment, and leaves the energy ledger unchanged.
     fn peek(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         self.picture(balance).checked()
     }
 
-    /// Adds and removes bodies at births and deaths.
+    /// Adds bodies that are born and removes bodies that die. `due` holds the index of each body, and true for a birth.
     fn change(&mut self, due: &[(usize, bool)]) {
         if !due.is_empty() {
             self.ledger.open(&self.model, self.time, &self.state);
@@ -47,7 +48,7 @@ impl<S: Stepper> Ahead<S> {
         }
     }
 
-    /// Moves the bodies to time `t`. It is not before the last requested time, and not after the next birth or death.
+    /// Moves the bodies to time `t`, s. This time must not be before the last requested time or after the next birth or death.
     fn go_to(&mut self, t: f64) -> Result<(), Breakdown> {
         if !self.is_begun {
             self.begin();
@@ -60,7 +61,7 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// Passes the bodies to the method.
+    /// Passes the present bodies to the integration method, which starts again.
     fn begin(&mut self) {
         self.is_begun = true;
         self.ledger.close(&self.model, self.time, &self.state);
@@ -74,13 +75,13 @@ impl<S: Stepper> Ahead<S> {
         now.1.begin(&mut Field { model, bodies, scales, stage, loads }, now.0);
     }
 
-    /// Makes one step. `wanted` is the time that must be reached, s.
+    /// Makes one step. `wanted` is the time that later steps must reach, s.
     fn make_step(&mut self, wanted: f64) -> Result<(), Breakdown> {
         let stop = self.stop();
         let Ahead { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
         let longest = now.until(stop);
         if method.proposal().min(longest) >= now.until(wanted) {
-            // A moment within the step will be requested.
+            // This step reaches the requested time, so the state before the step is saved for interpolation.
             before.0 = *now;
             before.1.clone_from(method);
         }
@@ -93,7 +94,7 @@ impl<S: Stepper> Ahead<S> {
         Ok(())
     }
 
-    /// The time at which the next step must end, s.
+    /// Returns the time beyond which the next step must not go, s: the next birth or death, or the end of the run.
     fn stop(&mut self) -> f64 {
         let now = self.now.0.seconds();
         let next = self.calendar.next().unwrap_or(f64::INFINITY);
@@ -101,7 +102,7 @@ impl<S: Stepper> Ahead<S> {
         next.min(end)
     }
 
-    /// Finds the bodies at the requested time, which lies within the last step.
+    /// Computes the state of the bodies at the requested time, which lies within the last step or at its end.
     fn look(&mut self) {
         let Ahead { model, bodies, scales, stage, loads, now, before, branch, state, time, .. } = self;
         let field = &mut Field { model, bodies, scales, stage, loads };

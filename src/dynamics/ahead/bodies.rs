@@ -1,4 +1,4 @@
-//! The bodies that a method advances, and their slopes under the loads.
+//! The bodies that an adaptive method advances, and their rates of change under the loads.
 
 use glam::{DQuat, DVec3};
 
@@ -6,23 +6,23 @@ use super::super::integrator::{orientation_rate, turn_freely};
 use super::super::model::is_isotropic;
 use super::super::{Loads, Model, State};
 
-/// The bodies that change with time, by kind.
+/// The bodies that change with time, sorted by the kind of their motion.
 #[derive(Clone, Default)]
 pub(super) struct Bodies {
-    /// Bodies moved by forces.
+    /// The indices of the bodies that forces move.
     pub(super) moving: Vec<usize>,
-    /// Bodies whose orientation and angular momentum must be integrated.
+    /// The indices of the bodies whose orientation and angular momentum must be integrated.
     pub(super) turning: Vec<usize>,
-    /// Bodies without torque and with uniform rotation, each with its orientation at the start.
+    /// The bodies that rotate uniformly without torque, each with its orientation at the start.
     spinning: Vec<(usize, DQuat)>,
-    /// Whether anything without a potential acts, so that its work must be integrated.
+    /// Whether forces without a potential or guided bodies may do work, which must then be integrated.
     pub(super) works: bool,
-    /// Whether a force depends on velocities.
+    /// Whether a force depends on velocities, or does work without a potential.
     pub(super) feels_motion: bool,
 }
 
 impl Bodies {
-    /// Sorts the bodies of a model into these lists. Absent, fixed and guided bodies are in none of them.
+    /// Fills the lists with the bodies of a model. Absent, fixed and guided bodies are in no list.
     pub(super) fn sort(&mut self, model: &Model, state: &State) {
         let can_turn = model.turns_bodies();
         self.moving.clear();
@@ -45,7 +45,7 @@ impl Bodies {
         self.works = self.feels_motion || model.has_guided();
     }
 
-    /// Rotates the uniformly rotating bodies to their orientation `elapsed` seconds after the start.
+    /// Sets the orientations of uniformly rotating bodies to those `elapsed` seconds after the start.
     pub(super) fn spin(&self, model: &Model, elapsed: f64, state: &mut State) {
         for &(i, start) in &self.spinning {
             let momentum = state.angular_momentum[i];
@@ -54,52 +54,54 @@ impl Bodies {
     }
 }
 
-/// The method's view of the world, with working memory.
+/// The data that a method needs to evaluate the loads: the bodies and forces, and working memory.
 pub(super) struct Field<'a> {
-    /// Masses and forces.
+    /// The masses of the bodies and the forces on them.
     pub(super) model: &'a Model,
-    /// The bodies that are advanced.
+    /// The bodies that the method advances.
     pub(super) bodies: &'a Bodies,
-    /// The scales of the motion.
+    /// The typical length and speed of the motion.
     pub(super) scales: &'a Scales,
-    /// The current stage of the bodies.
+    /// The state of the bodies at the current stage of the method.
     pub(super) stage: &'a mut State,
-    /// The loads at that stage.
+    /// The loads on the bodies at the current stage.
     pub(super) loads: &'a mut Loads,
 }
 
 impl Field<'_> {
-    /// Evaluates the loads on the bodies at the stage, at time `t`, s.
+    /// Evaluates the loads on the bodies at the current stage, at time `t`, s. Guided bodies are placed first.
     pub(super) fn evaluate(&mut self, t: f64) {
         self.model.place(t, self.stage);
         self.model.evaluate(t, self.stage, self.loads);
     }
 
-    /// The acceleration of a body, m/s².
+    /// Returns the acceleration of a body at the current stage, m/s².
     pub(super) fn acceleration(&self, i: usize) -> DVec3 {
         self.loads.force[i] * self.model.inverse_mass()[i]
     }
 
-    /// The rate of change of the orientation of a body.
+    /// Returns the time derivative of a body's orientation at the current stage, 1/s.
     pub(super) fn turning(&self, i: usize) -> DQuat {
         orientation_rate(self.stage.orientation[i], self.model.angular_velocity(i, self.stage))
     }
 }
 
-/// Values below this fraction of the whole motion are measured by the whole.
+/// The errors of positions and speeds below this fraction of the typical values are measured relative to this fraction.
 const SMALL: f64 = 0.1;
 
-/// The scales of the motion, to recognise values that are small against it.
+/// The smallest length and speed to which errors are relative. They follow from the size of the whole motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scales {
-    /// A tenth of the root-mean-square distance of the bodies from their mean position, or of the size of the largest body, m.
+    /// A tenth of the root-mean-square distance of the bodies from their mean position, or of the largest radius of gyration of a body if
+    /// that is longer, m.
     pub(super) length: f64,
-    /// A tenth of the largest speed, or of the speed that the forces give over the length above, m/s.
+    /// A tenth of the largest speed, or of √(a L) if that is larger, m/s. Here, a is the largest acceleration and L is ten times the
+    /// length above.
     pub(super) speed: f64,
 }
 
 impl Scales {
-    /// The scales of the present bodies under these loads.
+    /// Computes the scales from the present bodies and the loads on them.
     pub(super) fn of(bodies: &Bodies, model: &Model, state: &State, loads: &Loads) -> Scales {
         let there = || (0..model.len()).filter(|&i| model.is_present(i));
         #[allow(clippy::cast_precision_loss, reason = "no scene has 2^53 bodies")]

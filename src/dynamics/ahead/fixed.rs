@@ -1,11 +1,12 @@
-//! Fixed steps with a method that otherwise chooses its own.
+//! Steps of fixed length, made by a method that otherwise chooses its own steps.
 
 use super::super::{Integrator, Loads, State, System};
 use super::bodies::{Bodies, Field, Scales};
 use super::stepper::Stepper;
 use super::time::Time;
 
-/// Makes steps of a given length by an adaptive method. The method restarts at each step, so it costs more than necessary.
+/// Makes steps of a given length by an adaptive method. The method restarts at each step, which costs additional evaluations of the
+/// forces.
 #[derive(Clone)]
 pub(in super::super) struct Fixed<S> {
     method: S,

@@ -1,8 +1,8 @@
-//! Methods with steps that are independent of frames: chosen by the error, or constant to keep it bounded.
+//! Integration methods whose steps are independent of frames: either adaptive steps, or constant steps of a symplectic method.
 //!
-//! A step ends where the motion is not smooth — at a birth, a death, or the end of the run — and nowhere else. A requested moment within
-//! a step is computed by a branch: a copy of the bodies at the start of the step makes a shorter step to exactly that moment. It is as
-//! accurate as the run, and does not affect it: the run is the same, bit for bit, whichever moments are requested.
+//! A step ends where the motion is not smooth — at a birth, a death, or the end of the run — and nowhere else. A requested moment within a
+//! step is computed by a branch: a copy of the bodies at the start of the step makes a shorter step to exactly that moment. The result is
+//! as accurate as the run, and does not affect the run: it is the same, bit for bit, whichever moments are requested.
 
 mod advance;
 mod bodies;
@@ -28,12 +28,12 @@ use super::{Breakdown, Dynamics, EnergyLedger, Loads, Method, Model, Snapshot, S
 
 use fixed::Fixed;
 
-/// The accuracy of a method that chooses its own steps, and the end of the run.
+/// The accuracy of an adaptive method, and the end of the run.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {
-    /// The allowed error of a step, relative to the size of the motion; each method defines it in detail.
+    /// The allowed error of a step, relative to the size of the motion. Each method defines it in detail.
     pub tolerance: f64,
-    /// The time at which the run ends, s. No step goes beyond it, unless a later time is requested.
+    /// The time at which the run ends, s. No step goes beyond this time, unless a later time is requested.
     pub end: f64,
 }
 
@@ -74,34 +74,34 @@ pub(super) const WISDOM_HOLMAN: Method = Method {
     }),
 };
 
-/// The tolerance for methods with fixed steps, which do not use it.
+/// The tolerance of adaptive methods when they make steps of fixed length. Such steps do not depend on it.
 const FOR_FIXED_STEPS: f64 = 1e-9;
 
 fn take_over(world: World, method: impl Stepper + 'static, end: f64) -> Box<dyn Dynamics> {
     Box::new(Ahead::new(world.into_parts(), method, end))
 }
 
-/// Bodies that move under forces, advanced by a method that chooses its own steps.
+/// Simulates bodies that move under forces, by a method that chooses its own steps.
 struct Ahead<S> {
     model: Model,
-    /// The bodies at the requested time.
+    /// The state of the bodies at the requested time.
     state: State,
     ledger: EnergyLedger,
     calendar: Calendar,
-    /// The requested time, s.
+    /// The last requested time, s.
     time: f64,
     end: f64,
     steps: u64,
-    /// Whether the method holds the bodies; false at the start, and after a birth or a death.
+    /// Whether the method has taken over the bodies; false at the start, and after a birth or a death.
     is_begun: bool,
-    /// The method at the end of the last step, and at its start.
+    /// The method with its bodies at the end of the last step, and at the start of that step.
     now: (Time, S),
     before: (Time, S),
-    /// Working memory for a branch.
+    /// Working memory for a copy of the method that computes a moment within a step.
     branch: S,
     bodies: Bodies,
     scales: Scales,
-    /// Working memory for the bodies at a stage, and for their loads.
+    /// Working memory for the state of the bodies at a stage, and for their loads.
     stage: State,
     loads: Loads,
 }

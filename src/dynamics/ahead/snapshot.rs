@@ -1,10 +1,10 @@
-//! Snapshots of a moment.
+//! Makes snapshots of a moment in runs with adaptive methods.
 
 use super::super::{Balance, BodySnapshot, Snapshot};
 use super::Ahead;
 
 impl<S> Ahead<S> {
-    /// The snapshot at the requested time.
+    /// Returns the snapshot at the requested time, with the given energy balance.
     pub(super) fn picture(&mut self, balance: Balance) -> Snapshot {
         let Ahead { model, state, loads, time, .. } = self;
         model.evaluate(*time, state, loads);

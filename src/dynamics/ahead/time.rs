@@ -1,31 +1,31 @@
-//! A time that is the sum of many steps.
+//! A time that stays accurate when many steps are added.
 
-/// A time, s, as a sum of two numbers. The rounding errors of ten thousand different steps would otherwise be visible for a planet at its
-/// perihelion. Source: D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2, theorem B.
+/// A time (s) as the sum of two numbers, so that it has twice the precision. Otherwise, the rounding errors of ten thousand different
+/// steps would be visible for a planet at its perihelion. Source: D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Time {
     seconds: f64,
-    /// The remainder.
+    /// The difference between the exact time and `seconds`, s.
     rest: f64,
 }
 
 impl Time {
-    /// Exactly this many seconds.
+    /// Returns the time of exactly `seconds`.
     pub(super) fn at(seconds: f64) -> Time {
         Time { seconds, rest: 0.0 }
     }
 
-    /// The nearest number, s.
+    /// Returns the time as the nearest `f64`, s.
     pub(super) fn seconds(self) -> f64 {
         self.seconds
     }
 
-    /// The duration from this time to another, s.
+    /// Returns the duration from this time to `seconds`, s.
     pub(super) fn until(self, seconds: f64) -> f64 {
         (seconds - self.seconds) - self.rest
     }
 
-    /// The time after a duration, s.
+    /// Returns this time plus `duration`, s.
     pub(super) fn after(self, duration: f64) -> Time {
         let (seconds, rest) = exact_sum(self.seconds, duration);
         let (seconds, rest) = exact_sum(seconds, rest + self.rest);
@@ -33,7 +33,7 @@ impl Time {
     }
 }
 
-/// The sum of two numbers, and its rounding error.
+/// Returns the sum of two numbers and its rounding error.
 fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
@@ -44,8 +44,8 @@ fn exact_sum(a: f64, b: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// A million steps of 0.1 s. A plain sum has an error of 1e-6 s. This sum has only the error of 0.1 itself, a million times 5.6e-18
-    /// s.
+    /// Adds a million steps of 0.1 s. A plain sum would have an error of 1e-6 s. The result must have only the rounding error of the
+    /// number 0.1 itself, a million times 5.6e-18 s.
     #[test]
     fn rounding_errors_do_not_add_up() {
         let mut time = Time::at(0.0);

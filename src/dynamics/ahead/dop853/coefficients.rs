@@ -1,4 +1,4 @@
-//! The coefficients of DOP853, each with its stage.
+//! The coefficients of the Runge–Kutta method DOP853, each with the stage that it belongs to.
 //!
 //! Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential Equations I*, 2nd edition (1993), II.5 and II.10, and the
 //! program DOP853 by E. Hairer and G. Wanner.
@@ -19,31 +19,31 @@ pub(super) const TIMES: [f64; 12] = [
     1.0,
 ];
 
-/// A weight, with the stage of the slope to which it belongs.
+/// The index of a stage, counted from 0, and the weight of the slope at that stage.
 pub(super) type Weight = (usize, f64);
 
-/// The weights of the second stage.
+/// The weights of earlier slopes in the second stage.
 pub(super) const STAGE_2: [Weight; 1] = [(0, 0.052_600_151_958_767_73)];
 
-/// The weights of the third stage.
+/// The weights of earlier slopes in the third stage.
 pub(super) const STAGE_3: [Weight; 2] = [(0, 0.019_725_056_984_537_9), (1, 0.059_175_170_953_613_7)];
 
-/// The weights of the fourth stage.
+/// The weights of earlier slopes in the fourth stage.
 pub(super) const STAGE_4: [Weight; 2] = [(0, 0.029_587_585_476_806_85), (2, 0.088_762_756_430_420_54)];
 
-/// The weights of the fifth stage.
+/// The weights of earlier slopes in the fifth stage.
 pub(super) const STAGE_5: [Weight; 3] =
     [(0, 0.241_365_134_159_266_7), (2, -0.884_549_479_328_286_1), (3, 0.924_834_003_261_792)];
 
-/// The weights of the sixth stage.
+/// The weights of earlier slopes in the sixth stage.
 pub(super) const STAGE_6: [Weight; 3] =
     [(0, 0.037_037_037_037_037_035), (3, 0.170_828_608_729_473_86), (4, 0.125_467_687_566_822_42)];
 
-/// The weights of the seventh stage.
+/// The weights of earlier slopes in the seventh stage.
 pub(super) const STAGE_7: [Weight; 4] =
     [(0, 0.037_109_375), (3, 0.170_252_211_019_544_05), (4, 0.060_216_538_980_455_96), (5, -0.017_578_125)];
 
-/// The weights of the eighth stage.
+/// The weights of earlier slopes in the eighth stage.
 pub(super) const STAGE_8: [Weight; 5] = [
     (0, 0.037_092_000_118_504_79),
     (3, 0.170_383_925_712_239_98),
@@ -52,7 +52,7 @@ pub(super) const STAGE_8: [Weight; 5] = [
     (6, 0.008_273_789_163_814_023),
 ];
 
-/// The weights of the ninth stage.
+/// The weights of earlier slopes in the ninth stage.
 pub(super) const STAGE_9: [Weight; 6] = [
     (0, 0.624_110_958_716_075_7),
     (3, -3.360_892_629_446_941_4),
@@ -62,7 +62,7 @@ pub(super) const STAGE_9: [Weight; 6] = [
     (7, -43.489_884_181_069_96),
 ];
 
-/// The weights of the tenth stage.
+/// The weights of earlier slopes in the tenth stage.
 pub(super) const STAGE_10: [Weight; 7] = [
     (0, 0.477_662_536_438_264_34),
     (3, -2.488_114_619_971_667_7),
@@ -73,7 +73,7 @@ pub(super) const STAGE_10: [Weight; 7] = [
     (8, -0.020_331_201_708_508_627),
 ];
 
-/// The weights of the eleventh stage.
+/// The weights of earlier slopes in the eleventh stage.
 pub(super) const STAGE_11: [Weight; 8] = [
     (0, -0.937_142_430_085_987_3),
     (3, 5.186_372_428_844_064),
@@ -85,7 +85,7 @@ pub(super) const STAGE_11: [Weight; 8] = [
     (9, -3.046_764_471_898_219_6),
 ];
 
-/// The weights of the twelfth stage.
+/// The weights of earlier slopes in the twelfth stage.
 pub(super) const STAGE_12: [Weight; 9] = [
     (0, 2.273_310_147_516_538),
     (3, -10.534_495_466_737_25),
@@ -98,7 +98,7 @@ pub(super) const STAGE_12: [Weight; 9] = [
     (10, 0.643_392_746_015_763_6),
 ];
 
-/// The weights of the end of the step.
+/// The weights of the slopes in the result of a step.
 pub(super) const END: [Weight; 8] = [
     (0, 0.054_293_734_116_568_765),
     (5, 4.450_312_892_752_409),
@@ -110,7 +110,7 @@ pub(super) const END: [Weight; 8] = [
     (11, 0.044_710_615_727_772_59),
 ];
 
-/// The weights of the third-order error estimate.
+/// The weights of the slopes in the third-order error estimate.
 pub(super) const ERROR_3: [Weight; 8] = [
     (0, -0.189_800_754_072_407_62),
     (5, 4.450_312_892_752_409),
@@ -122,7 +122,7 @@ pub(super) const ERROR_3: [Weight; 8] = [
     (11, 0.022_651_792_198_360_82),
 ];
 
-/// The weights of the fifth-order error estimate.
+/// The weights of the slopes in the fifth-order error estimate.
 pub(super) const ERROR_5: [Weight; 8] = [
     (0, 0.013_120_044_994_194_88),
     (5, -1.225_156_446_376_204_4),

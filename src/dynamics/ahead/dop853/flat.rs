@@ -1,5 +1,5 @@
-//! The whole state as one list of numbers: the positions of all moving bodies, their velocities, the orientation and angular momentum of
-//! each rotating body, and the work done so far.
+//! The state of all advanced bodies as one list of numbers: the positions of all moving bodies, their velocities, the orientation and
+//! angular momentum of each rotating body, and the work done so far.
 
 use std::ops::Range;
 
@@ -8,16 +8,16 @@ use glam::{DQuat, DVec3};
 use super::super::super::State;
 use super::super::bodies::Field;
 
-/// The numbers of a rotating body.
+/// The number of values for the rotation of a body: four for its orientation and three for its angular momentum.
 const OF_TURN: usize = 7;
 
-/// The start of each part in the list: velocities, rotations, and the work.
+/// Returns the indices in the list at which the velocities, the rotations and the work begin.
 fn places(field: &Field<'_>) -> [usize; 3] {
     let (moving, turning) = (field.bodies.moving.len(), field.bodies.turning.len());
     [3 * moving, 6 * moving, 6 * moving + OF_TURN * turning]
 }
 
-/// Reads the list from the field's stage.
+/// Writes the state of the field's bodies to the list `values`.
 pub(super) fn read(field: &Field<'_>, values: &mut Vec<f64>) {
     let (bodies, stage) = (field.bodies, &*field.stage);
     values.clear();
@@ -32,7 +32,7 @@ pub(super) fn read(field: &Field<'_>, values: &mut Vec<f64>) {
     }
 }
 
-/// Writes the list to a state.
+/// Writes the list `values` to the bodies of `state`.
 pub(super) fn write(field: &Field<'_>, values: &[f64], state: &mut State) {
     let [velocities, turns, work] = places(field);
     let bodies = field.bodies;
@@ -56,7 +56,7 @@ fn triples(values: &[f64]) -> impl Iterator<Item = DVec3> {
     values.as_chunks::<3>().0.iter().map(|&triple| triple.into())
 }
 
-/// Normalizes the orientations.
+/// Normalizes the quaternions of all orientations in the list.
 pub(super) fn normalize(field: &Field<'_>, values: &mut [f64]) {
     let [_, turns, work] = places(field);
     for turn in values[turns..work].as_chunks_mut::<OF_TURN>().0 {
@@ -65,7 +65,7 @@ pub(super) fn normalize(field: &Field<'_>, values: &mut [f64]) {
     }
 }
 
-/// The slope of a list at time `t`, s.
+/// Writes the time derivatives of all values of the list at time `t` (s) to `slope`.
 pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &mut [f64]) {
     let [velocities, turns, work] = places(field);
     {
@@ -97,8 +97,8 @@ pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &
     }
 }
 
-/// Calls `see` for each body with the ranges of its numbers, and their sizes before and after a step. The work comes last, like another
-/// body.
+/// Calls `see` for each body with the ranges of its values in the list, and with their largest size before and after a step. The work
+/// comes last, as if it belonged to another body.
 pub(super) fn each_body(
     field: &Field<'_>,
     before: &[f64],

@@ -1,4 +1,4 @@
-//! The eighth-order method of Dormand and Prince, which chooses its steps by error estimates of orders 5 and 3.
+//! The eighth-order method DOP853 of Dormand and Prince. It chooses its steps by error estimates of orders 5 and 3.
 
 mod coefficients;
 mod flat;
@@ -13,26 +13,26 @@ use coefficients::{
     STAGE_11, STAGE_12, TIMES, Weight,
 };
 
-/// A step is this factor shorter than the error allows, so that few steps are rejected.
+/// The safety factor: a step is this fraction of the step that the error allows, so that few steps are rejected.
 const SAFETY: f64 = 0.9;
-/// The smallest and largest ratio of a step to the one before.
+/// The smallest and the largest ratio of a step to the previous step.
 const SHRINKS: f64 = 1.0 / 3.0;
 const GROWS: f64 = 6.0;
 
-/// Twelve stages per step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential Equations I*, 2nd edition (1993),
-/// II.10; the choice of steps: II.4.
+/// The method DOP853, which has twelve stages per step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential
+/// Equations I*, 2nd edition (1993), II.10; the choice of steps: II.4.
 ///
-/// The allowed error of a step is `tolerance` times each body's distance from the origin, speed and so on. If these are small, it is
-/// relative to the size of the whole motion ([`Scales`](super::bodies::Scales)). The largest error of all bodies counts, so that many
-/// small errors cannot hide it.
+/// The allowed error of a step is `tolerance` times each body's distance from the origin, speed and so on. If these values are small, the
+/// error is relative to the size of the whole motion ([`Scales`](super::bodies::Scales)). The largest error of all bodies counts, so that
+/// it is not averaged away by many small errors.
 #[derive(Default)]
 pub(super) struct Dop853 {
     tolerance: f64,
-    /// The state: positions, velocities, orientations with angular momenta, work.
+    /// The state of the bodies as a list: positions, velocities, orientations with angular momenta, and work.
     values: Vec<f64>,
-    /// The slopes of the stages; the first is that of the values.
+    /// The slopes of the list at the twelve stages. The first stage is the present state.
     slopes: [Vec<f64>; 12],
-    /// Working memory for a stage.
+    /// Working memory for the list at a stage.
     stage: Vec<f64>,
     /// The length of the next step, s.
     proposal: f64,
@@ -45,7 +45,7 @@ impl Dop853 {
         Dop853 { tolerance, ..Dop853::default() }
     }
 
-    /// Computes the values after a step, and stores them in `stage`. The slope at the end is not computed yet.
+    /// Computes the values after a step of `h` (s) and stores them in `stage`. The slope at the end of the step is computed later.
     fn try_step(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
         self.find_slope(field, now, h, 1, STAGE_2);
         self.find_slope(field, now, h, 2, STAGE_3);
@@ -61,7 +61,7 @@ impl Dop853 {
         self.follow(h, END);
     }
 
-    /// The slope of one stage, from those before.
+    /// Computes the slope of one stage from the slopes of earlier stages.
     fn find_slope<const N: usize>(
         &mut self,
         field: &mut Field<'_>,
@@ -74,7 +74,7 @@ impl Dop853 {
         flat::find_slope(field, now.seconds() + TIMES[number] * h, &self.stage, &mut self.slopes[number]);
     }
 
-    /// Computes the stage from the values and weighted slopes.
+    /// Sets `stage` to the present values plus `h` times the weighted sum of slopes.
     fn follow<const N: usize>(&mut self, h: f64, weights: [Weight; N]) {
         let Dop853 { values, slopes, stage, .. } = self;
         let slopes = weights.map(|(number, _)| &slopes[number][..values.len()]);
@@ -87,7 +87,8 @@ impl Dop853 {
         }
     }
 
-    /// The error of the step relative to the allowed error, and its body. At most 1 is allowed.
+    /// Returns the largest error of the step, divided by the allowed error, and the body with this error. The step is accepted if the
+    /// ratio is at most 1.
     fn error(&self, field: &Field<'_>, h: f64) -> (f64, BodyId) {
         let Dop853 { values, slopes, stage, tolerance, .. } = self;
         let sum = |weights: &[Weight], i: usize| -> f64 {
@@ -113,7 +114,7 @@ impl Dop853 {
         worst
     }
 
-    /// Accepts the stage as the new state.
+    /// Makes the values in `stage` the new state, and computes their slope.
     fn accept(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
         std::mem::swap(&mut self.values, &mut self.stage);
         flat::normalize(field, &mut self.values);
@@ -121,9 +122,9 @@ impl Dop853 {
         self.elapsed += h;
     }
 
-    /// The length of the first step. Source: Hairer, Nørsett & Wanner, II.4.
+    /// Returns a suitable length of the first step, s. Source: Hairer, Nørsett & Wanner, II.4.
     fn first_step(&mut self, field: &mut Field<'_>, now: Time) -> f64 {
-        // Both are relative to the allowed error; in these units, a value is about 1/tolerance.
+        // Slopes and curvatures are divided by the allowed error. Values of the state would be about 1/tolerance in these units.
         let rate = self.largest(field, |dop, i| dop.slopes[0][i]);
         if rate == 0.0 {
             return f64::INFINITY;
@@ -136,7 +137,7 @@ impl Dop853 {
         (100.0 * guess).min(eighth_root(0.01 / (steepest * self.tolerance)).min(100.0) * guess)
     }
 
-    /// The largest value of a quantity, relative to the allowed error.
+    /// Returns the largest magnitude of a quantity over all entries of the list, each divided by its allowed error.
     fn largest(&self, field: &Field<'_>, of: impl Fn(&Dop853, usize) -> f64) -> f64 {
         let mut largest: f64 = 0.0;
         flat::each_body(field, &self.values, &self.values, |_, parts| {
@@ -176,7 +177,7 @@ impl Stepper for Dop853 {
             if error <= 1.0 {
                 self.accept(field, now, h);
                 let factor = SAFETY / eighth_root(error);
-                // The step was shortened although the error allowed a longer one.
+                // If a limit has shortened this step, the next step may be as long as the method proposed before.
                 self.proposal = (h * factor.clamp(SHRINKS, most)).max(if most > 1.0 {
                     h.min(self.proposal)
                 } else {
@@ -204,7 +205,7 @@ impl Stepper for Dop853 {
     }
 }
 
-// Written by hand, since stages need not be copied, and allocated memory can be reused.
+// `Clone` is written by hand, because stages need not be copied, and allocated memory can be reused.
 impl Clone for Dop853 {
     fn clone(&self) -> Self {
         let mut clone = Dop853::default();

@@ -1,10 +1,10 @@
-//! Three numbers that are advanced together: a position with its velocity, or another quantity with its slope.
+//! Three numbers that are integrated together: a position with its velocity, or another quantity with its slope.
 
 use glam::DVec3;
 
 use super::nodes::{BINOMIALS, NODES, OF_PLACE, OF_VALUE, PER_DISTANCE, POWERS, PRODUCTS, TERMS, Weights};
 
-/// A sum and its rounding error. Source: W. Kahan, Commun. ACM 8 (1965) 40.
+/// A compensated sum: its value, and the rounding error that the value lacks. Source: W. Kahan, Commun. ACM 8 (1965) 40.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sum {
     pub(super) value: DVec3,
@@ -23,32 +23,32 @@ impl Sum {
         self.value = sum;
     }
 
-    /// The sum plus a small term.
+    /// Returns the sum plus a small term, without changing the sum.
     fn with(self, more: DVec3) -> DVec3 {
         self.value + (self.rest + more)
     }
 }
 
-/// A value whose slope at the fraction h of a step is s₀ + b₁ h + … + b₇ h⁷. If the value is a velocity, its lane also holds the
-/// position.
+/// A value whose slope at the fraction h of a step is s₀ + b₁ h + … + b₇ h⁷. If the value is a velocity, `place` is the position that
+/// belongs to it.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Lane {
     pub(super) place: Sum,
     pub(super) value: Sum,
-    /// The slope at the start of the step.
+    /// The slope s₀ at the start of the step.
     pub(super) slope: DVec3,
-    /// The coefficients b.
+    /// The coefficients b₁ to b₇ of the slope's polynomial.
     pub(super) b: [DVec3; TERMS],
-    /// The same slope, in terms of products of the nodes.
+    /// The coefficients of the same polynomial in Newton's form: as factors of h, h (h − h₁), h (h − h₁) (h − h₂) and so on.
     g: [DVec3; TERMS],
-    /// The prediction of b from the last step.
+    /// The coefficients b that were predicted from the last step.
     expected: [DVec3; TERMS],
-    /// b of the last step, and its prediction.
+    /// The coefficients b of the last step, and the prediction that was made for them.
     last: [DVec3; TERMS],
     last_expected: [DVec3; TERMS],
 }
 
-/// The slope at the end of a step, and its first two derivatives there, for a step of 1.
+/// The slope of a value at the end of a step, and its first two derivatives with respect to the fraction of the step.
 pub(super) struct End {
     pub(super) slope: DVec3,
     pub(super) rate: DVec3,
@@ -60,7 +60,8 @@ impl Lane {
         Lane { place: Sum::of(place), value: Sum::of(value), ..Lane::default() }
     }
 
-    /// Predicts that the step continues like the last one, which was `1 / ratio` times as long. A ratio of 0 gives no prediction.
+    /// Predicts the coefficients, on the assumption that the polynomial of the last step continues. `ratio` is the length of this step,
+    /// divided by that of the last step. A ratio of 0 sets the coefficients to zero.
     #[allow(clippy::needless_range_loop, reason = "the sums are those of the formulas, over two indices")]
     pub(super) fn expect(&mut self, ratio: f64) {
         let mut power = ratio;
@@ -71,7 +72,7 @@ impl Lane {
             }
             self.expected[k] = power * sum;
             power *= ratio;
-            // The error of the last prediction is likely to repeat.
+            // The error of the last prediction is likely to occur again, so it is added.
             self.b[k] = if ratio > 0.0 {
                 self.expected[k] + (self.last[k] - self.last_expected[k])
             } else {
@@ -87,7 +88,7 @@ impl Lane {
         }
     }
 
-    /// The sum of the initial slope and the coefficients, with their weights.
+    /// Returns the weighted sum of the initial slope and the seven coefficients.
     #[inline(always)]
     fn weigh(&self, weights: &Weights) -> DVec3 {
         let [b1, b2, b3, b4, b5, b6, b7] = self.b;
@@ -95,20 +96,20 @@ impl Lane {
         ((w7 * b7 + w6 * b6) + (w5 * b5 + w4 * b4)) + ((w3 * b3 + w2 * b2) + w1 * b1) + w0 * self.slope
     }
 
-    /// The value at a node of a step of `dt`, s.
+    /// Returns the value at a node of a step of `dt`, s.
     #[inline(always)]
     pub(super) fn value_at(&self, node: usize, dt: f64) -> DVec3 {
         self.value.with(dt * self.weigh(&OF_VALUE[node]))
     }
 
-    /// The position at a node of a step of `dt`, s.
+    /// Returns the position at a node of a step of `dt`, s.
     #[inline(always)]
     pub(super) fn place_at(&self, node: usize, dt: f64) -> DVec3 {
         let bend = dt * dt * self.weigh(&OF_PLACE[node]);
         self.place.with((dt * NODES[node]) * self.value.value + bend)
     }
 
-    /// Updates the coefficients with the slope at node N. Returns the change of the last coefficient.
+    /// Updates the coefficients with the slope at node N. Returns the change of the last coefficient that the node affects.
     #[allow(clippy::needless_range_loop, reason = "the sums are those of the formulas, over two indices")]
     #[inline(always)]
     pub(super) fn refine<const N: usize>(&mut self, slope: DVec3) -> DVec3 {
@@ -125,7 +126,7 @@ impl Lane {
         change
     }
 
-    /// Advances to the end of the step.
+    /// Advances the value, and the position if `has_place` is true, to the end of a step of `dt`, s.
     pub(super) fn finish(&mut self, dt: f64, has_place: bool) {
         if has_place {
             let bend = dt * dt * self.weigh(&OF_PLACE[8]) + dt * self.value.rest;
@@ -135,7 +136,7 @@ impl Lane {
         (self.last, self.last_expected) = (self.b, self.expected);
     }
 
-    /// The slope and its derivatives at the end of the step.
+    /// Returns the slope and its first two derivatives at the end of the step.
     pub(super) fn end(&self) -> End {
         let [mut slope, mut rate, mut curvature] = [self.slope, DVec3::ZERO, DVec3::ZERO];
         let mut number = 1.0;

@@ -1,4 +1,4 @@
-//! Everhart's Gauss–Radau method of order 15, which chooses its steps by the rate at which the motion changes.
+//! Everhart's Gauss–Radau method of order 15. It chooses its steps by the time scale on which accelerations change.
 
 mod lane;
 mod nodes;
@@ -11,41 +11,44 @@ use super::bodies::Field;
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 
-/// A step that should be shorter than this fraction of its length is repeated. The next step grows at most by the inverse factor.
+/// A step is repeated if the suitable length is below this fraction of its length. The next step is at most longer by the inverse of this
+/// fraction.
 const CHANGES: f64 = 0.25;
-/// The largest number of iterations in a step.
+/// The largest number of iterations for the coefficients of a step.
 const MOST_ROUNDS: usize = 12;
-/// The iteration has converged if the last coefficient changes by less than this fraction of a slope.
+/// The iteration has converged if the last coefficient changes by less than this fraction of the largest slope.
 const KNOWN: f64 = 1e-16;
-/// Rounding errors of slopes are below this fraction. A larger change may grow from one iteration to the next, and still shrink later.
+/// Relative changes below this may be rounding errors, so the iteration stops when they no longer shrink. Larger changes may grow at first
+/// and shrink later.
 const ROUNDING: f64 = 1e-12;
-/// A relative change below this within a step is rounding.
+/// A value that changes by less than this fraction within a step does not limit the step, because the change is a rounding error.
 const NOISE: f64 = 1e-15;
-/// A step that is more than this many times as long as the last one starts without a prediction.
+/// The coefficients of a step are not predicted if the step is more than this many times as long as the last step.
 const UNKNOWN: f64 = 20.0;
 
-/// Within a step, each slope is a polynomial through its values at eight nodes. Source: E. Everhart, *An efficient integrator that uses
-/// Gauss–Radau spacings*, in *Dynamics of Comets* (1985) 185; H. Rein & D. S. Spiegel, Mon. Not. R. Astron. Soc. 446 (2015) 1424.
+/// Everhart's Gauss–Radau method. Within a step, each slope is a polynomial through its values at eight nodes. Source: E. Everhart, *An
+/// efficient integrator that uses Gauss–Radau spacings*, in *Dynamics of Comets* (1985) 185; H. Rein & D. S. Spiegel, Mon. Not. R. Astron.
+/// Soc. 446 (2015) 1424.
 ///
-/// For each body, a step may last √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) seconds, with its acceleration a, jerk j and snap s at
-/// the end of the last step. The shortest of these times is used. It does not depend on the distance of a body from the origin. Source:
-/// D. Pham, H. Rein & D. S. Spiegel, Open J. Astrophys. 7 (2024). Orientations and angular momenta limit the step in the same way.
-/// Positions, velocities and time are compensated sums, which correct rounding errors.
+/// Each body allows a step of √(2 a² / (j² + a s)) · (5040 tolerance)^(1/7) seconds, with its acceleration a, jerk j and snap s at the end
+/// of the last step. The shortest of these steps is used. It does not depend on the distance of a body from the origin. Source: D. Pham,
+/// H. Rein & D. S. Spiegel, Open J. Astrophys. 7 (2024). Orientations and angular momenta limit the step in the same way. Positions,
+/// velocities and time are compensated sums, which correct rounding errors.
 #[derive(Default)]
 pub(super) struct GaussRadau {
-    /// The ratio of the step to the time scale of the motion.
+    /// The ratio of the step to the shortest time scale of the motion.
     factor: f64,
-    /// The lanes: one for each moving body; two for the orientation and one for the angular momentum of each rotating body; one for the
-    /// work.
+    /// The integrated quantities: one lane for each moving body; two lanes for the orientation and one for the angular momentum of each
+    /// rotating body; one lane for the work.
     lanes: Vec<Lane>,
     proposal: f64,
-    /// The length of the last step, s; 0 if there was none.
+    /// The length of the last step, s; 0 before the first step.
     last: f64,
     /// The time since the orientations of uniformly rotating bodies were stored, s.
     elapsed: f64,
 }
 
-/// The lanes of a rotating body.
+/// The number of lanes for the rotation of a body.
 const OF_TURN: usize = 3;
 
 impl GaussRadau {
@@ -53,7 +56,7 @@ impl GaussRadau {
         GaussRadau { factor: libm::pow(5040.0 * tolerance, 1.0 / 7.0), ..GaussRadau::default() }
     }
 
-    /// Finds the coefficients of a step.
+    /// Finds the coefficients of all lanes for a step of `dt` (s), by iteration over the nodes.
     fn solve(&mut self, field: &mut Field<'_>, now: Time, dt: f64) {
         let ratio = if self.last > 0.0 { dt / self.last } else { 0.0 };
         let ratio = if ratio > UNKNOWN { 0.0 } else { ratio };
@@ -67,7 +70,7 @@ impl GaussRadau {
             self.visit::<5>(field, now, dt);
             self.visit::<6>(field, now, dt);
             let change = self.visit::<7>(field, now, dt);
-            // A small change that no longer shrinks is rounding.
+            // A small change that no longer shrinks is a rounding error.
             if change < KNOWN || round > 1 && change < ROUNDING && change >= before {
                 break;
             }
@@ -75,11 +78,12 @@ impl GaussRadau {
         }
     }
 
-    /// Evaluates the slopes at node N. Returns the change of the last coefficient relative to the largest slope.
+    /// Evaluates the slopes at node N and updates the coefficients. For the last node, returns the largest change of the last coefficient,
+    /// relative to the largest slope of its kind; for other nodes, 0.
     fn visit<const N: usize>(&mut self, field: &mut Field<'_>, now: Time, dt: f64) -> f64 {
         self.place(field, |lane| lane.place_at(N, dt), |lane| lane.value_at(N, dt));
         field.evaluate(now.after(nodes::NODES[N] * dt).seconds());
-        // Accelerations and rotations have different units.
+        // Accelerations, rotations, torques and powers have different units, so each kind has its own largest values.
         let mut largest = [(0.0f64, 0.0f64); 4];
         self.each_slope(field, |lane, slope, sort| {
             let change = lane.refine::<N>(slope);
@@ -93,7 +97,8 @@ impl GaussRadau {
         parts.fold(0.0, f64::max)
     }
 
-    /// Moves the bodies to the positions in their lanes.
+    /// Sets the positions, orientations and momenta of the bodies to values of their lanes. Velocities are set only if forces depend on
+    /// them.
     #[inline(always)]
     fn place(&self, field: &mut Field<'_>, at: impl Fn(&Lane) -> DVec3, value: impl Fn(&Lane) -> DVec3) {
         let (moving, others) = self.lanes.split_at(field.bodies.moving.len());
@@ -111,7 +116,7 @@ impl GaussRadau {
         }
     }
 
-    /// Calls `see` for each lane with its slope and its kind.
+    /// Calls `see` for each lane with its slope at the current stage, and with an index for the kind of the slope.
     #[inline(always)]
     fn each_slope(&mut self, field: &Field<'_>, mut see: impl FnMut(&mut Lane, DVec3, usize)) {
         let (moving, others) = self.lanes.split_at_mut(field.bodies.moving.len());
@@ -130,7 +135,8 @@ impl GaussRadau {
         rest.iter_mut().for_each(|work| see(work, DVec3::X * field.loads.power.work, 3));
     }
 
-    /// A suitable step from the motion at the end of this one, and the body that limits it. NaN if something is not finite.
+    /// Returns a suitable length of the step (s) for the motion at the end of this step, and the body that limits it. The length is NaN if
+    /// a slope is not finite.
     fn suitable(&self, field: &Field<'_>, dt: f64) -> (f64, BodyId) {
         let mut shortest = (f64::INFINITY, 0);
         let mut see = |i: usize, ends: &[End], size: f64| {
@@ -156,14 +162,14 @@ impl GaussRadau {
         (shortest.0.sqrt() * dt * self.factor, BodyId::new(shortest.1))
     }
 
-    /// Advances to the end of the step.
+    /// Advances all lanes to the end of a step of `dt`, s, and normalises the orientations.
     fn finish(&mut self, field: &mut Field<'_>, dt: f64) {
         let (moving, others) = self.lanes.split_at_mut(field.bodies.moving.len());
         moving.iter_mut().for_each(|lane| lane.finish(dt, true));
         others.iter_mut().for_each(|lane| lane.finish(dt, false));
         let turns = OF_TURN * field.bodies.turning.len();
         for [xyz, w, _] in others[..turns].as_chunks_mut::<OF_TURN>().0 {
-            // Adds the difference from unit length: division would lose the compensation of the sums.
+            // The quaternion is normalised by an added correction, because a division would lose the compensation of the sums.
             let square = xyz.value.value.length_squared() + w.value.value.length_squared();
             let missing = 0.5 * (1.0 - square);
             xyz.value.add(missing * xyz.value.value);
@@ -172,7 +178,7 @@ impl GaussRadau {
         (self.last, self.elapsed) = (dt, self.elapsed + dt);
     }
 
-    /// Finds the slopes at the start of a step.
+    /// Evaluates the slopes of all lanes at the start of a step.
     fn set_out(&mut self, field: &mut Field<'_>, now: Time) {
         self.place(field, |lane| lane.place.value, |lane| lane.value.value);
         field.evaluate(now.seconds());
@@ -210,7 +216,7 @@ impl Stepper for GaussRadau {
             if suitable >= CHANGES * dt {
                 self.finish(field, dt);
                 let next = suitable.min(dt / CHANGES);
-                // The step was shortened although a longer one was allowed.
+                // If a limit has shortened this step, the next step may be as long as the method proposed before.
                 self.proposal = if dt < self.proposal { next.max(self.proposal.min(suitable)) } else { next };
                 return Ok(dt);
             }
@@ -243,7 +249,7 @@ impl Stepper for GaussRadau {
     }
 }
 
-// Written by hand, since the memory for lanes can be reused.
+// `Clone` is written by hand, because the memory for lanes can be reused.
 impl Clone for GaussRadau {
     fn clone(&self) -> Self {
         GaussRadau { lanes: self.lanes.clone(), ..*self }

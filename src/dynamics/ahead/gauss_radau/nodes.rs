@@ -1,4 +1,4 @@
-//! The times in a step at which forces are evaluated, and the weights that follow from them.
+//! The nodes of the Gauss–Radau method (the times in a step at which forces are evaluated), and the weights that follow from them.
 
 /// The nodes of Gauss–Radau quadrature with eight points, as fractions of a step. Source: E. Everhart, in *Dynamics of Comets* (1985)
 /// 185, table 1.
@@ -13,15 +13,16 @@ pub(super) const NODES: [f64; 8] = [
     0.977_520_613_561_287_5,
 ];
 
-/// The coefficients of h, h², …, h⁷ in a slope.
+/// The number of coefficients of a slope's polynomial: those of h, h², …, h⁷.
 pub(super) const TERMS: usize = 7;
 
-/// Weights of the initial slope and the seven coefficients.
+/// The weights of the initial slope and of the seven coefficients.
 pub(super) type Weights = [f64; TERMS + 1];
 
-/// The growth of a value up to each node, and up to the end, for a step of 1: hᵏ/k.
+/// The weights of the slope's terms in the change of a value, from the start of a step of length 1 to each node h and to the end: hᵏ/k.
 pub(super) const OF_VALUE: [Weights; 9] = weights(false);
-/// The displacement by the change of velocity, for a step of 1: hᵏ⁺¹/(k (k + 1)).
+/// The weights of the acceleration's terms in the displacement, from the start of a step of length 1 to each node h and to the end:
+/// hᵏ⁺¹/(k (k + 1)).
 pub(super) const OF_PLACE: [Weights; 9] = weights(true);
 
 const fn weights(of_place: bool) -> [Weights; 9] {
@@ -41,7 +42,7 @@ const fn weights(of_place: bool) -> [Weights; 9] {
     all
 }
 
-/// 1 / (hₙ − hⱼ).
+/// The inverse distances 1 / (hₙ − hⱼ) between two nodes.
 pub(super) const PER_DISTANCE: [[f64; 8]; 8] = {
     let mut all = [[0.0; 8]; 8];
     let mut n = 1;
@@ -56,7 +57,7 @@ pub(super) const PER_DISTANCE: [[f64; 8]; 8] = {
     all
 };
 
-/// The coefficients of h (h − h₁) … (h − hₖ) as polynomials in h, from h on. Source: Everhart, equation 8.
+/// The coefficients of the products h (h − h₁) … (h − hₖ) as polynomials in h, beginning with that of h. Source: Everhart, equation 8.
 pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
     let mut all = [[0.0; TERMS]; TERMS];
     all[0][0] = 1.0;
@@ -68,7 +69,7 @@ pub(super) const POWERS: [[f64; TERMS]; TERMS] = {
     all
 };
 
-/// The coefficients of powers of h in terms of those products. Source: Everhart, equation 9.
+/// The coefficients of the powers of h as sums of the products h (h − h₁) … (h − hₖ). Source: Everhart, equation 9.
 pub(super) const PRODUCTS: [[f64; TERMS]; TERMS] = {
     let [_, nodes @ ..] = NODES;
     let mut all = [[0.0; TERMS]; TERMS];
@@ -81,7 +82,7 @@ pub(super) const PRODUCTS: [[f64; TERMS]; TERMS] = {
     all
 };
 
-/// Row k of a triangular table: the row before it, shifted by one place, plus its entries times `factors`.
+/// Returns row k of a triangular table: the previous row, shifted by one place, plus the entries of the previous row times `factors`.
 const fn next_row(before: &[f64; TERMS], k: usize, factors: [f64; TERMS]) -> [f64; TERMS] {
     let mut row = [0.0; TERMS];
     let mut j = 0;
@@ -93,7 +94,7 @@ const fn next_row(before: &[f64; TERMS], k: usize, factors: [f64; TERMS]) -> [f6
     row
 }
 
-/// The binomial coefficients j + 1 over k + 1.
+/// The binomial coefficients (j + 1 choose k + 1).
 pub(super) const BINOMIALS: [[f64; TERMS]; TERMS] = {
     let mut all = [[0.0; TERMS]; TERMS];
     let mut j = 0;
@@ -113,7 +114,8 @@ pub(super) const BINOMIALS: [[f64; TERMS]; TERMS] = {
 mod tests {
     use super::*;
 
-    /// The two tables are inverse to each other, and the others have the values computed by hand.
+    /// The tables of powers and of products must be inverse to each other. Entries of the other tables must have the values computed by
+    /// hand.
     #[test]
     #[allow(clippy::needless_range_loop, reason = "matrices have two indices")]
     fn powers_and_products_undo_each_other() {

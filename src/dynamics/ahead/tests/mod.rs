@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::*;
 
-/// Advances a world by one of the adaptive methods.
+/// Prepares the run of a world by the adaptive method with this name.
 fn run(name: &str, tolerance: f64, end: f64, mut world: World) -> Box<dyn Dynamics> {
     let method = Method::by_name(name).unwrap();
     world.set_integrator(method);
@@ -26,7 +26,7 @@ fn attract(world: &mut World) {
     });
 }
 
-/// A planet at the perihelion of an orbit of eccentricity e about a fixed star.
+/// Returns a world with a fixed star and a planet at the perihelion of an orbit with this eccentricity.
 fn kepler(eccentricity: f64) -> World {
     let mut world = World::new();
     world.add(sphere(1.0).with_fixed(true));
@@ -39,7 +39,8 @@ fn kepler(eccentricity: f64) -> World {
 
 const ADAPTIVE: [&str; 2] = ["dop853", "gauss-radau"];
 
-/// Ten orbits. The error of DOP853 grows with the tolerance. The error of Gauss–Radau is rounding, some 10⁻¹⁴ √10 in the energy.
+/// After ten orbits, the planet must be back at its start. The error of DOP853 grows with the tolerance. The error of Gauss–Radau comes
+/// from rounding, some 10⁻¹⁴ √10 in the energy.
 #[test]
 fn a_planet_comes_back_to_where_it_was() {
     let end = 10.0 * std::f64::consts::TAU;
@@ -56,7 +57,7 @@ fn a_planet_comes_back_to_where_it_was() {
     }
 }
 
-/// A run is the same, bit for bit, whatever its parts and the requested moments are.
+/// The result of a run must be the same, bit for bit, if the run is advanced in parts, and if moments are requested.
 #[test]
 fn what_is_looked_at_changes_nothing() {
     for name in ADAPTIVE {
@@ -73,7 +74,7 @@ fn what_is_looked_at_changes_nothing() {
         }
         assert_eq!(watched.snapshot().unwrap().bodies, straight.snapshot().unwrap().bodies);
         assert_eq!(watched.steps(), straight.steps());
-        // The moments are as exact as the run.
+        // The snapshots of requested moments must be as accurate as the run.
         for moment in &seen {
             assert!(moment.balance.drift.abs() < 1e-8, "{name} {}: {:e}", moment.time, moment.balance.drift);
             let mut alone = run(name, 1e-9, end, kepler(0.5));
@@ -84,11 +85,12 @@ fn what_is_looked_at_changes_nothing() {
     }
 }
 
-/// Euler's equations about the middle axis, for a body with moments 1, 2, 3 and angular velocity (0.001, 5, 0.001). Its first flip ends
-/// at 3.539 s, when the angular velocity about the middle axis changes its sign. After 10 s, it is known to twelve digits.
+/// A free body with the principal moments 1, 2, 3 and the angular velocity (0.001, 5, 0.001) flips again and again. In the middle of its
+/// first flip, at 3.539 s, the angular velocity about the middle axis changes its sign. The angular velocity after 10 s is known to twelve
+/// digits from Euler's equations.
 #[test]
 fn a_wing_nut_flips_when_it_has_to() {
-    // An energy error δ grows to δ/10⁻⁶ in the time of a flip.
+    // During a flip, an energy error δ grows to about δ/10⁻⁶.
     for (name, tolerance, allowed) in [("dop853", 1e-14, 1e-4), ("gauss-radau", 1e-9, 1e-7)] {
         let mut world = World::new();
         let body = sphere(1.0).with_inertia(DVec3::new(1.0, 2.0, 3.0));
@@ -101,7 +103,7 @@ fn a_wing_nut_flips_when_it_has_to() {
         let momentum = run.snapshot().unwrap().balance.angular_momentum;
         let mut seen = Vec::new();
         run.advance(10.0, &[3.538, 3.54], &mut |snapshot| seen.push(about(&snapshot))).unwrap();
-        // The middle of the flip, where the angular velocity about the middle axis is 0.
+        // In the middle of the flip, the angular velocity about the middle axis is 0.
         assert!(seen[0].y * seen[1].y < 0.0, "{name}: {seen:?}");
         let off = about(&run.snapshot().unwrap())
             - DVec3::new(4.510_627_124_012, -2.157_369_682_769, 2.604_211_912_26);
@@ -113,7 +115,8 @@ fn a_wing_nut_flips_when_it_has_to() {
     }
 }
 
-/// Everything without a potential does work, and so do guides. The drift remains the error of the method.
+/// The work of a damper and of a guided body is integrated along with the motion. The drift of the energy must stay as small as the error
+/// of the method.
 #[test]
 fn work_is_integrated_along() {
     struct Swing;
@@ -150,7 +153,8 @@ fn work_is_integrated_along() {
     }
 }
 
-/// A step ends at a birth and at a death. The energy that comes and goes does not count as drift.
+/// A body appears and disappears during the run. A step must end at each of these times, and the energy of the body must not count as
+/// drift.
 #[test]
 fn bodies_come_and_go_between_steps() {
     for name in ADAPTIVE {
@@ -170,7 +174,8 @@ fn bodies_come_and_go_between_steps() {
     }
 }
 
-/// Two point masses of 1 kg fall towards each other from 2 m: they meet after π/(2√2) √(d³ / (G (m₁ + m₂))) = π/√2 s.
+/// Two point masses of 1 kg fall towards each other from a distance of 2 m. They collide after π/(2√2) √(d³ / (G (m₁ + m₂))) = π/√2 s,
+/// where no step is short enough.
 #[test]
 fn where_no_step_is_short_enough_the_run_says_so() {
     for name in ADAPTIVE {
@@ -186,7 +191,8 @@ fn where_no_step_is_short_enough_the_run_says_so() {
     }
 }
 
-/// A ball without torque costs no steps: its orientation is exact after a thousand rotations.
+/// A ball without torque rotates uniformly. Its orientation must be exact after a thousand rotations, and its rotation must not limit the
+/// steps.
 #[test]
 fn what_turns_evenly_takes_no_steps() {
     for name in ADAPTIVE {
@@ -201,7 +207,8 @@ fn what_turns_evenly_takes_no_steps() {
     }
 }
 
-/// Two bodies far from the origin move like those near it: the tolerance of Gauss–Radau does not depend on the origin.
+/// Two bodies far from the origin must need as many steps as the same bodies near the origin, because the steps of Gauss–Radau do not
+/// depend on the origin.
 #[test]
 fn the_origin_does_not_matter() {
     let mut counts = Vec::new();

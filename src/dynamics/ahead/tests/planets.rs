@@ -1,8 +1,8 @@
-//! Bodies that attract each other.
+//! Tests of adaptive methods with bodies that attract each other.
 
 use super::*;
 
-/// Seven stars in the plane, many of which have close encounters. Source: IVP Test Set, problem PLEI.
+/// Seven stars in a plane, several of which have close encounters, must reach the published positions. Source: IVP Test Set, problem PLEI.
 #[test]
 fn the_pleiades_are_where_the_test_set_has_them() {
     let start = [
@@ -41,8 +41,8 @@ fn the_pleiades_are_where_the_test_set_has_them() {
     }
 }
 
-/// Three stars follow each other along a figure of eight, and return after a period. Its eight digits leave an error of 3e-8. Source: A.
-/// Chenciner & R. Montgomery, Ann. Math. 152 (2000) 881.
+/// Three stars follow each other along a figure of eight, and must return to their starts after a period. The initial values have eight
+/// digits, which leaves an error of 3e-8. Source: A. Chenciner & R. Montgomery, Ann. Math. 152 (2000) 881.
 #[test]
 fn the_figure_of_eight_closes() {
     let outer = (DVec3::new(0.97000436, -0.24308753, 0.0), DVec3::new(0.466203685, 0.43236573, 0.0));
@@ -61,7 +61,7 @@ fn the_figure_of_eight_closes() {
     }
 }
 
-/// A star and two planets of a hundredth of its mass.
+/// Prepares the run of a star with two planets that have a hundredth of its mass each.
 fn system(name: &str, step: f64, tolerance: f64) -> Box<dyn Dynamics> {
     let method = Method::by_name(name).unwrap();
     let mut world = World::new();
@@ -79,7 +79,7 @@ fn places(mut run: Box<dyn Dynamics>) -> Vec<DVec3> {
     run.snapshot().unwrap().bodies.iter().map(|body| body.location).collect()
 }
 
-/// The error after the corrector is of second order in the step: half the step gives a quarter of the error.
+/// The error of Wisdom–Holman must be of second order in the step: half the step gives about a quarter of the error.
 #[test]
 fn planets_have_an_error_of_second_order() {
     let exact = places(system("gauss-radau", 1.0, 1e-10));
@@ -96,7 +96,7 @@ fn planets_have_an_error_of_second_order() {
     assert!(errors[2] < 1e-4, "{errors:?}");
 }
 
-/// A single planet follows its exact orbit with any step.
+/// A single planet must follow its exact orbit with steps of any length.
 #[test]
 fn a_single_planet_needs_no_short_steps() {
     let mut world = World::new();
@@ -114,7 +114,7 @@ fn a_single_planet_needs_no_short_steps() {
     assert!((seen - DVec3::X * 0.5).length() < 1e-11, "{seen}");
 }
 
-/// Requested moments do not affect the run, and are as exact between two steps as at their ends. The energy is conserved at all of them.
+/// Requested moments must not affect the run. The energy must be conserved at moments between steps as well.
 #[test]
 fn planets_can_be_looked_at_at_any_time() {
     let straight = places(system("wisdom-holman", 0.07, 0.0));

@@ -1,26 +1,26 @@
-//! The exact motion of two bodies.
+//! The exact motion of two bodies that attract each other (Kepler's problem).
 
 use glam::DVec3;
 
-/// The largest number of iterations of Newton's method; after them, bisection is used.
+/// The largest number of iterations of Newton's method. If it does not converge, bisection is used.
 const MOST_ROUNDS: usize = 32;
 
-/// The position of a body on its orbit about another after some time. Universal variables treat ellipses, parabolas and hyperbolas alike.
-/// `mass` is the sum of both masses times the constant of gravitation, m³/s². Source: H. Rein & D. Tamayo, Mon. Not. R. Astron. Soc. 452
-/// (2015) 376; E. Stiefel & G. Scheifele, *Linear and Regular Celestial Mechanics* (1971), § 11.
+/// Advances the position and the velocity of a body relative to another one by `dt` (s) along its Kepler orbit. Universal variables treat
+/// ellipses, parabolas and hyperbolas alike. `mass` is the sum of both masses times the gravitational constant, m³/s². Source: H. Rein &
+/// D. Tamayo, Mon. Not. R. Astron. Soc. 452 (2015) 376; E. Stiefel & G. Scheifele, *Linear and Regular Celestial Mechanics* (1971), § 11.
 #[inline]
 pub(super) fn drift(mass: f64, dt: f64, place: &mut DVec3, velocity: &mut DVec3) {
     let (at, moves) = (*place, *velocity);
     let r0 = at.length();
     let per_r0 = 1.0 / r0;
-    // β is −2 times the energy; η₀ and ζ₀ are the first two derivatives of the distance by X, where dt = r dX.
+    // β is −2 times the energy per mass. η₀ and ζ₀ are the first two derivatives of the distance by X, where dt = r dX.
     let beta = 2.0 * mass * per_r0 - moves.length_squared();
     let eta = at.dot(moves);
     let zeta = mass - beta * r0;
     let part = dt * per_r0;
     let mut x = part * (1.0 - part * eta * 0.5 * per_r0);
     if beta > 0.0 && (x * x * beta > 1.0 || !x.is_finite()) {
-        // For a large part of a period: the value on a circle.
+        // For a large part of a period, the value on a circular orbit is a better first guess.
         x = dt * beta / mass;
     }
     let (mut g, mut r) = ([0.0; 4], r0);
@@ -32,7 +32,7 @@ pub(super) fn drift(mass: f64, dt: f64, place: &mut DVec3, velocity: &mut DVec3)
         r = r0 + bend;
         let earlier = std::mem::replace(&mut before, x);
         x = (x * bend - eta * g[2] - zeta * g[3] + dt) / r;
-        // The last digit may oscillate.
+        // The last digit may oscillate between two values.
         if x == before || x == earlier {
             is_found = true;
             break;
@@ -48,7 +48,7 @@ pub(super) fn drift(mass: f64, dt: f64, place: &mut DVec3, velocity: &mut DVec3)
     *velocity += -mass * g[1] * per_r0 * per_r * at - mass * g[2] * per_r * moves;
 }
 
-/// X by bisection of r₀ X + η₀ G₂ + ζ₀ G₃ = dt, whose left side increases with X.
+/// Finds X by bisection of r₀ X + η₀ G₂ + ζ₀ G₃ = dt, whose left side increases with X.
 #[cold]
 fn bisect(beta: f64, (r0, eta, zeta): (f64, f64, f64), dt: f64, mass: f64) -> f64 {
     let excess = |x: f64| {
@@ -56,7 +56,7 @@ fn bisect(beta: f64, (r0, eta, zeta): (f64, f64, f64), dt: f64, mass: f64) -> f6
         r0 * x + eta * g[2] + zeta * g[3] - dt
     };
     let sign = if dt < 0.0 { -1.0 } else { 1.0 };
-    // The smallest possible distance bounds X.
+    // This is the first guess of an upper bound for |X|. The loop doubles it until it is one.
     let mut far = sign * (dt.abs() / r0).max(dt.abs() * beta.abs() / mass).max(f64::MIN_POSITIVE);
     for _ in 0..200 {
         if sign * excess(far) > 0.0 {
@@ -75,7 +75,7 @@ fn bisect(beta: f64, (r0, eta, zeta): (f64, f64, f64), dt: f64, mass: f64) -> f6
     0.5 * (near + far)
 }
 
-/// 1/2!, 1/3!, … 1/13!.
+/// The inverse factorials 1/2!, 1/3!, … 1/13!.
 const INVERSE_FACTORIALS: [f64; 12] = {
     let mut all = [0.0; 12];
     let (mut factorial, mut n) = (1.0, 2);
@@ -87,7 +87,7 @@ const INVERSE_FACTORIALS: [f64; 12] = {
     all
 };
 
-/// Stiefel's functions Gₙ = Xⁿ cₙ(β X²), for n from 0 to 3, with Stumpff's functions cₙ: 1/n! − z/(n + 2)! + z²/(n + 4)! − …
+/// Returns Stiefel's functions Gₙ = Xⁿ cₙ(β X²) for n from 0 to 3, with Stumpff's functions cₙ(z) = 1/n! − z/(n + 2)! + z²/(n + 4)! − …
 #[inline]
 fn stiefel(beta: f64, x: f64) -> [f64; 4] {
     let square = x * x;
@@ -112,8 +112,8 @@ fn stiefel(beta: f64, x: f64) -> [f64; 4] {
 mod tests {
     use super::*;
 
-    /// Half a period after perihelion, a planet is at aphelion, with its velocity reversed in direction. After any number of periods, it
-    /// is back.
+    /// Half a period after perihelion, a planet must be at aphelion. After whole periods, forwards or backwards, it must be back at
+    /// perihelion.
     #[test]
     fn ellipses_come_round() {
         for e in [0.0, 0.3, 0.9, 0.99] {
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Energy and angular momentum on a hyperbola, forwards and back again.
+    /// On a hyperbola, energy and angular momentum must be conserved, and a step backwards must lead back to the start.
     #[test]
     fn hyperbolas_keep_their_energy_and_go_back() {
         let start = (DVec3::new(1.0, 0.2, 0.1), DVec3::new(-2.0, 1.0, 0.5));

@@ -1,4 +1,4 @@
-//! The method of Wisdom and Holman: planets follow their orbits about a heavy body, and kicks add the perturbations.
+//! The method of Wisdom and Holman: planets follow Kepler orbits about a heavy body, and kicks add the perturbations.
 
 mod kepler;
 mod planets;
@@ -12,27 +12,27 @@ use super::bodies::Field;
 use super::stepper::Stepper;
 use super::time::Time;
 
-/// A step is half a drift along the orbits, a kick, and half a drift; the half drifts of two steps are joined. The method is symplectic,
-/// and of second order in the mass ratio of the planets to the heavy body. Source: J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528; H.
-/// Rein & D. Tamayo, Mon. Not. R. Astron. Soc. 452 (2015) 376.
+/// The method of Wisdom and Holman. A step is half a drift along the orbits, a kick, and half a drift. The half drifts of two consecutive
+/// steps are joined. The method is symplectic. With a corrector, its error is of second order in the mass ratio of the planets to the
+/// heavy body. Source: J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528; H. Rein & D. Tamayo, Mon. Not. R. Astron. Soc. 452 (2015) 376.
 ///
-/// The steps follow exactly a motion that differs a little from the true one. The symplectic corrector converts between the two, so
-/// requested moments have an error of 17th order in the step, apart from terms with squares of the small masses. Source: J. Wisdom,
-/// Astron. J. 131 (2006) 2294.
+/// The steps follow exactly a motion that differs slightly from the true motion. The symplectic corrector converts between the two
+/// motions. So requested moments have an error of 17th order in the step, apart from terms with squares of the small masses. Source: J.
+/// Wisdom, Astron. J. 131 (2006) 2294.
 #[derive(Clone, Default)]
 pub(super) struct WisdomHolman {
     step: f64,
     planets: Planets,
-    /// Whether half a drift and the inverse corrector are still needed to reach the true positions.
+    /// Whether the last step still lacks its second half drift and the inverse corrector. Both are needed for the true positions.
     is_ahead: bool,
-    /// The freely rotating bodies, each with its orientation.
+    /// The rotating bodies without torque, each with its present orientation.
     turns: Vec<(usize, DQuat)>,
     elapsed: f64,
 }
 
-/// The times of the corrector, in steps, are multiples of √(7/40).
+/// The unit of the times in the symplectic corrector, as a fraction of a step: √(7/40).
 const TIME: f64 = 0.418_330_013_267_037_8;
-/// The strengths of its kicks. Source: Wisdom (2006), table 1.
+/// The strengths of the kicks in the symplectic corrector, as fractions of a step. Source: Wisdom (2006), table 1.
 const KICKS: [f64; 8] = [
     0.093_056_103_771_425_95,
     -0.065_192_863_576_377_9,
@@ -49,7 +49,8 @@ impl WisdomHolman {
         WisdomHolman { step, ..WisdomHolman::default() }
     }
 
-    /// Converts from the true motion to the one that steps of `dt` follow (1), or back (−1).
+    /// Applies the symplectic corrector. A `sign` of 1 converts from the true motion to the motion that steps of `dt` (s) follow; −1
+    /// converts back.
     fn correct(&mut self, sign: f64, dt: f64) {
         let kick = |number: usize| sign * KICKS[number] * dt;
         let time = |number: usize| (number + 1) as f64 * TIME * dt;
@@ -61,7 +62,7 @@ impl WisdomHolman {
         }
     }
 
-    /// A kick, and its opposite at the opposite time.
+    /// Applies two opposite kicks at opposite times, one part of the symplectic corrector.
     fn shake(&mut self, time: f64, kick: f64) {
         self.planets.drift(time);
         self.planets.kick(-kick);
@@ -70,7 +71,7 @@ impl WisdomHolman {
         self.planets.drift(time);
     }
 
-    /// Moves the planets to their true positions.
+    /// Completes the last step, and moves the planets to their true positions.
     fn arrive(&mut self) {
         if std::mem::take(&mut self.is_ahead) {
             self.planets.drift(0.5 * self.step);
@@ -101,7 +102,7 @@ impl Stepper for WisdomHolman {
     }
 
     fn step(&mut self, field: &mut Field<'_>, now: Time, longest: f64) -> Result<f64, BodyId> {
-        // Up to rounding.
+        // The tolerance allows for rounding errors: a full step is made if `longest` is a full step up to rounding.
         if longest < self.step * (1.0 - 1e-9) {
             self.step_by(field, now, longest);
             return Ok(longest);

@@ -1,33 +1,34 @@
-//! Planets about a heavy body, in Jacobi coordinates.
+//! Planets about a heavy body, in Jacobi coordinates: each position is relative to the centre of mass of all inner bodies.
 
 use glam::DVec3;
 
 use super::super::bodies::Field;
 use super::kepler;
 
-/// A body relative to the centre of mass of all those nearer to the heavy one.
+/// A body with its position and velocity relative to the centre of mass of all bodies nearer to the heavy body.
 #[derive(Clone, Copy)]
 struct Planet {
     body: usize,
     mass: f64,
-    /// Its mass plus those of all nearer bodies, kg.
+    /// The mass of this body and of all bodies nearer to the heavy body, kg.
     within: f64,
     place: DVec3,
     velocity: DVec3,
 }
 
-/// All bodies, the heavy one first. The position and velocity of the first are those of the centre of mass of all.
+/// All bodies, ordered by their distance from the heavy body, which is first. The first entry holds the position and velocity of the
+/// common centre of mass.
 #[derive(Clone, Default)]
 pub(super) struct Planets {
     constant: f64,
     planets: Vec<Planet>,
-    /// Working memory for the positions, accelerations and masses of all bodies.
+    /// Working memory for the positions of all bodies, and for their accelerations divided by the gravitational constant.
     places: Vec<DVec3>,
     pulls: Vec<DVec3>,
 }
 
 impl Planets {
-    /// Reads the bodies from a field's stage, the heaviest first, then by distance.
+    /// Reads the bodies from a field's stage: the heaviest body first, then the other bodies by their distance from it.
     pub(super) fn read(&mut self, field: &Field<'_>) {
         let (model, stage) = (field.model, &*field.stage);
         let mass = |i: usize| model.mass()[i];
@@ -43,7 +44,8 @@ impl Planets {
         let (mut within, mut at, mut motion) = (0.0, DVec3::ZERO, DVec3::ZERO);
         for body in order {
             let (mass, location, velocity) = (mass(body), stage.location[body], stage.velocity[body]);
-            // Relative to the centre of the bodies before; then that centre is updated with this one.
+            // The position and velocity are taken relative to the centre of mass of the earlier bodies. Then this body is added to that
+            // centre.
             let (place, relative) = (location - at, velocity - motion);
             within += mass;
             at += mass / within * place;
@@ -58,10 +60,10 @@ impl Planets {
         self.pulls.resize(count, DVec3::ZERO);
     }
 
-    /// Calls `see` for each body with its position and velocity in the world.
+    /// Calls `see` for each body with its index, position (m) and velocity (m/s), both in world axes.
     pub(super) fn each(&self, mut see: impl FnMut(usize, DVec3, DVec3)) {
         let Some((sun, planets)) = self.planets.split_first() else { return };
-        // From the centre of mass of all bodies inwards.
+        // The loop proceeds inwards from the centre of mass of all bodies.
         let (mut at, mut motion) = (sun.place, sun.velocity);
         for Planet { body, mass, within, place, velocity } in planets.iter().rev() {
             let part = mass / within;
@@ -72,7 +74,7 @@ impl Planets {
         see(sun.body, at, motion);
     }
 
-    /// Advances all bodies along their orbits about the inner masses, for `dt`, s.
+    /// Advances all bodies by `dt` (s) along their Kepler orbits about the inner masses.
     pub(super) fn drift(&mut self, dt: f64) {
         let Some((sun, planets)) = self.planets.split_first_mut() else { return };
         sun.place += dt * sun.velocity;
@@ -81,14 +83,15 @@ impl Planets {
         }
     }
 
-    /// Kicks the planets for `dt`, s, with the perturbations: they attract each other, and the inner masses are not at one point.
+    /// Changes the velocities of the planets by the perturbations during `dt`, s: planets attract each other, and the inner masses are not
+    /// at a single point.
     pub(super) fn kick(&mut self, dt: f64) {
         let Planets { constant, planets, places, pulls } = self;
         let count = planets.len();
         if count < 3 {
             return;
         }
-        // Positions relative to the centre of mass of all.
+        // The positions are relative to the centre of mass of all bodies.
         let mut at = DVec3::ZERO;
         for k in (1..count).rev() {
             let Planet { mass, within, place, .. } = planets[k];
@@ -97,7 +100,8 @@ impl Planets {
         }
         places[0] = at;
         pulls.fill(DVec3::ZERO);
-        // All pairs except the heavy body and the first planet, whose orbit includes their attraction.
+        // The loop visits all pairs except the heavy body with the first planet, because the orbit of that planet includes their
+        // attraction.
         for j in 2..count {
             let (here, mass) = (places[j], planets[j].mass);
             let mut own = DVec3::ZERO;
@@ -110,7 +114,7 @@ impl Planets {
             }
             pulls[j] += own;
         }
-        // Accelerations relative to the inner centres of mass.
+        // The kicks are accelerations relative to the inner centres of mass, without the part that the Kepler orbits include.
         let factor = dt * *constant;
         let mut mean = pulls[0];
         let mut within = planets[0].mass;
