@@ -9,6 +9,17 @@ use crate::digest::Sha256;
 use crate::picture;
 use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
 
+/// The kind of a material, by its name in templates.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Plain,
+    Library,
+    Checkered,
+    Texture,
+    Sdl,
+}
+
 /// A material as templates see it.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialText {
@@ -16,8 +27,7 @@ pub(super) struct MaterialText {
     pub(super) name: String,
     /// The identifier of the material in the scripts.
     pub(super) identifier: String,
-    /// The kind of the material: `plain`, `library`, `checkered`, `texture` or `sdl`.
-    kind: &'static str,
+    kind: Kind,
     /// The color in sRGB, for a plain material or a material of the library.
     pub(super) color: Option<[f64; 3]>,
     /// The name of the finish, for a plain material.
@@ -84,8 +94,8 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
     let mut text = MaterialText {
         name: material.name.clone(),
         identifier: identifiers.add("Material", &material.name),
-        kind: "plain",
-        color: None,
+        kind: Kind::Plain,
+        color: material.look.color().map(|color| color.0),
         finish: None,
         like: None,
         family: None,
@@ -99,25 +109,21 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         pale: None,
     };
     match &material.look {
-        Look::Plain { color, finish } => {
-            text.color = Some(color.0);
-            text.finish = Some(finish.name());
-        }
-        Look::Library { material, color } => {
-            text.kind = "library";
-            text.color = color.map(|color| color.0);
+        Look::Plain { finish, .. } => text.finish = Some(finish.name()),
+        Look::Library { material, .. } => {
+            text.kind = Kind::Library;
             text.like = Some(material.name);
             text.family = Some(material.family);
             text.ior = material.ior;
             text.pattern = material.pattern;
         }
-        Look::Checkered => text.kind = "checkered",
+        Look::Checkered => text.kind = Kind::Checkered,
         Look::Texture(texture) => {
-            text.kind = "texture";
+            text.kind = Kind::Texture;
             text.texture = Some(texture.to_string());
         }
         Look::Sdl(sdl) => {
-            text.kind = "sdl";
+            text.kind = Kind::Sdl;
             text.sdl = Some(sdl.to_string());
         }
     }
@@ -129,9 +135,9 @@ impl MaterialText {
     /// macro: they neither fade into the haze nor have a pattern of the size of the ground's tiles.
     pub(super) fn plane_macro(&self) -> Option<String> {
         match self.kind {
-            "checkered" => Some(self.identifier.clone()),
-            "plain" | "library" if self.on_plane => Some(format!("{}_plane", self.identifier)),
-            _ => None,
+            Kind::Checkered => Some(self.identifier.clone()),
+            Kind::Plain | Kind::Library => self.on_plane.then(|| format!("{}_plane", self.identifier)),
+            Kind::Texture | Kind::Sdl => None,
         }
     }
 
@@ -139,9 +145,11 @@ impl MaterialText {
     pub(super) fn usage(&self) -> String {
         match self.kind {
             // Raw SDL may contain more than a texture, so it is a macro, which inserts its text at each call.
-            "sdl" => format!("{}()", self.identifier),
-            _ if self.glows => format!("material {{ {} }} no_shadow", self.identifier),
-            _ => format!("material {{ {} }}", self.identifier),
+            Kind::Sdl => format!("{}()", self.identifier),
+            Kind::Plain | Kind::Library | Kind::Checkered | Kind::Texture => {
+                let no_shadow = if self.glows { " no_shadow" } else { "" };
+                format!("material {{ {} }}{no_shadow}", self.identifier)
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Colors derived from other colors.
 
-use crate::scene::{Color, Look, Scene};
+use crate::scene::{Color, Scene};
 
 /// The color of a body's ghost: the body's color, mixed with the color of a `dark` or light background.
 pub fn pale(color: Color, dark: bool) -> Color {
@@ -16,15 +16,6 @@ pub(super) fn seen(color: Color, dark: bool) -> Color {
     let bright = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
     let white = if dark { (1.0 - bright / BRIGHT_ENOUGH).max(0.0) * 0.6 } else { 0.0 };
     Color(color.0.map(|part| part + white * (1.0 - part)))
-}
-
-/// The color of a look that has a single color. `None` for patterns and textures.
-pub fn of_look(look: &Look) -> Option<Color> {
-    match look {
-        Look::Plain { color, .. } => Some(*color),
-        Look::Library { color, .. } => *color,
-        Look::Checkered | Look::Texture(_) | Look::Sdl(_) => None,
-    }
 }
 
 /// The default color of text in a scene.

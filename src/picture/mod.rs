@@ -35,7 +35,7 @@ mod trails;
 pub use arrows::{Arrow, Axes, Bearer};
 pub use bar::Bar;
 pub use camera::{Lens, Placed};
-pub use colors::{of_look, pale};
+pub use colors::pale;
 pub(crate) use framing::{decimal_step, rounded_outward};
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};

@@ -145,7 +145,7 @@ impl Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
             let Some(trail) = body.showing.trail else { continue };
-            let of_body = body.material.and_then(|material| colors::of_look(&scene.materials[material].look));
+            let of_body = body.material.and_then(|material| scene.materials[material].look.color());
             let of_body = of_body.map(|color| colors::seen(color, scene.environment.is_dark()));
             let least = trail.width.unwrap_or(narrowest) / 2.0;
             let trail = Trail {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::run::{Outcome, Simulation};
 use crate::dynamics::{self, Shape};
-use crate::picture::{PlacedLight, Plan, of_look, pale};
+use crate::picture::{PlacedLight, Plan, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
@@ -148,7 +148,7 @@ struct Trail {
 /// Describes a run, as far as it has been simulated.
 pub(super) fn describe(run: &Simulation) -> Description<'_> {
     let scene: &Scene = &run.scene;
-    let dark = scene.environment.is_dark();
+    let (dark, preset) = (scene.environment.is_dark(), scene.environment.preset);
     let (simulation, outcome) = (&scene.simulation, run.outcome().and_then(Result::ok));
     Description {
         id: run.id.to_string(),
@@ -160,7 +160,7 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
         frame_rate: simulation.frame_rate,
         methods: dynamics::Method::all().map(|m| Method { name: m.name, summary: m.summary }).collect(),
         size: [scene.output.width, scene.output.height],
-        preset: scene.environment.preset.name(),
+        preset: preset.name(),
         sky: match scene.environment.sky {
             Sky::Plain(color) => Some(color.0),
             Sky::Gradient => None,
@@ -171,9 +171,9 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
         materials: scene
             .materials
             .iter()
-            .map(|m| surface(&appearance(&m.look), Some(&m.look), dark))
+            .map(|m| surface(&appearance(&m.look, preset), Some(&m.look), dark))
             .collect(),
-        tiles: surface(&ground(scene.environment.preset), None, dark),
+        tiles: surface(&ground(preset), None, dark),
         views: scene.views.iter().map(|view| view.name.as_str()).collect(),
         bounds: run.bounds().map(|Bounds { min, max }| [min.to_array(), max.to_array()]),
         shows: shows(scene, outcome),
@@ -264,7 +264,7 @@ fn body(body: &Body) -> BodyText<'_> {
 
 fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
     let [red, green, blue, _] = look.mean();
-    let pale = of.and_then(of_look).map_or([red, green, blue], |color| pale(color, dark).linear());
+    let pale = of.and_then(Look::color).map_or([red, green, blue], |color| pale(color, dark).linear());
     Surface {
         color: look.color,
         metallic: look.metallic,

@@ -45,6 +45,16 @@ pub enum Look {
 }
 
 impl Look {
+    /// Returns the single color of the look. `None` for patterns, and for looks that only POV-Ray knows. Scripts, trails, ghosts and
+    /// the preview take their color from here.
+    pub fn color(&self) -> Option<Color> {
+        match self {
+            Look::Plain { color, .. } => Some(*color),
+            Look::Library { color, .. } => *color,
+            Look::Checkered | Look::Texture(_) | Look::Sdl(_) => None,
+        }
+    }
+
     /// Returns whether the look has no pattern, so that rotating a ball with this look changes nothing in the picture.
     pub fn is_uniform(&self) -> bool {
         match self {

@@ -77,7 +77,7 @@ impl Appearance {
         let [red, green, blue, _] = self.color;
         let first = match self.pattern {
             Motif::BeachBall => BEACH_BALL.map(Color::linear).to_vec(),
-            _ => vec![[red, green, blue]],
+            Motif::None | Motif::Checkered | Motif::Striped | Motif::Ground => vec![[red, green, blue]],
         };
         first.into_iter().chain(self.second).collect()
     }
@@ -90,19 +90,18 @@ impl Appearance {
                 let mean = |i: usize| f64::midpoint(self.color[i], second[i]);
                 [mean(0), mean(1), mean(2), self.color[3]]
             }
-            _ => self.color,
+            (Motif::None | Motif::BeachBall, _) | (_, None) => self.color,
         }
     }
 }
 
-/// Approximates a look. Looks that only POV-Ray can evaluate become gray. A checkered look becomes the ground of daylight (see
-/// [`ground`]).
+/// Approximates a look in an environment, which colors the checkered ground. Looks that only POV-Ray can evaluate become gray.
 #[must_use]
-pub fn appearance(look: &Look) -> Appearance {
+pub fn appearance(look: &Look, preset: Preset) -> Appearance {
     match look {
         Look::Plain { color, finish } => plain(*color, *finish),
         Look::Library { material, color } => library(material, color.unwrap_or(Color::WHITE)),
-        Look::Checkered => ground(Preset::Daylight),
+        Look::Checkered => ground(preset),
         Look::Texture(_) => Appearance::new(UNKNOWN.linear(), 0.0, 0.6),
         Look::Sdl(text) => {
             let look = Appearance::new(UNKNOWN.linear(), 0.0, 0.6);
@@ -188,7 +187,7 @@ mod tests {
 
     #[test]
     fn words_of_povray_that_let_light_through_are_seen() {
-        let cover = |text: &str| appearance(&Look::Sdl(text.into())).color[3];
+        let cover = |text: &str| appearance(&Look::Sdl(text.into()), Preset::Daylight).color[3];
         assert!(cover("texture { pigment { color rgbt <0.8, 0.9, 1, 0.88> } }") < 0.5);
         assert!(cover("pigment { color White transmit 0.5 }") < 0.5);
         assert_eq!(cover("pigment { color rgb <0.8, 0.9, 1> } // filters"), 1.0);
@@ -198,7 +197,7 @@ mod tests {
     #[test]
     fn every_material_of_the_library_is_known() {
         for material in MATERIALS.iter().filter(|material| Finish::named(material.name).is_none()) {
-            let found = appearance(&look(material));
+            let found = appearance(&look(material), Preset::Daylight);
             let part = |part: f64| (0.0..=1.0).contains(&part);
             assert!(found.color.into_iter().chain([found.metallic, found.roughness]).all(part), "{found:?}");
             assert_eq!(found.emissive, material.glows(), "{}", material.name);
@@ -213,7 +212,7 @@ mod tests {
     fn what_has_a_finish_has_its_color() {
         let red = Color([1.0, 0.0, 0.0]);
         for finish in Finish::ALL {
-            let found = appearance(&Look::Plain { color: red, finish });
+            let found = appearance(&Look::Plain { color: red, finish }, Preset::Daylight);
             assert!(found.color[0] > found.color[1] && found.color[3] == 1.0, "{finish:?}");
             assert_eq!(found.emissive, finish == Finish::Luminous);
         }
@@ -234,9 +233,16 @@ mod tests {
     }
 
     #[test]
+    fn a_checkered_plane_looks_like_the_ground_of_its_environment() {
+        for preset in Preset::ALL {
+            assert_eq!(appearance(&Look::Checkered, preset), ground(preset), "{}", preset.name());
+        }
+    }
+
+    #[test]
     fn the_mean_of_a_pattern_lies_between_its_colors() {
         for material in ["checkered", "striped"] {
-            let found = appearance(&look(LibraryMaterial::named(material).unwrap()));
+            let found = appearance(&look(LibraryMaterial::named(material).unwrap()), Preset::Daylight);
             let second = found.second.unwrap();
             let mean = found.mean();
             assert!((0..3).all(|i| (found.color[i] - mean[i]) * (mean[i] - second[i]) > 0.0), "{mean:?}");

@@ -65,25 +65,18 @@ fn material(paint: Paint, scene: &Scene) -> Material {
 
 /// The material of an object, and a name for it.
 pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
+    let preset = scene.environment.preset;
+    let satin =
+        |bits: [u64; 3]| Look::Plain { color: Color(bits.map(f64::from_bits)), finish: Finish::Satin };
     match what {
         What::Material(number) => {
             let material = &scene.materials[number];
-            let look = match material.look {
-                Look::Checkered => ground(scene.environment.preset),
-                ref look => appearance(look),
-            };
-            (material.name.clone(), look)
+            (material.name.clone(), appearance(&material.look, preset))
         }
-        What::Color(bits) => {
-            let color = Color(bits.map(f64::from_bits));
-            ("axes".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
-        }
-        What::Link(bits) => {
-            let color = Color(bits.map(f64::from_bits));
-            ("link".to_owned(), appearance(&Look::Plain { color, finish: Finish::Satin }))
-        }
-        What::Ground => ("ground".to_owned(), ground(scene.environment.preset)),
-        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()))),
+        What::Color(bits) => ("axes".to_owned(), appearance(&satin(bits), preset)),
+        What::Link(bits) => ("link".to_owned(), appearance(&satin(bits), preset)),
+        What::Ground => ("ground".to_owned(), ground(preset)),
+        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()), preset)),
     }
 }
 

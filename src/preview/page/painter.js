@@ -252,8 +252,7 @@ export class Painter {
       const [x, y, z, ...turn] = planePose(piece.body);
       if (Number.isNaN(x)) continue;
       const axis = (v) => turned(turn, turned(piece.turn, v));
-      const material = description.materials[description.bodies[piece.body].material] ?? description.tiles;
-      const look = material.motif === "ground" ? description.tiles : material;
+      const look = description.materials[description.bodies[piece.body].material] ?? description.tiles;
       const [tile, tilesFade, fade] = [stage?.tile ?? space.size / 12, stage?.tilesFade ?? 4.5 * space.size, stage?.fog ? stage.fade : 0];
       this.drawPlane([x, y, z], axis([1, 0, 0]), axis([0, 0, 1]), look, tile, tilesFade, fade);
     }
