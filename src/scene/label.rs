@@ -118,7 +118,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// All sides of a body.
+    /// All sides of a body on which a label can stand.
     pub const ALL: [Side; 4] = [Side::Above, Side::Below, Side::Left, Side::Right];
 
     /// Returns the name of the side in scenes.
@@ -296,7 +296,7 @@ impl JointMeasure {
         JointMeasure::ALL.into_iter().filter_map(|(name, it, _)| Some((name.rsplit_once('.')?.1, it)))
     }
 
-    /// Returns whether a joint of this kind has the quantity.
+    /// Returns whether a joint of the given kind has the quantity.
     pub fn is_of(self, joint: &JointKind) -> bool {
         match self {
             JointMeasure::Angle => matches!(joint, JointKind::Hinge(_)),

@@ -37,7 +37,7 @@ pub struct PlainLook {
     pub roughness: f64,
 }
 
-/// The default shading parameters, which each material then overrides.
+/// The default shading parameters of library materials. Most materials override some of these parameters.
 const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
 
 impl LibraryMaterial {

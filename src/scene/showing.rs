@@ -104,7 +104,8 @@ pub struct Arrow {
 /// The body axes as they are drawn on a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyAxes {
-    /// The length of each drawn axis, m. `None` for twice the radius of the body's bounding sphere.
+    /// The length of each drawn axis, m. `None` for twice the largest distance from the center to which the drawn body extends along an
+    /// axis.
     pub length: Option<f64>,
 }
 

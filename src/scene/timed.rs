@@ -43,7 +43,7 @@ struct Programs {
     curvature: Code,
     /// The formula as a tree, from which errors about non-finite values are explained.
     formula: Resolved,
-    /// The total number of operations of the three programs.
+    /// The total number of operations in the programs for the value and its two derivatives.
     operations: u64,
 }
 

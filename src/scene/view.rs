@@ -50,7 +50,7 @@ impl<'a> View<'a> {
         View { spec, table }
     }
 
-    /// Returns the value of a key as it stands in the tree. `None` if the key is missing.
+    /// Returns the tree node of a key's value. `None` if the key is missing.
     pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
         self.table?.get(name).map(|entry| &entry.node)
@@ -177,7 +177,7 @@ impl<'a> View<'a> {
         read::timed_vector(node, *bound).ok()
     }
 
-    /// Returns the value of a key as it stands in the tree, without checking it.
+    /// Returns the tree node of a key's value, without checking the value. `None` if the key is missing.
     pub(super) fn raw(&self, name: &str) -> Option<&'a Node> {
         self.node(name)
     }

@@ -160,7 +160,8 @@ impl Context<'_> {
         self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// Returns whether `name` is a copy of a body of which very many copies have errors. The check then skips the remaining copies.
+    /// Returns whether the body `name` is one of many copies and a large number of these copies have errors. The check then skips the
+    /// remaining copies.
     fn is_hopeless(&self, name: &str) -> bool {
         /// The number of copies with errors after which the remaining copies are skipped. Each copy may have different errors.
         const ENOUGH: usize = 1000;
@@ -307,7 +308,7 @@ fn build(
     let forces = force::read(&root, &bodies, &emitters, &simulation, context);
     context.forces_are_wrong |= context.has_errors(before);
     counts::check(&root, counts, &bodies, &forces, context);
-    // Skip these warnings if a force has an error: that force may be the one that uses a mass or a charge.
+    // If a force has an error, skip these checks: that force may be the one that uses a mass or a charge.
     if !context.forces_are_wrong {
         planets::check(&root, &simulation, &bodies, &forces, context);
         effect::check(&root, &bodies, &forces, context);

@@ -7,7 +7,8 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Key, Presence};
 use crate::scene::Simulation;
 
-/// The ratio of an interval between two rows to the median interval above which the body may be absent during the interval.
+/// If the interval between two rows of a body is longer than the median interval times this factor, the body may be absent between these
+/// rows.
 const GAP: f64 = 1.5;
 
 /// Reads the times at which a body is present from its keys `start` and `end`.

@@ -60,7 +60,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
             context.diagnostics.push(error);
         }
     }
-    // If an unknown key may be a misspelled kind, do not also report that the kind is missing.
+    // If an unknown key may be a misspelled kind, such as `sphre`, do not also report that the kind is missing.
     if !is_something_else || !matches!(spec.rule, Rule::ExactlyOne(_)) {
         rule(table, spec, &meant, at, path, context);
     }

@@ -25,7 +25,7 @@ struct Reader<'a, 'c> {
     simulation: &'a Simulation,
     /// Whether the force acts on the particles of an emitter.
     has_particles: bool,
-    /// The property that a body lacks if this force does not act on it, in words for warnings.
+    /// The warning text that says why the force does not act on a body, such as "it has no charge".
     lack: &'static str,
     /// Whether this kind of force has the key `softening`.
     softens: bool,

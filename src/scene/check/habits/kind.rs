@@ -1,4 +1,4 @@
-//! Guesses the kind of a body's shape, force or joint if the keys of the kind stand outside of the kind's own table.
+//! Guesses the kind of a shape, a force or a joint, such as `sphere`, if its keys stand outside of the table for this kind.
 
 use super::super::Context;
 use super::ends::is_end;
@@ -9,20 +9,20 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// The kind that the user probably meant for a table, such as `shape.sphere` for a body.
+/// The kind that the user probably meant for a table, such as the shape `sphere` for a body.
 pub(in crate::scene::check) struct MeantKind {
-    /// The path of keys from the table to the kind's own table.
+    /// The keys that lead from the table to the inner table of the kind, such as `shape` and `sphere`.
     pub(in crate::scene::check) way: Vec<&'static str>,
-    /// The grammar of the kind's own table.
+    /// The grammar of the kind's inner table, such as the keys of a `sphere`.
     pub(super) spec: &'static TableSpec,
     /// The span of the key that names the kind in a word, such as `type = "sphere"`. `None` if there is no such key.
     pub(in crate::scene::check) word: Option<Span>,
-    /// Whether the table has keys that belong to the kind.
+    /// Whether the outer table contains keys that belong into the kind's inner table.
     has_keys: bool,
 }
 
 impl MeantKind {
-    /// Returns the path from the table to the key `word` of the kind. `None` if the kind has no such key.
+    /// Returns the path of keys from the table to the key `word` in the kind's inner table. `None` if the kind has no such key.
     pub(super) fn way_to(&self, word: &str) -> Option<Vec<&'static str>> {
         let key = key_of(word, self.spec)?;
         Some(self.way.iter().copied().chain([key.name]).collect())
@@ -69,8 +69,8 @@ fn by_word(table: &Table, spec: &'static TableSpec) -> Option<MeantKind> {
     Some(MeantKind { way, spec, word: Some(word), has_keys })
 }
 
-/// Finds the kind that has most of the table's unknown keys. If several kinds have equally many, prefers the kind with the name of the
-/// table.
+/// Finds the kind, such as `sphere`, that has most of the table's unknown keys. If several kinds have equally many, prefers the kind with
+/// the name of the table.
 fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantKind> {
     let (way, kinds) = kinds_of(spec)?;
     let Rule::ExactlyOne(names) = &kinds.rule else { return None };
@@ -94,7 +94,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
     let is_full = names.iter().any(|name| is_there(name) && is_table(name));
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
     let is_named = |key: &Key| key_of(name, kinds).is_some_and(|named| named.name == key.name);
-    // A key of jabuka counts twice as much as a name from other programs.
+    // A key of the scene language counts twice as much as a name from other programs.
     let fits = |inner: &'static TableSpec| -> usize {
         let worth = |word: &&str| match inner.key(word) {
             Some(_) => 2,
@@ -107,7 +107,8 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         .filter_map(|key| Some((key, key.kind.table()?)))
         .map(|(key, inner)| ((is_there(key.name), fits(inner), is_named(key)), key, inner))
         .filter(|((_, fits, _), ..)| *fits > 0)
-        // Accept a kind only if the table contains it, has its name, or has one of its required keys.
+        // Accept a kind, such as `sphere`, only if the table contains a key of this name, has this name itself, or has one of the kind's
+        // required keys.
         .filter(|((is_there, _, is_named), _, inner)| {
             *is_there || !is_full && (*is_named || is_begun(inner, table))
         })

@@ -29,7 +29,8 @@ pub(in crate::scene::check) fn mend_missing(
     inserted(error, text, at, context)
 }
 
-/// Adds a fix to the error for a table without a kind. The fix inserts an example of the kind that has the table's name.
+/// Adds a fix to the error for a table that lacks a key for its kind, such as `sphere` in a `shape`. The fix inserts an example of the
+/// kind that has the table's name.
 pub(in crate::scene::check) fn mend_kind(
     error: Diagnostic,
     table: &Table,
@@ -54,7 +55,8 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
     }
 }
 
-/// Returns the TOML text of an example of a kind, such as `shape.sphere.radius = 0.5`. `None` if a required key has no example value.
+/// Returns the TOML text of an example of a kind of shape, force or joint, such as `shape.sphere.radius = 0.5`. `None` if a required key
+/// has no example value.
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
     let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {

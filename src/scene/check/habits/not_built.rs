@@ -4,15 +4,15 @@ use crate::scene::grammar::{SCENE, TableSpec};
 
 /// A feature that users look for under a key which jabuka does not have.
 pub(in crate::scene::check) struct NotBuilt {
-    /// The noun of the table in which users look for the feature, such as `a body`.
+    /// The noun of the table in which users look for the missing feature, such as `a body`.
     of: &'static str,
     /// The keys of the feature in other programs.
     words: &'static [&'static str],
-    /// The help text: what jabuka offers, and what to write instead.
+    /// The help text of the diagnostic: what jabuka offers instead.
     pub(super) help: &'static str,
     /// The key that the feature will have in the table or at the top level. Empty if no key is planned.
     pub(super) comes_with: &'static str,
-    /// Whether the fix may remove the line.
+    /// Whether the suggested fix removes the line with the unknown key.
     pub(super) can_go: bool,
 }
 

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Span};
 use crate::scene::grammar::{Key, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// A named table, such as a body, a force or a joint. Misplaced keys of its inner tables may belong to it.
+/// A named table, such as a body, a force or a joint, to which a misplaced key of an inner table may belong.
 pub(in crate::scene::check) struct Owner<'a> {
     pub(in crate::scene::check) table: &'a Table,
     pub(in crate::scene::check) spec: &'static TableSpec,

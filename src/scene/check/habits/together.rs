@@ -10,17 +10,17 @@ use crate::scene::grammar::{Key, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 use crate::scene::units;
 
-/// Several unknown keys that stand for a single key of jabuka.
+/// A group of unknown keys that together stand for one key of the scene language, such as `x`, `y` and `z` for `location`.
 pub(in crate::scene::check) struct Together {
-    /// The error that reports all of these keys, with its fix.
+    /// The error that reports all unknown keys of the group, with its fix.
     pub(in crate::scene::check) error: Diagnostic,
-    /// The spans of the unknown keys.
+    /// The source spans of the unknown keys in the group.
     pub(in crate::scene::check) spans: Vec<Span>,
-    /// The key of jabuka that was meant.
+    /// The key of the scene language that the user meant, such as `location` for `x`, `y` and `z`.
     pub(in crate::scene::check) key: &'static str,
 }
 
-/// Finds groups of unknown keys in a table that each stand for a single key of jabuka.
+/// Finds groups of unknown keys in a table that each stand for one key of the scene language, such as `x`, `y` and `z` for `location`.
 pub(in crate::scene::check) fn together(
     table: &Table,
     spec: &'static TableSpec,

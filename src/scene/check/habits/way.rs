@@ -1,4 +1,4 @@
-//! Finds the path from a table to the key that an unknown key was meant to be.
+//! Guesses which key of a table, or of its inner tables, an unknown key was meant to be.
 
 use super::super::{Context, suggest};
 use super::key_of;
@@ -9,7 +9,7 @@ use crate::diagnostic::Span;
 use crate::scene::grammar::{Key, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Table};
 
-/// Returns the path from a table to the key that the unknown key `entry` was meant to be. `None` if no key is similar.
+/// Returns the path of keys from a table to the key that the unknown key `entry` was probably meant to be. `None` if no key is similar.
 pub(super) fn way(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -55,7 +55,8 @@ pub(super) fn way(
         .or_else(|| suggest::deeper_also(word, spec).filter(fits))
 }
 
-/// Returns whether a path leads to another kind than the kind that the table has or was meant to have. A table can have only one kind.
+/// Returns whether a path leads to a kind, such as `shape.box`, although the table already has or means another kind, such as
+/// `shape.sphere`.
 fn is_excluded(
     way: &[&'static str],
     meant: Option<&MeantKind>,

@@ -14,7 +14,7 @@ use crate::scene::joint::Course;
 struct Words {
     /// The factor that converts the coordinate from the scene's unit (degrees or meters) to SI units.
     unit: f64,
-    /// The symbol of the scene's unit in diagnostics.
+    /// The symbol of the joint coordinate's unit in diagnostics.
     symbol: &'static str,
     /// The key for the motor's maximum torque or force.
     strength: &'static str,

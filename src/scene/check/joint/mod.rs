@@ -259,8 +259,8 @@ impl Reader<'_, '_> {
         self.context.diagnostics.push(error);
     }
 
-    /// Returns the point of a body that coincides with the given world point at the start. If the end is a point of the world, returns the
-    /// given point.
+    /// Returns the given world point as an end of the joint: as the point of the end's body that coincides with the world point at the
+    /// start, or as the world point itself if the end has no body.
     fn on(&self, end: Anchor, point: DVec3) -> Anchor {
         match end {
             Anchor::Body { id, .. } => {

@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Guesses the separator between fields from the first line.
+/// Guesses the separator between the fields of a CSV file from its first line.
 fn delimiter(text: &str) -> u8 {
     let header =
         text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
