@@ -1,4 +1,4 @@
-//! The `jabuka` command.
+//! The program `jabuka`: runs the command that its arguments name.
 
 mod cli;
 

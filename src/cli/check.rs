@@ -14,10 +14,10 @@ use super::run_arguments::simulated;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, say};
 
-/// Check scenes without writing anything
+/// Check scenes for errors, without writing any file
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The scene files
+    /// The scene files to check
     #[arg(required = true)]
     scene: Vec<PathBuf>,
     /// The format of the errors and warnings

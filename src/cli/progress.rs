@@ -35,7 +35,7 @@ struct Shared {
 /// The progress of the task in steps.
 #[derive(Default)]
 struct Steps {
-    /// The number of finished steps.
+    /// The number of steps that the task has finished.
     done: usize,
     /// The position of the bar at the end of the last finished step.
     position: u64,

@@ -4,7 +4,7 @@ use jabuka::scene::grammar;
 
 use super::{Failure, say};
 
-/// Print a JSON Schema of scenes, with which editors check and complete them
+/// Print a JSON Schema of scenes, with which editors check and complete scene files
 #[derive(clap::Args)]
 pub(super) struct Arguments {}
 

@@ -19,7 +19,7 @@ use super::run_arguments;
 use super::scene_arguments::SceneArguments;
 use super::{Failure, interrupt, say};
 
-/// Render one moment of a scene
+/// Render the image of one moment of a scene
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The scene file

@@ -18,9 +18,9 @@ pub use visible::{is_invisible, visible, visible_lines, visible_path};
 /// The severity of a [`Diagnostic`]: error or warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// The scene cannot be compiled.
+    /// An error: the scene cannot be compiled, or the command fails.
     Error,
-    /// The scene compiles, but something in it is probably unintended.
+    /// A warning: the scene compiles, but something in it is probably unintended.
     Warning,
 }
 

@@ -1,11 +1,11 @@
-//! The size and orientation of a body, which the patterns of `repeat` need before bodies are read.
+//! The size and orientation of a body. The patterns of `repeat` need them before the bodies of the scene are checked.
 
 use glam::DQuat;
 
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
 
-/// The size and orientation of a body.
+/// The size and orientation of a body, as far as the patterns of `repeat` need them.
 pub(in crate::scene) struct Geometry {
     /// The radius, m, of a sphere around the body's center that contains the body. `None` for an unbounded body such as a plane.
     pub(in crate::scene) radius: Option<f64>,

@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 use crate::scene::source::{self, Entry, Node, Table, Value};
 
-/// The maximum depth of nested includes.
+/// The maximum number of files that include each other in a chain.
 const MAX_DEPTH: usize = 50;
 
 /// Fills in values from all included files. `path` is the path of the scene's file, or `None` for a scene that is not in a file. Returns
@@ -207,7 +207,7 @@ impl Includer<'_> {
     fn conflicts_inside(&mut self, first: &Table, second: &Table, own: &Table, kind: Option<&'static Kind>) {
         match kind {
             Some(Kind::Named(spec)) => {
-                // A scene may have ten thousand names. A map is faster than a search for each name.
+                // A scene may have ten thousand names, so looking them up in a map is faster than searching the table for each.
                 let (second, own) = (by_name(second), by_name(own));
                 for entry in &first.entries {
                     let name = &*entry.name.text;

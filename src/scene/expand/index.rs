@@ -84,7 +84,7 @@ impl Expander<'_> {
                 node.value = Value::Invalid;
                 return;
             }
-            // Adding 0 turns -0 into 0, which is written without a sign.
+            // Adding 0 turns -0 into 0, because "-0" is not a valid index.
             numbers.push((value + 0.0).to_string());
         }
         node.value = Value::String(format!("{original}[{}]", numbers.join(",")).into());

@@ -1,4 +1,4 @@
-//! Fills in the missing keys of a table from another table.
+//! Fills in the missing keys of a table from another table, such as `[defaults.body]` or an included file.
 
 use std::sync::Arc;
 

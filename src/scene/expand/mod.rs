@@ -148,7 +148,7 @@ impl Expander<'_> {
                 continue;
             };
             let entry = &mut table.entries[number];
-            // A vector in the list of a key has the unit of that key.
+            // A nested list, such as a vector in a list of points, has the unit of its key.
             let unit = std::mem::replace(&mut self.unit, key.unit);
             self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
             self.unit = unit;

@@ -19,7 +19,7 @@ struct Variable {
     state: State,
 }
 
-/// The progress of evaluating a variable.
+/// The state of a variable in the depth-first evaluation.
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     Untouched,

@@ -24,7 +24,7 @@ impl Formula {
                 Part::Name(range) => value(&self.text()[range.clone()])?,
                 _ => return None,
             };
-            // Multiples of 5 from 15 to 720 are usual angles in degrees, and unlikely angles in radians.
+            // Multiples of 5 from 15 to 720 are common angles in degrees, and unlikely angles in radians.
             let is_usual = angle.abs() >= 15.0 && angle % 5.0 == 0.0 && angle.abs() <= 720.0;
             (matches!(function.name, "sin" | "cos" | "tan") && is_usual).then(|| argument.range.clone())
         })

@@ -225,14 +225,14 @@ impl Deriver {
         let whole = self.two(Binary::Subtract, b, a);
         let slope_of_whole = self.difference(db, da);
         match operation {
-            // The derivative of a + (b − a) c.
+            // The linear interpolation is a + (b − a) c. Its derivative is a' + (b' − a') c + (b − a) c'.
             Ternary::Lerp => {
                 let part = slope_of_whole.map(|slope| self.product(slope, c));
                 let turn = dc.map(|dc| self.product(whole, dc));
                 let sum = self.sum(part, turn);
                 self.sum(da, sum)
             }
-            // The derivative is 6 p (1 − p) p' with p = (c − a) / (b − a), and 0 where p is outside 0 … 1.
+            // The derivative is 6 p (1 − p) p' with p = (c − a) / (b − a), and 0 where p is outside of 0 … 1.
             Ternary::Smoothstep => {
                 let above = self.two(Binary::Subtract, c, a);
                 let part = self.quotient(above, whole);

@@ -1,9 +1,9 @@
-//! Errors in formulas.
+//! The errors that parsing and evaluating a formula can report.
 
 use crate::diagnostic::Code;
 use std::ops::Range;
 
-/// One mistake in a formula.
+/// An error in a formula, with its position and advice.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
     /// The code of the error, such as `formula-syntax`.

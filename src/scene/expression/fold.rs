@@ -31,7 +31,7 @@ impl Builder {
     pub(super) fn binary(&mut self, operation: Binary, a: Id, b: Id, range: Range<usize>) -> Id {
         let folded = self.known(a).zip(self.known(b)).map(|(a, b)| operation.apply(a, b));
         let value = match (operation, self.known(b)) {
-            // x·x has the same bits as x² and needs no function call.
+            // For an input x, the product x·x has the same bits as x^2, and compiles to a single instruction.
             (Binary::Power, Some(2.0)) if matches!(self.nodes[a].value, Value::Slot(_)) => {
                 Value::Binary(Binary::Multiply, a, a)
             }

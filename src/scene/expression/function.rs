@@ -1,4 +1,4 @@
-//! The functions and constants of formulas.
+//! The functions and constants that formulas can use.
 
 use std::f64::consts;
 
@@ -14,13 +14,13 @@ pub static CONSTANTS: &[(&str, f64, &str)] = &[
 /// A function that formulas can call.
 #[derive(Debug)]
 pub struct Function {
-    /// The name of the function.
+    /// The name by which formulas call the function.
     pub name: &'static str,
-    /// The names of the parameters, in order.
+    /// The names of the function's parameters, in order.
     pub parameters: &'static [&'static str],
     /// True if the function takes further arguments of the same kind as its last parameter, as `max(x, y, …)` does.
     pub is_open: bool,
-    /// The meaning of the function, in a phrase.
+    /// The meaning of the function, in a phrase for the documentation.
     pub meaning: &'static str,
     /// The operation that computes the function.
     pub(super) work: Work,

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::error::{ExpressionError, syntax};
 use super::habits;
 
-/// A token of a formula.
+/// A token of a formula: a number, a name, an operator or a separator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token {
     Number(f64),
@@ -30,7 +30,7 @@ pub(super) enum Token {
     Open,
     Close,
     Comma,
-    /// The end of the formula.
+    /// The end of the formula's text.
     End,
 }
 

@@ -70,7 +70,7 @@ impl Formula {
         }
     }
 
-    /// The text of the formula.
+    /// Returns the text from which the formula was parsed.
     pub fn text(&self) -> &str {
         &self.text
     }

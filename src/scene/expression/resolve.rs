@@ -17,9 +17,9 @@ use crate::scene::units;
 /// after the inputs for the variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Draw {
-    /// A number from 0 to 1, with uniform distribution.
+    /// A uniformly distributed number from 0 to 1.
     Uniform,
-    /// A number with normal distribution, mean 0 and standard deviation 1.
+    /// A normally distributed number with mean 0 and standard deviation 1.
     Normal,
 }
 

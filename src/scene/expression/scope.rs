@@ -9,7 +9,7 @@ use crate::diagnostic::nearest;
 /// What a name in a formula stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Binding {
-    /// A number that is known when the formula is resolved.
+    /// A constant, whose value is known when the formula is resolved.
     Constant(f64),
     /// The index of an input, whose value is passed at each evaluation.
     Slot(usize),

@@ -9,7 +9,7 @@ use crate::scene::source::Value;
 pub enum Kind {
     /// A string without a meaning to the program, such as a title.
     Text,
-    /// `true` or `false`.
+    /// A Boolean value, `true` or `false`.
     Boolean,
     /// A number within a bound.
     Number(Bound),
@@ -29,7 +29,7 @@ pub enum Kind {
     Numbers(usize, Bound),
     /// A list of a fixed length. Each item is a number, or a formula of a parameter `u`.
     Formulas(usize),
-    /// A direction: three or four numbers, not all zero. Their common length is ignored.
+    /// A vector of three numbers, or a quaternion of four, not all zero. Its length is ignored.
     Direction(usize),
     /// A color: `[red, green, blue]` in sRGB from 0 to 1, `"#rrggbb"`, `"#rgb"`, or a CSS name of a color.
     Color,
@@ -45,7 +45,7 @@ pub enum Kind {
     Asset,
     /// The path, relative to the scene's folder, of a file that jabuka reads.
     File,
-    /// One of a list of words.
+    /// One of several words. The function returns all of them.
     Choice(fn() -> Vec<&'static str>),
     /// The name of a body, material or joint of the scene.
     Reference(Collection),
@@ -58,7 +58,7 @@ pub enum Kind {
         /// The maximum length of the list.
         max: usize,
     },
-    /// A table with the given keys.
+    /// A table with the keys that the given grammar describes.
     Table(&'static TableSpec),
     /// A table of named tables, all with the same keys, such as `[body.ball]`.
     Named(&'static TableSpec),

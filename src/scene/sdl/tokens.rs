@@ -50,7 +50,7 @@ impl<'a> Tokens<'a> {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// Skips white space, control characters and comments.
+    /// Skips white space, control characters and comments before the next token.
     fn skip_blanks(&mut self) {
         loop {
             let rest = self.rest();

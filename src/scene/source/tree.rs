@@ -33,7 +33,7 @@ pub enum Value {
     Drawn(Arc<DrawnFormula>),
     /// A parsed formula of quantities of a body, such as its velocity. It replaces a string.
     OfBody(Arc<BodyFormula>),
-    /// `true` or `false`.
+    /// A Boolean value, `true` or `false`.
     Boolean(bool),
     /// A date or a time. No key of a scene accepts this type.
     Datetime,
@@ -57,9 +57,9 @@ pub struct Table {
 /// An entry of a table: a key with its value.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// The key of the entry.
+    /// The key of the entry, with its position in the text.
     pub name: Name,
-    /// The value of the entry.
+    /// The value of the entry, with its position in the text.
     pub node: Node,
 }
 
@@ -68,7 +68,7 @@ pub struct Entry {
 pub struct Name {
     /// The byte range of the key in the text.
     pub span: Span,
-    /// The key, without quotes.
+    /// The text of the key, without quotes.
     pub text: Arc<str>,
 }
 

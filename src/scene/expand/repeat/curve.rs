@@ -15,11 +15,11 @@ pub(super) struct Curve {
     places: Vec<Place>,
 }
 
-/// The shape of a curve.
+/// The shape of the curve along which copies are placed.
 enum Path {
     /// The coordinates x, y and z as formulas of the parameter `u`, which runs from 0 to 1.
     Formulas(Box<[Program; 3]>),
-    /// A smooth curve through points: a Catmull–Rom spline.
+    /// The points of a Catmull–Rom spline, a smooth curve through all of them.
     Points { points: Vec<DVec3>, closed: bool },
 }
 

@@ -50,7 +50,7 @@ pub(super) struct Place {
 }
 
 impl Expander<'_> {
-    /// Replaces every body with a `repeat` by its copies.
+    /// Replaces every body that has a `repeat` by its copies.
     pub(super) fn repeat(&mut self, bodies: &mut Table, spec: &'static TableSpec) {
         if !bodies.entries.iter().any(has_repeat) {
             return;

@@ -170,7 +170,7 @@ fn what_is_scattered_may_be_turned_any_way() {
     let text = "[body.a]\nshape.box.size = [1, 1, 1]\nrepeat.scatter = { count = 100, turned = true, within.sphere.radius = 9 }";
     let mean: DVec3 =
         scene(text).bodies.iter().map(|body| body.start.orientation * DVec3::Y).sum::<DVec3>() / 100.0;
-    // Each component has a standard deviation of √(1/3) / 10.
+    // Each component of the mean has a standard deviation of √(1/3) / √100 = 0.058.
     assert!(mean.abs().max_element() < 4.0 * 0.058, "{mean}");
 }
 
