@@ -228,7 +228,7 @@ impl Reader<'_, '_, '_> {
         (scope, inputs)
     }
 
-    /// Returns the value of a result, or reports its errors. The formula begins at the byte `start` of the label's text.
+    /// Returns the value in `found`, or reports the errors in it. The formula begins at the byte `start` of the label's text.
     fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
         let errors = match found {
             Ok(value) => return Some(value),

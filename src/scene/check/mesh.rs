@@ -106,7 +106,7 @@ impl Meshes {
     }
 }
 
-/// Reads the shape `mesh`. `None` if a value is missing or wrong.
+/// Reads a shape that is a mesh from a file. `None` if a value is missing or wrong.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let scale = view.number("scale")?;
     let smooth = smooth(view);
@@ -116,7 +116,7 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> 
     Some(Shape::Mesh { mesh: mesh?, scale })
 }
 
-/// Reads the shape `heightfield`. `None` if a value is missing or wrong.
+/// Reads a shape that is a heightfield from a file. `None` if a value is missing or wrong.
 pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let size = view.vector("size")?;
     let smooth = smooth(view);

@@ -51,11 +51,11 @@ fn load(folder: &Path, span: Option<Span>, context: &mut Context<'_>) -> Vec<Own
     }
 }
 
-/// Reads the templates in a folder and its direct subfolders: files with the name of a built-in template, and include files for them.
+/// Reads the files with the extensions `.pov`, `.inc` and `.ini` in a folder and its direct subfolders.
 ///
 /// # Errors
 ///
-/// Returns a message if a file cannot be read, or if the folder has no templates.
+/// Returns a message if a file cannot be read, or if the folder has no such files.
 fn files(folder: &Path) -> Result<Vec<OwnTemplate>, String> {
     let mut templates = Vec::new();
     collect(folder, "", &mut templates)?;

@@ -9,8 +9,8 @@ use crate::dynamics::BodyId;
 use crate::scene::Emitter;
 
 impl Reader<'_, '_> {
-    /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters without `on`. Springs and
-    /// dipole forces act on no particles. Electric forces act on charged particles only.
+    /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters without `on`. Springs, dipole
+    /// forces and forces with `between` act on no particles. Electric forces act on charged particles only.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
         const KINDS: [&str; 10] = [
             "constant",

@@ -118,7 +118,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
     Some(MeantKind { way: way.into_iter().chain([key.name]).collect(), spec, word: None, has_keys })
 }
 
-/// Returns whether a table has at least one of the kind's required keys. Also true if the kind requires no key.
+/// Returns whether a table has at least one of the required keys of a kind. Also true if the kind has no required keys.
 pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     let mut required = spec.keys.iter().filter(|key| key.required).peekable();
     let is_it =

@@ -192,7 +192,7 @@ fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
     let mut entries = vec![coefficient, area];
     entries.extend(density);
     entries.sort_by_key(|entry| entry.name.span);
-    // The default is the density of air at 20 °C and sea level, kg/m³.
+    // If the user gives no density, use the density of air at 20 °C and sea level, 1.2 kg/m³.
     let of_air = match density {
         Some(entry) => operand(entry, "kg/m³", context)?,
         None => "1.2".to_owned(),
