@@ -74,8 +74,8 @@ fn measures() -> Vec<(&'static str, String)> {
     run.chain(body).chain(joint).collect()
 }
 
-/// Returns the alternatives of a table that must have exactly one of several keys, such as the shapes. Each comes with its meaning and its
-/// own keys. `way` are the keys that lead to the table.
+/// Returns the alternatives of a table that must have exactly one of several keys, such as the shapes of a body. Each alternative has a
+/// name and a line with its meaning and its own keys. `way` is the path of keys that leads to the table.
 fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
     let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
     let variants = keys.iter().filter(|key| names.contains(&key.name));

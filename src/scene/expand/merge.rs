@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::scene::grammar::{Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
-/// Fills in the missing keys of `own` from `base`, a table of the same kind. If `own` has a key that excludes a key of `base`, the latter
-/// is dropped: `shape.box` in `own` drops `shape.sphere` of `base`.
+/// Fills in the missing keys of `own` from `base`, a table of the same kind. A key of `base` is dropped if a key of `own` excludes it:
+/// `shape.box` in `own` drops `shape.sphere` of `base`.
 ///
 /// Entries of `base` come first, in their order.
 pub(super) fn merge(own: &mut Table, base: &Table, spec: &'static TableSpec) {

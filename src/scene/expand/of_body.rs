@@ -1,4 +1,4 @@
-//! Reads formulas that depend on a body's current quantities, such as its velocity. They give, for example, a force.
+//! Reads formulas that depend on a body's current quantities, such as its velocity. A force, for example, can be given by these formulas.
 
 use std::sync::Arc;
 
