@@ -77,17 +77,17 @@ impl Look {
 /// The finish of a surface: how it reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
-    /// Like chalk: no highlight.
+    /// A surface like chalk, without a highlight.
     Matte,
-    /// Like eggshell: a soft highlight.
+    /// A surface like eggshell, with a soft highlight.
     Satin,
-    /// Like enamel: a sharp highlight. This is the default.
+    /// A surface like enamel, with a sharp highlight. This is the default.
     Glossy,
-    /// Like polished metal of the material's color.
+    /// A surface of polished metal in the material's color.
     Metal,
     /// A perfect mirror.
     Mirror,
-    /// Emits light evenly.
+    /// A surface that emits light evenly.
     Luminous,
 }
 

@@ -19,7 +19,7 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// All presets.
+    /// All presets that a scene can choose from.
     pub const ALL: [Preset; 6] =
         [Preset::Daylight, Preset::Studio, Preset::Night, Preset::Blackboard, Preset::Paper, Preset::Space];
 

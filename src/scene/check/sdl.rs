@@ -99,7 +99,7 @@ pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// Reads an asset as SDL and reports mistakes. Does nothing if the asset has been checked before.
+/// Reads an asset as SDL and reports mistakes. Does nothing if the scene is trusted, or if the asset has been checked before.
 fn included(name: &str, span: Span, context: &mut Context<'_>) {
     let Some(path) = context.assets.path(name).map(Path::to_owned) else { return };
     if context.trust || !context.assets.read.insert(asset::below(name).unwrap_or_default()) {

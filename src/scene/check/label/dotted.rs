@@ -107,7 +107,8 @@ impl Reader<'_, '_, '_> {
         Some((plain, dotted))
     }
 
-    /// Adds a replaced name with its measure. Reports an error if the replacement makes two different names equal.
+    /// Adds to `dotted` a name whose dots have been replaced, with its measure. Reports an error if the replacement makes two different
+    /// names equal.
     fn note(
         &mut self,
         dotted: &mut Vec<(String, Measure)>,
