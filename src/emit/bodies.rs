@@ -1,9 +1,9 @@
-//! Writes the bodies of a frame as one block of SDL.
+//! Writes the bodies of a frame as one block of SDL, POV-Ray's scene description language.
 //!
-//! The texts of a body that stay constant are written once, when the block is planned. A frame only inserts the places
-//! of bodies between these texts. Bodies of one plain material form a union that has the material, which POV-Ray parses
-//! fastest and with the least memory. The line of a body does not depend on the number of bodies in its union. So a new
-//! body at the end of a scene leaves the lines of all other bodies unchanged.
+//! The constant part of a body's text is written once, when the block is planned. For each frame, only the poses of the bodies are
+//! inserted. Bodies of one plain material form a union that has the material, which POV-Ray parses fastest and with the least memory. The
+//! line of a body does not depend on the number of bodies in its union. So a new body at the end of a scene leaves the lines of all other
+//! bodies unchanged.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -18,45 +18,46 @@ use crate::dynamics::{BodySnapshot, Shape};
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
 
-/// The block of all bodies, without their places.
+/// The planned text of all bodies, without their poses.
 pub(super) struct Block {
     style: Style,
     groups: Vec<Group>,
     forms: Vec<Form>,
 }
 
-/// Bodies that are written together: all bodies of one plain material, or a single body with its own look.
+/// Bodies that are written as one object: all bodies of one plain material, or a single body with its own look.
 struct Group {
     bodies: Vec<Item>,
-    /// The SDL text of the common material. `None` for a single body.
+    /// The SDL text of the bodies' common material. `None` for a single body.
     shared: Option<String>,
 }
 
-/// One body: the index of its form, which many bodies share, and the name of the body.
+/// One body in the block: its index in the scene, the index of its text template, and its name.
 struct Item {
     id: usize,
-    /// The index of the body's form.
+    /// The index of the body's text template in [`Block`]'s `forms`.
     form: usize,
     name: Arc<str>,
 }
 
-/// The text that bodies share if they differ only in place and name: one part before the place, and one after it.
+/// A text template for bodies that differ only in pose and name: the text before the pose, how the pose is written, and the text after the
+/// pose.
 #[derive(PartialEq)]
 struct Form {
     before: String,
     place: Place,
-    /// The text between the place and the name.
+    /// The text between the pose and the name of the body.
     after: String,
 }
 
-/// How the place of a body is written.
+/// How the pose of a body is written in SDL.
 #[derive(PartialEq)]
 enum Place {
-    /// The centre of the body.
+    /// The center of the body, as a vector.
     Centre,
-    /// A matrix. The quaternion first turns the shape.
+    /// A matrix. The quaternion rotates the shape before the body's own orientation is applied.
     Matrix(DQuat),
-    /// For a plane: the normal and the distance from the origin. The vector is the normal in the body's axes.
+    /// The normal of a plane, and its distance from the origin. The vector is the normal in body axes.
     Plane(DVec3),
 }
 
@@ -88,14 +89,14 @@ impl Block {
         Block { style, groups, forms }
     }
 
-    /// Appends the bodies that are present in a frame. The error is the first body whose place cannot be written in
-    /// this unit.
+    /// Appends the bodies that are present in a frame. The error is the index of the first body whose location is not finite in POV-Ray
+    /// units.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
         for Group { bodies, shared } in &self.groups {
             let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
             if shared.is_some() {
-                // POV-Ray warns about a union of one object. The text omits the number of bodies, which would change
-                // with each new body.
+                // POV-Ray warns about a union of one object. Only the word before the brace tells one body from several, so that a further
+                // body leaves all other lines unchanged.
                 match there.clone().take(2).count() {
                     0 => continue,
                     1 => out.push_str("object {\n"),
@@ -112,16 +113,16 @@ impl Block {
         Ok(())
     }
 
-    /// Plans the block of a single body.
+    /// Plans a block of a single body.
     pub(super) fn of(body: &Body, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut forms = Vec::new();
         Block { style, groups: vec![single(body, materials, 0, meshes, style, &mut forms)], forms }
     }
 
-    /// Appends the only body of a block, at another place.
+    /// Appends the only body of a block at another pose, as for a ghost.
     pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
-            // If the place cannot be written, leave the body out: an earlier pose is no reason to refuse the picture.
+            // A pose that cannot be written is left out, since an earlier pose is no reason to refuse the picture.
             let _ = self.item(out, item, body);
         }
     }
@@ -153,12 +154,12 @@ impl Block {
     }
 }
 
-/// Whether a body can be in one union with all other bodies of its material.
+/// Returns true if a body can be in one union with all other bodies of its material.
 fn stands_with_others(body: &Body, material: &MaterialText) -> bool {
     material.is_uniform && !body.shape.is_unbounded() && !body.look.has_sdl()
 }
 
-/// Plans the bodies of one plain material, each on its own line.
+/// Plans the bodies of one plain material as a union, with one line per body.
 fn of_one_material(
     scene: &Scene,
     material: &MaterialText,
@@ -176,7 +177,7 @@ fn of_one_material(
     Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()) }
 }
 
-/// Plans one body with its material.
+/// Plans one body with its own material.
 fn single(
     body: &Body,
     materials: &[MaterialText],
@@ -196,11 +197,11 @@ fn single(
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
         return group(Form { before, place, after: " }) // ".to_owned() });
     }
-    // An object from the scene's POV-Ray code may look different when it is turned.
+    // An object from the scene's POV-Ray code may look different after a rotation, so its orientation must be written.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
     let (mut before, place, mut after) = shape(body, uniform, meshes, style);
     let usage = material.map_or(String::new(), |material| format!(" {}", material.usage_in(body, style)));
-    // Put the scene's code on separate lines, since it may end with a comment.
+    // The scene's POV-Ray code is on separate lines, since it may end with a `//` comment.
     let own = |sdl: &Option<Arc<str>>| sdl.as_ref().map_or(String::new(), |sdl| format!("\n{sdl}\n"));
     let usage = usage + &own(&body.look.sdl_before);
     after.push_str(&own(&body.look.sdl_after));
@@ -216,15 +217,15 @@ fn single(
     group(Form { before, place, after })
 }
 
-/// The name of a body as text for a comment.
+/// Returns the name of a body, escaped for use in a `//` comment.
 fn in_comment(body: &Body) -> Arc<str> {
     let name = text::comment(&body.name);
     if *name == *body.name { body.name.clone() } else { name.into() }
 }
 
-/// The index of a form in `forms`. Adds the form if it is new.
+/// Returns the index of a text template in `forms`. Adds the template if it is not among the latest ones.
 fn number(form: Form, forms: &mut Vec<Form>) -> usize {
-    /// The number of latest forms that the search compares.
+    /// The number of latest templates that the search compares.
     const LATEST: usize = 16;
     if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {
         return known.0;
@@ -233,7 +234,8 @@ fn number(form: Form, forms: &mut Vec<Form>) -> usize {
     forms.len() - 1
 }
 
-/// The text before the place of a body, the kind of its place, and the text after the place.
+/// Returns the text before the pose of a body, how the pose is written, and the text after the pose. `uniform` is true if the body looks
+/// the same after each rotation.
 fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, Place, String) {
     if let Some(object) = &body.look.object {
         let place = Place::Matrix(DQuat::IDENTITY);

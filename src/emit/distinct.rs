@@ -1,7 +1,7 @@
-//! Checks for differences that are too small for POV-Ray. POV-Ray would refuse the script, or draw nothing.
+//! Checks that sizes and distances in a scene are not too small for POV-Ray. Otherwise, POV-Ray would refuse the script or draw nothing.
 //!
-//! POV-Ray's parser treats numbers below 10⁻¹⁰ POV-Ray units as zero. Its tracer treats two points as one if they are
-//! closer than a step of single precision. Both are errors here, before a script is written.
+//! POV-Ray's parser treats numbers below 10⁻¹⁰ POV-Ray units as zero. Its ray tracer treats two points as one if they are closer than the
+//! resolution of single precision. This module reports both as errors before a script is written.
 
 use super::EmitError;
 use super::unit::{Reach, reach};
@@ -9,27 +9,27 @@ use crate::diagnostic::{Code, Diagnostic, Report, Span};
 use crate::picture::{Placed, Plan, number};
 use crate::scene::{Camera, Scene};
 
-/// The relative step of single precision.
+/// The relative resolution of single-precision numbers, 2⁻²⁴.
 const STEP: f64 = 1.0 / 16_777_216.0;
 
-/// Lengths below this limit count as zero, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
+/// The smallest length that is not treated as zero, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NOTHING: f64 = 1e-8;
 
-/// The smallest distance between a camera and the point that it looks at, POV-Ray units. POV-Ray compares the square of
-/// the distance with 10⁻¹⁰.
+/// The smallest distance between a camera and the point that it looks at, POV-Ray units. POV-Ray compares the square of this distance with
+/// 10⁻¹⁰.
 const NEAREST: f64 = 2e-5;
 
-/// The smallest and the largest allowed reach of a scene, POV-Ray units.
+/// The smallest and the largest allowed coordinate range of a scene, POV-Ray units.
 const UNITS: [f64; 2] = [1e-3, 1e9];
 
-/// Checks that POV-Ray can tell apart the things that a camera of the scene sees. `unit` is in metres.
+/// Checks that POV-Ray can distinguish the points that a camera of the scene sees. `unit` is the length of one POV-Ray unit, m.
 ///
 /// # Errors
-/// [`EmitError::Indistinct`], at the body, the camera, or the unit.
+/// [`EmitError::Indistinct`], which points to the body, the camera, or the unit in the scene.
 pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> Result<(), EmitError> {
     let reach = reach(plan);
     if !(reach.metres / unit).is_finite() || reach.metres == f64::INFINITY {
-        // Numbers of the scene overflow. Writing a frame reports the body or camera whose place is not finite.
+        // Numbers of the scene overflow. When a frame is written, the body or camera whose position is not finite is reported.
         return Ok(());
     }
     let error = unit_of(scene, &reach, unit)
@@ -40,7 +40,8 @@ pub(super) fn check(scene: &Scene, camera: &Camera, plan: &Plan, unit: f64) -> R
     Err(EmitError::Indistinct(Report { sources, diagnostics: vec![error] }))
 }
 
-/// Whether POV-Ray can tell a moving camera from the point that it looks at.
+/// Returns true if POV-Ray can distinguish a camera's position from the point that the camera looks at. `unit` is the length of one
+/// POV-Ray unit, m.
 pub(super) fn sees(camera: &Placed, unit: f64, digits: usize) -> bool {
     let [from, to] = [camera.location(), camera.look_at()].map(|point| point / unit);
     let farthest = from.abs().max_element().max(to.abs().max_element());
@@ -61,7 +62,7 @@ fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
     }
 }
 
-/// The error for a `povray.unit` that is too large or too small for the scene.
+/// Returns the error for a `povray.unit` that is too large or too small for the scene. `None` if the unit is suitable.
 fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     scene.povray.unit?;
     let units = reach.metres / unit;
@@ -74,7 +75,8 @@ fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     Some(indistinct(message, scene.places.unit, &label).help(help))
 }
 
-/// The error for a body that POV-Ray would draw as a point or not at all. It names the smallest such body.
+/// Returns the error for the smallest of the bodies that POV-Ray would draw as a point or not at all. `None` if all bodies are large
+/// enough.
 fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     let bodies = scene.bodies.iter().enumerate();
     let too_small = bodies.filter_map(|(id, body)| {
@@ -99,7 +101,8 @@ fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
     Some(error.help(help))
 }
 
-/// The error for a camera without a direction, or with a picture of size zero.
+/// Returns the error for a camera that coincides with the point that it looks at, or whose view has no size. `None` if the camera is
+/// usable.
 fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<Diagnostic> {
     let distance = placed.location().distance(placed.look_at());
     let place = scene.places.camera;
@@ -125,7 +128,7 @@ fn sight(scene: &Scene, camera: &Camera, placed: &Placed, unit: f64) -> Option<D
     Some(indistinct(message.to_owned(), place, &label).help(help))
 }
 
-/// A length in metres with two significant digits, as text.
+/// Returns a length in meters as text, with two significant digits.
 fn metres(length: f64) -> String {
     let mut text = String::new();
     number::write(&mut text, length, 2);

@@ -5,26 +5,26 @@ use crate::diagnostic::{Code, Diagnostic, Report, Span};
 /// The reason why a script cannot be written.
 #[derive(Clone, Debug)]
 pub enum EmitError {
-    /// A coordinate is not finite in POV-Ray units.
+    /// The location of a body, a light or the camera is not finite in POV-Ray units.
     OutOfRange {
-        /// The thing at this coordinate: a body, a light, or the camera.
+        /// The name of the body, light or camera.
         what: String,
-        /// The time, s.
+        /// The time of the frame, s.
         time: f64,
     },
-    /// The camera comes too close to the point that it looks at: POV-Ray cannot tell the two apart.
+    /// The camera comes so close to the point that it looks at that POV-Ray cannot distinguish the two.
     Blind {
-        /// The time, s.
+        /// The time of the frame, s.
         time: f64,
     },
-    /// POV-Ray cannot tell apart things that the scene shows. The report names them and their places in the scene.
+    /// Sizes or distances in the scene are too small for POV-Ray. The report points to their positions in the text of the scene.
     Indistinct(Report),
-    /// A template fails. The report names the place in the template.
+    /// A template cannot be parsed or rendered. The report points to the position in the template.
     Template(Report),
 }
 
 impl EmitError {
-    /// The code of the error's diagnostic.
+    /// Returns the diagnostic code of this error.
     pub fn code(&self) -> Code {
         match self {
             EmitError::Indistinct(_) => Code::Indistinct,
@@ -34,7 +34,7 @@ impl EmitError {
         }
     }
 
-    /// The error as a report. The diagnostic has a place if the error has one.
+    /// Returns the error as a report. Errors of the scene and of templates point to a position in its text.
     pub fn report(&self) -> Report {
         match self {
             EmitError::Template(report) | EmitError::Indistinct(report) => report.clone(),
@@ -44,12 +44,12 @@ impl EmitError {
         }
     }
 
-    /// Converts the error of a template, with the template's file, text and place.
+    /// Converts an error of the template engine to a report. `text_of` returns the path and the text of the template with a given name.
     pub(super) fn of_template(
         error: &minijinja::Error,
         text_of: impl Fn(&str) -> Option<(String, String)>,
     ) -> EmitError {
-        // The innermost error is the mistake. The outer errors name the templates that include the faulty template.
+        // The innermost error is the mistake. The outer errors name the templates that include the faulty one.
         let mut innermost = error;
         let mut message = error.to_string();
         let mut cause = std::error::Error::source(error);
@@ -60,7 +60,7 @@ impl EmitError {
             }
             cause = inner.source();
         }
-        // The report shows the place, so the message omits it. A detail for an operation that jabuka refuses is a full
+        // The report shows the position, so the message omits it. For a value that scripts cannot contain, the detail alone is a full
         // message.
         if let (Some(detail), true) = (innermost.detail(), innermost.name().is_some()) {
             message = match innermost.kind() {
@@ -84,7 +84,7 @@ impl EmitError {
     }
 }
 
-/// The range of a line, bytes. Lines are counted from 1.
+/// Returns the byte range of a line. Lines are counted from 1.
 fn line_range(text: &str, line: usize) -> std::ops::Range<usize> {
     let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let length = text[start..].lines().next().map_or(0, str::len);

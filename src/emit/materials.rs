@@ -1,4 +1,4 @@
-//! The materials of a scene, as text for scripts.
+//! Turns the materials of a scene into text and values for scripts.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use crate::digest::Sha256;
 use crate::picture;
 use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
 
-/// The kind of a material, by its name in templates.
+/// The kind of a material. Templates see it in lower case: `plain`.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Kind {
@@ -20,7 +20,7 @@ enum Kind {
     Sdl,
 }
 
-/// A material as templates see it.
+/// The values of a material that templates can use.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialText {
     /// The name of the material in the scene.
@@ -32,32 +32,32 @@ pub(super) struct MaterialText {
     pub(super) color: Option<[f64; 3]>,
     /// The name of the finish, for a plain material.
     finish: Option<&'static str>,
-    /// The name in the library, for a material of the library.
+    /// The name of the material in the library, for a material of the library.
     like: Option<&'static str>,
-    /// The template of the family, for a material of the library.
+    /// The name of the material family, which selects the template, for a material of the library.
     family: Option<&'static str>,
-    /// The index of refraction, for a clear material of the library.
+    /// The index of refraction, for a transparent material of the library.
     ior: Option<f64>,
-    /// Whether the material gives light, and so casts no shadow.
+    /// True if the material emits light. Such a body casts no shadow.
     glows: bool,
-    /// Whether a plane has this material. The material of a plane must be able to fade into the haze.
+    /// True if a plane has this material. The material of a plane must be able to fade into the haze.
     on_plane: bool,
-    /// The name of the texture that an include file declares.
+    /// The identifier of a texture that one of the scene's include files declares.
     texture: Option<String>,
-    /// POV-Ray code.
+    /// The POV-Ray code of the material, if the scene contains such code.
     sdl: Option<String>,
-    /// The pattern, if its size depends on the body.
+    /// The kind of pattern whose size depends on the body.
     #[serde(skip)]
     pattern: Pattern,
-    /// Whether the material looks the same from all sides.
+    /// True if the material looks the same from all sides.
     #[serde(skip)]
     pub(super) is_uniform: bool,
-    /// The index of the pale version of the material, which is used for ghosts.
+    /// The index of the pale version of the material, which is used for ghosts (earlier poses of a body).
     #[serde(skip)]
     pub(super) pale: Option<usize>,
 }
 
-/// The materials of a scene, each with a unique identifier.
+/// Returns the materials of a scene, each with a unique identifier. Pale versions for ghosts are at the end.
 pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
     let mut identifiers = Identifiers::default();
     let mut texts: Vec<_> = scene.materials.iter().map(|m| text(m, &mut identifiers)).collect();
@@ -78,7 +78,7 @@ pub(super) fn texts(scene: &Scene) -> Vec<MaterialText> {
     texts
 }
 
-/// The pale version of a material, for ghosts. `None` if the material has its own colors.
+/// Makes the pale version of a material, for ghosts. `None` if the material has no single color.
 fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> Option<MaterialText> {
     let color = picture::pale(Color(material.color?), dark).0;
     Some(MaterialText {
@@ -131,8 +131,8 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
 }
 
 impl MaterialText {
-    /// The name of a macro that draws a whole plane with its transform. `None` if planes of this material need no
-    /// macro: they neither fade into the haze nor have a pattern of the size of the ground's tiles.
+    /// Returns the name of the macro that draws a whole plane with its transform. `None` if planes of this material need no macro, because
+    /// they neither fade into the haze nor have tiles.
     pub(super) fn plane_macro(&self) -> Option<String> {
         match self.kind {
             Kind::Checkered => Some(self.identifier.clone()),
@@ -141,7 +141,7 @@ impl MaterialText {
         }
     }
 
-    /// The text inside an object of this material. It is equal for all bodies.
+    /// Returns the SDL text that gives an object this material. The text is equal for all bodies.
     pub(super) fn usage(&self) -> String {
         match self.kind {
             // Raw SDL may contain more than a texture, so it is a macro, which inserts its text at each call.
@@ -153,10 +153,10 @@ impl MaterialText {
         }
     }
 
-    /// The text inside a body of this material.
+    /// Returns the SDL text that gives a body this material.
     ///
-    /// A pattern is made for a ball of radius 1. On a body, it is scaled as for a ball of the same volume. So a crate
-    /// and a matchbox have equally many rings of wood.
+    /// A pattern is designed for a ball of radius 1. On a body, it is scaled as for a ball of the same volume. So a crate and a matchbox
+    /// have equally many rings of wood.
     pub(super) fn usage_in(&self, body: &Body, style: Style) -> String {
         let (Pattern::Centred | Pattern::Cut, Some(radius)) = (self.pattern, body.drawn().radius_of_ball())
         else {
@@ -174,12 +174,12 @@ impl MaterialText {
     }
 }
 
-/// A place in a block of patterned material, from which the body with this name is cut. It is near the origin, so that
-/// the centre of the pattern, as in rings of wood, stays visible.
+/// Returns the offset at which a body is cut from a block of patterned material. It is a hash of the body's name, and is small, so that
+/// the center of the pattern, such as the rings of wood, stays visible.
 fn of_name(name: &str) -> DVec3 {
     let digest = Sha256::digest(name);
     let [x, y, z] = [0, 1, 2].map(|i| f64::from(digest[i]) / 256.0);
-    // Two decimals are enough to tell two bodies apart.
+    // Two decimals are enough to give two bodies different offsets.
     (DVec3::new(3.0 * x, 0.4 * y, 0.4 * z) * 100.0).round() / 100.0
 }
 
@@ -217,7 +217,7 @@ mod tests {
         assert!(of_name("a").abs().max_element() <= 3.0);
     }
 
-    /// Rays that are cut off early are cheap behind bubbles, and leave dark glass and water black.
+    /// If rays end early, scenes with bubbles render fast, but dark glass and water turn black.
     #[test]
     fn rays_through_bubbles_end_early_unless_there_is_other_glass() {
         let ends_early = |materials: &[&str]| {

@@ -1,4 +1,4 @@
-//! Declares the meshes of a scene, each once.
+//! Declares each mesh of a scene once, as POV-Ray's `mesh2`.
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -17,23 +17,22 @@ use crate::surface::normals;
 #[derive(Default)]
 pub(super) struct Meshes {
     all: Vec<Known>,
-    /// The index of each mesh, by the address of the mesh. The addresses only identify meshes, so they do not affect
-    /// the output.
+    /// The index of each mesh in `all`, by the address of the mesh. Addresses only identify meshes, so they do not affect the scripts.
     numbers: HashMap<*const Mesh, usize>,
 }
 
 struct Known {
     mesh: Arc<Mesh>,
     identifier: String,
-    /// The length of one unit of the declaration, in units of the mesh.
+    /// The length of one unit of the declaration, in units of the mesh file.
     unit: f64,
 }
 
-/// With six digits, the error of a normal is about a ten-thousandth of a degree.
+/// The number format of normal vectors. With six digits, the error of a normal is about a ten-thousandth of a degree.
 const NORMAL: Style = Style { unit: 1.0, digits: 6 };
 
 impl Meshes {
-    /// The meshes that the scripts of a scene draw.
+    /// Collects the meshes that the scripts of a scene draw.
     pub(super) fn new(scene: &Scene) -> Meshes {
         let mut meshes = Meshes::default();
         let mut identifiers = Identifiers::default();
@@ -52,8 +51,8 @@ impl Meshes {
                 self.numbers.insert(Arc::as_ptr(mesh), self.all.len());
                 let reach = |p: &DVec3| p.abs().max_element();
                 let reach = mesh.vertices().iter().map(reach).fold(0.0, f64::max);
-                // POV-Ray drops triangles with very small coordinates, and confuses very near points with the origin of
-                // a ray.
+                // POV-Ray drops triangles with very small coordinates. It also mistakes points very close to the origin of a ray for the
+                // origin itself.
                 let unit = decimal_step(reach.max(f64::MIN_POSITIVE)) / 10.0;
                 let identifier = identifiers.add("Mesh", mesh.name());
                 self.all.push(Known { mesh: Arc::clone(mesh), identifier, unit });
@@ -85,8 +84,8 @@ impl Meshes {
             } else {
                 list(out, "face_indices", mesh.triangles(), corners);
             }
-            // POV-Ray casts a ray in this direction to test whether a point is inside. The direction is unlikely to be
-            // parallel to a face or an edge.
+            // POV-Ray casts a ray in this direction to test whether a point is inside. The direction is unlikely to be parallel to a face
+            // or an edge.
             if mesh.flaw().is_none() {
                 out.push_str("  inside_vector <0.31, 0.83, 0.47>\n");
             }
@@ -94,8 +93,8 @@ impl Meshes {
         }
     }
 
-    /// Opens an object for a mesh. `scale` is the length of the mesh's unit, m. The text ends where the material and
-    /// the place follow.
+    /// Returns the beginning of the SDL object for a mesh. `scale` is the length of the mesh's unit, m. The caller appends the material,
+    /// the pose and the closing brace.
     pub(super) fn open(&self, mesh: &Arc<Mesh>, scale: f64, style: Style) -> String {
         let known = self.numbers.get(&Arc::as_ptr(mesh)).map(|&number| &self.all[number]);
         // Every mesh of a body has been declared, so the lookup always succeeds.
@@ -110,7 +109,7 @@ impl Meshes {
     }
 }
 
-/// Appends a list of a mesh, one item per line.
+/// Appends a list of a `mesh2`, such as its vertices, one item per line.
 fn list<T>(out: &mut String, name: &str, items: &[T], write: impl Fn(&mut String, &T)) {
     let _ = write!(out, "  {name} {{ {}", items.len());
     for item in items {

@@ -1,7 +1,7 @@
 //! Writes frames as POV-Ray scripts.
 //!
-//! Only this module translates physics into POV-Ray's language. An [`Emitter`] is made once for a scene. It then turns
-//! any frame into its script, in any order and from several threads at once.
+//! Only this module translates physics into POV-Ray's language. An [`Emitter`] is made once for a scene. It then turns any frame into its
+//! script, in any order and from several threads at once.
 
 mod bodies;
 mod distinct;
@@ -45,26 +45,26 @@ pub use templates::{TEMPLATES, write_templates};
 #[cfg(feature = "render")]
 pub(crate) use text::comment;
 
-/// Turns the frames of a scene into scripts.
+/// Turns the frames of a scene into POV-Ray scripts.
 pub struct Emitter {
     templates: Templates,
-    /// The part that all scripts share, if it is a separate file.
+    /// The text of the include file that all scripts share. `None` if each script contains everything.
     shared: Option<String>,
     constants: FrameConstants,
     block: Block,
     showing: Showing,
     particles: Particles,
-    /// The contents of the pictures.
+    /// The contents of the pictures, in meters: camera, surroundings, arrows, labels and so on.
     plan: Plan,
     unit: Unit,
     digits: usize,
-    /// The names of the bodies.
+    /// The names of the bodies, by index in the scene.
     names: Vec<Arc<str>>,
-    /// The names of the emitters.
+    /// The names of the particle emitters, by index in the scene.
     emitters: Vec<Arc<str>>,
     /// The length of the longest block of bodies so far, bytes.
     longest: AtomicUsize,
-    /// The length of the longest block of other drawn things so far, bytes.
+    /// The length of the longest block of other drawn objects so far, bytes.
     longest_beside: AtomicUsize,
 }
 
@@ -72,8 +72,7 @@ impl Emitter {
     /// Prepares everything that the scripts of a scene share.
     ///
     /// # Errors
-    /// If a template fails, or POV-Ray cannot tell apart the points of a body, or the camera and the point that it
-    /// looks at.
+    /// If a template fails, or sizes and distances in the scene are too small for POV-Ray.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Result<Emitter, EmitError> {
         let templates = Templates::new(&scene.povray.templates, scene.povray.digits)?;
         let plan = Plan::new(scene, camera, survey);
@@ -108,18 +107,17 @@ impl Emitter {
         })
     }
 
-    /// The length of one POV-Ray unit in the scripts, m.
+    /// Returns the length of one POV-Ray unit in the scripts, m.
     pub fn unit(&self) -> f64 {
         self.unit.length
     }
 
-    /// The contents of the pictures.
+    /// Returns the planned contents of the pictures.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The name of a body or emitter that POV-Ray may not draw. In every unit, either it is too thin or its
-    /// surroundings are too large.
+    /// Returns the name of a body or particle emitter that may be too thin for POV-Ray to draw, compared with the size of the scene.
     pub fn too_thin(&self) -> Option<&str> {
         let names = |number: usize| self.names.iter().chain(&self.emitters).nth(number);
         self.unit.too_thin.and_then(names).map(|name| &**name)
@@ -128,7 +126,8 @@ impl Emitter {
     /// Writes the script of a frame.
     ///
     /// # Errors
-    /// If the place of a body cannot be written, or a template fails.
+    /// If the location of a body, a light or the camera is not finite in POV-Ray units, the camera is too close to the point that it looks
+    /// at, or a template fails.
     pub fn script(&self, frame: &Frame) -> Result<String, EmitError> {
         let out_of_range = |what: String| EmitError::OutOfRange { what, time: frame.time };
         if let Some(what) = self.plan.lost(frame) {
@@ -139,8 +138,7 @@ impl Emitter {
         {
             return Err(EmitError::Blind { time: frame.time });
         }
-        // The blocks of all frames have similar lengths. Reserving the length at once avoids a buffer of up to twice
-        // the size.
+        // The blocks of all frames have similar lengths. Reserving the length at once avoids a buffer of up to twice the size.
         let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
         let written = self.block.write(&mut solids_sdl, frame);
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
@@ -153,15 +151,14 @@ impl Emitter {
         self.templates.render("frame.pov", &self.constants.of(&self.plan, frame, solids_sdl, showing_sdl))
     }
 
-    /// The trail files that the script of a frame includes, except the files whose names `has` accepts. The name of a
-    /// file is a digest of its text, so each file has to be written only once for all frames. Empty in the layout
-    /// `self-contained`.
+    /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts. The name of a file contains a
+    /// digest of its text, so each file has to be written only once for all frames. The list is empty in the layout `self-contained`.
     pub fn trail_files(&self, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
         self.showing.trail_files(&self.plan, frame, has)
     }
 
-    /// Writes the script of an image with motion blur, piece by piece, so that only one moment is in memory at a time.
-    /// `put` gets each piece in turn. `frame` is the moment at which the shutter opens.
+    /// Writes the script of an image with motion blur, piece by piece, so that only one moment is in memory at a time. `put` receives each
+    /// piece in turn. `frame` is the moment at which the shutter opens.
     ///
     /// # Errors
     /// The errors of [`Emitter::script`], of the simulation of a moment, and of `put`.
@@ -179,8 +176,8 @@ impl Emitter {
         put(&shutter::end(shutter))
     }
 
-    /// The name and text of each file beside the scripts: the files with which one `povray` command renders the whole
-    /// sequence, and the file that all scripts share, if there is one.
+    /// Returns the name and text of each file beside the scripts: the main script and the options with which one `povray` command renders
+    /// the whole sequence, and the common include file if there is one.
     ///
     /// # Errors
     /// If a template fails.

@@ -1,28 +1,28 @@
-//! The names of the files of a sequence.
+//! The names of the files of a sequence of frames.
 
-/// The script with which one `povray` command renders the whole sequence.
+/// The name of the script with which one `povray` command renders the whole sequence.
 pub const MASTER: &str = "animation.pov";
-/// The options for the `povray` command that renders the whole sequence.
+/// The name of the file with the options for the `povray` command that renders the whole sequence.
 pub const INI: &str = "animation.ini";
 
-/// The file that all scripts share, if there is one.
+/// The name of the include file that all scripts share, in the layout `shared`.
 pub const COMMON: &str = "common.inc";
 
-/// The folder of files that scripts read, if there are any.
+/// The name of the folder of assets that scripts read: images, height fields, fonts.
 pub const ASSETS: &str = "assets";
 
-/// The number of digits in the names of the scripts: at least 4.
+/// Returns the number of digits of the frame number in file names: at least 4.
 pub(crate) fn width(frames: usize) -> usize {
     const LEAST: usize = 4;
     frames.saturating_sub(1).to_string().len().max(LEAST)
 }
 
-/// The name of a frame's script in a sequence of `frames` frames: `frame_0050.pov`.
+/// Returns the file name of a frame's script in a sequence of `frames` frames: `frame_0050.pov`.
 pub fn frame_name(index: usize, frames: usize) -> String {
     format!("frame_{index:0width$}.pov", width = width(frames))
 }
 
-/// The name of the script of an image with motion blur, in a sequence of `frames` frames: `shutter_0050.pov`.
+/// Returns the file name of the script of an image with motion blur, in a sequence of `frames` frames: `shutter_0050.pov`.
 pub fn shutter_name(index: usize, frames: usize) -> String {
     format!("shutter_{index:0width$}.pov", width = width(frames))
 }

@@ -1,7 +1,6 @@
 //! Writes the particles of emitters in SDL: balls or streaks, in groups of one color and size.
 //!
-//! Each particle takes one short line, which POV-Ray parses fast. Its coordinates are rounded to a hundredth of its
-//! radius or finer.
+//! Each particle takes one short line, which POV-Ray parses fast. Its coordinates are rounded to a hundredth of its radius or finer.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -15,30 +14,31 @@ use crate::picture::decimal_step;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;
 
-/// The largest number of groups of an emitter. The groups show how particles change with age.
+/// The largest number of age groups of an emitter's particles. Each group has one color and size, so the groups show how particles change
+/// with age.
 const GROUPS: usize = 32;
 /// The precision of coordinates, relative to the radius of a particle.
 const PRECISION: f64 = 0.01;
 
-/// The text of particles that is equal in all frames.
+/// The part of the particles' text that is equal in all frames.
 pub(super) struct Particles {
     style: Style,
     emitters: Vec<Looks>,
 }
 
-/// The looks of an emitter's particles.
+/// The looks of an emitter's particles. `streak` is the time of motion that each particle shows as a streak, s.
 struct Looks {
     name: Arc<str>,
-    /// The looks in order of age, from birth to death.
+    /// The look of each age group, from birth to death.
     groups: Vec<Look>,
     streak: f64,
 }
 
-/// The look of particles of similar age.
+/// The look of all particles in one age group.
 struct Look {
-    /// The drawn radius, m.
+    /// The drawn radius of a particle, m.
     radius: f64,
-    /// The text after the last particle of the group.
+    /// The SDL text after the last particle of the group: the material and the closing brace.
     usage: String,
 }
 
@@ -53,8 +53,8 @@ impl Particles {
         Particles { style, emitters: scene.emitters.iter().map(looks).collect() }
     }
 
-    /// Appends the particles of a frame. The error is the name of an emitter with a particle that cannot be written in
-    /// this unit.
+    /// Appends the particles of a frame. The error is the name of an emitter with a particle whose location is not finite in POV-Ray
+    /// units.
     pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), &str> {
         for (looks, particles) in self.emitters.iter().zip(&frame.particles) {
             if particles.iter().any(|particle| !self.style.can_write(particle.location)) {
@@ -105,7 +105,7 @@ impl Particles {
     }
 }
 
-/// Rounds a place to multiples of `step`, as far as the digits allow it.
+/// Rounds a location to multiples of `step`, unless rounding overflows.
 fn rounded(place: DVec3, step: f64) -> DVec3 {
     let rounded = (place / step).round() * step;
     if rounded.is_finite() { rounded } else { place }
@@ -121,12 +121,12 @@ fn group(age: f64, groups: usize) -> usize {
     ((age * groups as f64) as usize).min(groups - 1)
 }
 
-/// The looks of an emitter's particles, from birth to death. A single look if neither color nor size changes.
+/// Returns the looks of an emitter's age groups, from birth to death. There is a single look if neither color nor size changes.
 fn groups(emitter: &Emitter, style: Style) -> Vec<Look> {
     let changes = emitter.colors.len() > 1 || emitter.sizes.len() > 1;
     let count = if changes && emitter.source.longest_life.is_finite() { GROUPS } else { 1 };
     let look = |number: usize| {
-        // The first group has the look at birth, the last group the look at death, the others the looks at evenly
+        // The first group has the look at birth, and the last group has the look at death. The groups between have the looks at evenly
         // spaced ages.
         #[allow(clippy::cast_precision_loss, reason = "groups are few")]
         let age = if count == 1 { 0.0 } else { number as f64 / (count - 1) as f64 };

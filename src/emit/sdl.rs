@@ -1,10 +1,10 @@
-//! Writes vectors and transforms in SDL.
+//! Writes lengths, vectors and transforms in SDL, POV-Ray's scene description language.
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::number;
 
-/// The smallest distance at which two places count as different, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
+/// The smallest distance between two points that count as different, POV-Ray units. The limit of POV-Ray's parser is 10⁻¹⁰.
 const NEAREST: f64 = 1e-8;
 
 /// The unit and precision of numbers in the scripts of a scene.
@@ -27,7 +27,7 @@ impl Style {
         self.vector(out, metres / self.unit);
     }
 
-    /// Appends a vector without a unit.
+    /// Appends a vector as it is, without a conversion of units.
     pub(super) fn vector(&self, out: &mut String, vector: DVec3) {
         out.push('<');
         number::write(out, vector.x, self.digits);
@@ -38,14 +38,14 @@ impl Style {
         out.push('>');
     }
 
-    /// Appends the transform from body to world. POV-Ray multiplies row vectors, so the rows in the script are the
-    /// columns of the rotation, and the last row is the translation.
+    /// Appends the transform from body axes to world axes. POV-Ray multiplies row vectors, so the rows in the script are the columns of
+    /// the rotation, and the last row is the translation.
     pub(super) fn matrix(&self, out: &mut String, orientation: DQuat, location: DVec3) {
         let rotation = DMat3::from_quat(orientation);
         out.push_str("matrix <");
         for column in [rotation.x_axis, rotation.y_axis, rotation.z_axis] {
             for entry in column.to_array() {
-                // A zero with a rounding error would be the longest number of the line.
+                // A rounding error in place of a zero would be the longest number of the line.
                 let entry = if entry.abs() < 1e-12 { 0.0 } else { entry };
                 number::write(out, entry, self.digits);
                 out.push_str(", ");
@@ -58,13 +58,13 @@ impl Style {
         }
     }
 
-    /// Whether the coordinates of a place are finite in POV-Ray units.
+    /// Returns true if the coordinates of a point are finite in POV-Ray units.
     pub(super) fn can_write(&self, metres: DVec3) -> bool {
         (metres / self.unit).is_finite()
     }
 
-    /// Whether the coordinates of two places are finite in POV-Ray units, and far enough apart for POV-Ray. Lengths
-    /// some hundred times smaller than the distance must also differ from zero.
+    /// Returns true if the coordinates of two points are finite in POV-Ray units, and the points are far enough apart for POV-Ray. The
+    /// limit is so large that lengths some hundred times smaller than the distance also differ from zero.
     pub(super) fn can_tell(&self, from: DVec3, to: DVec3) -> bool {
         let written = |point: DVec3| {
             let mut out = String::new();
@@ -87,7 +87,7 @@ mod tests {
         let style = Style { unit: 1.0, digits: 9 };
         let mut out = String::new();
         style.matrix(&mut out, DQuat::from_rotation_z(90f64.to_radians()), DVec3::new(1.0, 2.0, 3.0));
-        // The first row is the image of x.
+        // The first row is the image of the x axis.
         assert_eq!(out, "matrix <0, 1, 0, -1, 0, 0, 0, 0, 1, 1, 2, 3>");
     }
 

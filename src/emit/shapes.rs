@@ -1,4 +1,4 @@
-//! Writes shapes in SDL.
+//! Writes shapes in SDL, POV-Ray's scene description language.
 
 use glam::{DQuat, DVec3};
 
@@ -6,8 +6,7 @@ use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::dynamics::{Part, Shape, cone_base};
 
-/// Opens an object for a shape in the body's axes. The text ends where the material, the place and the closing brace
-/// follow.
+/// Returns the beginning of the SDL object for a shape in body axes. The caller appends the material, the pose and the closing brace.
 pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
     let length = |metres: f64| {
         let mut out = String::new();
@@ -24,7 +23,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         Shape::Sphere { radius } => format!("sphere {{ 0, {} ", length(radius)),
         Shape::Box { size } => format!("box {{ {}, {} ", point(-size / 2.0), point(size / 2.0)),
         Shape::RoundedBox { size, rounding } => {
-            // Treat an edge that is zero up to rounding as zero: POV-Ray refuses such an edge.
+            // An inner edge that is zero up to rounding becomes exactly zero, since POV-Ray refuses tiny edges.
             let inner = |edge: f64| if edge < 1e-6 * rounding { 0.0 } else { edge };
             let half = (size / 2.0 - rounding).map(inner);
             format!("object {{ Rounded_box({}, {}) ", point(half), length(rounding))
@@ -35,7 +34,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
         }
         Shape::Capsule { radius, height } => {
             let half = height / 2.0 - radius;
-            // POV-Ray refuses a cylinder without length, so such a capsule is written as a sphere.
+            // POV-Ray refuses a cylinder without length, so a capsule as short as a ball is written as a sphere.
             if half < 1e-6 * radius {
                 return open(&Shape::Sphere { radius }, meshes, style);
             }
@@ -69,7 +68,7 @@ pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {
     }
 }
 
-/// Opens an object for a part of a compound, at the place of the part; like [`open`].
+/// Returns the beginning of the SDL object for a part of a compound shape, with the part's pose in body axes. The rest is as for [`open`].
 fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: Style) -> String {
     let mut out = open(shape, meshes, style);
     if *orientation == DQuat::IDENTITY {
@@ -82,10 +81,10 @@ fn part(Part { shape, location, orientation }: &Part, meshes: &Meshes, style: St
     out
 }
 
-/// Opens an object from the scene's POV-Ray code, enlarged by `scale`; like [`open`]. Lengths in the code are in
-/// metres.
+/// Returns the beginning of the SDL object for the scene's own POV-Ray code, enlarged by `scale`. Lengths in the code are in meters. The
+/// rest is as for [`open`].
 pub(super) fn open_sdl(object: &str, scale: f64, style: Style) -> String {
-    // Put the scene's code on separate lines, since it may end with a comment.
+    // The scene's POV-Ray code is on separate lines, since it may end with a `//` comment.
     let mut out = format!("object {{\n{object}\n");
     if scale != style.unit {
         out.push_str("scale ");

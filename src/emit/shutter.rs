@@ -1,14 +1,14 @@
 //! Writes the script of an image with motion blur: the scripts of all its moments in one file, chosen by number.
 //!
-//! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen moments, one after another, in one process. The mean of the
-//! moments is the image that a camera takes while its shutter is open.
+//! `povray +Ishutter_0007.pov +KFI0 +KFF15` renders sixteen moments, one after another, in one process. The mean of the moments is the
+//! image that a camera takes while its shutter is open.
 
 use crate::picture::number;
 use crate::scene::Shutter;
 use crate::simulate::Frame;
 
-/// The text before the first moment. It sets `frame_number` for the scene's POV-Ray code to the number of the frame, as
-/// in the frame's sharp script, instead of the number of the moment.
+/// Returns the text before the first moment. It sets POV-Ray's variable `frame_number` to the number of the frame, instead of the number
+/// of the moment. So the scene's POV-Ray code sees the same number as in the frame's sharp script.
 pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
     let mut time = String::new();
     number::write(&mut time, frame.time, digits);
@@ -22,10 +22,10 @@ pub(super) fn head(frame: &Frame, shutter: Shutter, digits: usize) -> String {
     )
 }
 
-/// The text of one moment, from the script of this moment.
+/// Returns the text of one moment, made from the script of this moment.
 pub(super) fn moment(number: usize, script: &str) -> String {
-    // The first line has the number of the frame and the time. Without this line, scripts of equal pictures differ only
-    // in the first line of the whole file.
+    // The first line of the script contains the number of the frame and the time, and is removed. So the scripts of equal pictures differ
+    // only in the first line of the whole file.
     let script = match script.split_once('\n') {
         Some((first, rest)) if first.starts_with("//") => rest,
         _ => script,
@@ -34,7 +34,7 @@ pub(super) fn moment(number: usize, script: &str) -> String {
     format!("#case ({number})\n{script}{end}#break\n")
 }
 
-/// The text after the last moment.
+/// Returns the text after the last moment.
 pub(super) fn end(shutter: Shutter) -> String {
     let last = shutter.samples - 1;
     format!("#else\n#error \"Shutter_Sample goes from 0 to {last}\"\n#end\n")

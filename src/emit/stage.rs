@@ -1,55 +1,55 @@
-//! The surroundings of the bodies, as templates see them. Lengths are in POV-Ray units.
+//! The surroundings of the bodies (camera, lights, ground, sky) as values for templates. Lengths are in POV-Ray units.
 
 use serde::Serialize;
 
 use crate::picture::{Lens, Placed, PlacedLight, Plan};
 
-/// The surroundings of the bodies.
+/// The surroundings of the bodies, as values for templates.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct StageText {
     /// The length of one POV-Ray unit, m.
     unit: f64,
-    /// The diagonal of the box around the motion.
+    /// The diagonal of the box around the motion, POV-Ray units.
     size: f64,
-    /// The middle of the box around the motion.
+    /// The center of the box around the motion, POV-Ray units.
     center: [f64; 3],
     /// The camera. `None` if it changes from frame to frame.
     camera: Option<CameraText>,
-    /// The lights. `None` if they change from frame to frame. An empty list stands for the default lights.
+    /// The lights. `None` if they change from frame to frame. An empty list means the default lights.
     lights: Option<Vec<LightText>>,
     ground: Option<GroundText>,
-    /// The edge length of a tile of a checkered plane.
+    /// The edge length of a tile of a checkered plane, POV-Ray units.
     tile: f64,
-    /// The distance from the middle over which the tiles of a checkered plane fade.
+    /// The distance from the center over which the tiles of a checkered plane fade, POV-Ray units.
     tiles_fade: f64,
-    /// The distance from the middle over which ground and checkered planes fade into the horizon.
+    /// The distance from the center over which ground and checkered planes fade into the horizon, POV-Ray units.
     fade: f64,
-    /// The name of the preset.
+    /// The name of the scene's environment preset.
     preset: &'static str,
-    /// The ambient light, linear. `None` for the ambient light that materials are made for.
+    /// The ambient light, as a linear color. `None` for the default ambient light, for which materials are designed.
     ambient: Option<[f64; 3]>,
     sky: SkyText,
-    /// Whether the background is transparent.
+    /// True if the background of the images is transparent.
     transparent: bool,
     fog: bool,
 }
 
-/// The camera as templates see it.
+/// A camera, as values for templates.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct CameraText {
     location: [f64; 3],
     look_at: [f64; 3],
-    /// The horizontal field of view of a perspective camera, degrees.
+    /// The horizontal angle of view of a perspective camera, degrees.
     angle: Option<f64>,
-    /// The width of the view of an orthographic camera.
+    /// The width of the view of an orthographic camera, POV-Ray units.
     width: Option<f64>,
-    /// Whether the camera looks straight up or down. The vertical then cannot be the upward direction of the picture.
+    /// True if the camera looks straight up or down. The vertical then cannot be the upward direction of the picture.
     vertical: bool,
-    /// Whether the pictures are so wide that the view is measured by their width instead of their height.
+    /// True if the pictures are so wide that the view is measured by their width instead of their height.
     wide: bool,
-    /// The diameter of the lens. `None` if everything is sharp.
+    /// The diameter of the lens aperture, POV-Ray units. `None` if everything is in focus.
     aperture: Option<f64>,
-    /// The point in focus.
+    /// A point in the plane of focus, POV-Ray units.
     focus: Option<[f64; 3]>,
     blur_samples: Option<u32>,
 }
@@ -59,11 +59,11 @@ pub(super) struct LightText {
     name: String,
     /// The kind of the light: `point`, `area` or `sun`.
     kind: &'static str,
-    /// The location of the light. For a sun, a point in the direction from which its light comes.
+    /// The location of the light, POV-Ray units. For a sun, a point in the direction from which its light comes.
     location: [f64; 3],
-    /// The diameter of an area light.
+    /// The diameter of an area light, POV-Ray units.
     size: Option<f64>,
-    /// The linear color, multiplied by the intensity.
+    /// The linear color of the light, multiplied by its intensity.
     color: [f64; 3],
     shadows: bool,
 }
@@ -72,18 +72,18 @@ pub(super) struct LightText {
 struct GroundText {
     height: f64,
     tile: f64,
-    /// The distance from the middle over which the tiles fade.
+    /// The distance from the center over which the tiles of the ground fade, POV-Ray units.
     tiles_fade: f64,
 }
 
 #[derive(Clone, Debug, Serialize)]
 struct SkyText {
-    /// The color of a plain sky in sRGB. `None` for the sky of the preset.
+    /// The color of a plain sky in sRGB. `None` for the sky of the environment preset.
     color: Option<[f64; 3]>,
 }
 
 impl StageText {
-    /// The surroundings for the frames of a plan. `unit` is in metres.
+    /// Converts the planned surroundings to values for templates. `unit` is the length of one POV-Ray unit, m.
     pub(super) fn new(plan: &Plan, unit: f64) -> StageText {
         let stage = plan.stage();
         StageText {
@@ -110,7 +110,7 @@ impl StageText {
 }
 
 impl CameraText {
-    /// The text of a camera. `unit` is in metres.
+    /// Converts a camera to values for templates. `unit` is the length of one POV-Ray unit, m.
     pub(super) fn new(camera: &Placed, unit: f64) -> CameraText {
         let (angle, width) = match camera.lens() {
             Lens::Perspective { angle } => (Some(angle), None),
@@ -130,7 +130,7 @@ impl CameraText {
     }
 }
 
-/// The lights of a plan at `time`, s. `unit` is in metres.
+/// Returns the planned lights at `time` (s) as values for templates. `unit` is the length of one POV-Ray unit, m.
 pub(super) fn lights(plan: &Plan, time: f64, unit: f64) -> Vec<LightText> {
     let text = |light: PlacedLight| LightText {
         name: light.name,
@@ -152,7 +152,7 @@ mod tests {
     use crate::scene::{Color, Preset, Scene};
     use crate::simulate::{Frames, survey};
 
-    /// The numbers of the next `<…>`, or the next number, three times.
+    /// Parses a vector `<a, b, c>` at the start of a text. A single number stands for three equal ones.
     fn vector(text: &str) -> [f64; 3] {
         let text = text.trim_start();
         let number = |text: &str| text.trim().parse::<f64>().unwrap();
@@ -165,12 +165,12 @@ mod tests {
         }
     }
 
-    /// Reads a light from a script: location, linear color, diameter, and whether it casts shadows.
+    /// Parses a light in a script. Returns its location, linear color, diameter, and whether it casts shadows.
     fn said(light: &str) -> (DVec3, [f64; 3], Option<f64>, bool) {
         let (_, color) = light.split_once("color ").unwrap();
         let color = match color.strip_prefix("srgb ") {
             Some(color) => {
-                // POV-Ray multiplies first.
+                // POV-Ray multiplies the sRGB color by the factor before it converts the color to linear light.
                 let factor = color.split_once(">*").map(|(_, rest)| rest.split_whitespace().next().unwrap());
                 let factor: f64 = factor.map_or(1.0, |factor| factor.parse().unwrap());
                 Color(vector(color).map(|c| c * factor)).linear()
@@ -182,7 +182,7 @@ mod tests {
         (DVec3::from_array(vector(light)), color, size, !light.contains("shadowless"))
     }
 
-    /// The templates and the plan have the usual lights each for itself.
+    /// The default lights are defined twice: in the templates and in the plan.
     #[test]
     fn the_usual_lights_are_those_of_the_templates() {
         for preset in Preset::ALL {

@@ -1,4 +1,4 @@
-//! The templates of scripts, and how templates write values.
+//! Renders scripts from templates, and formats the values that templates insert.
 
 use std::fs;
 use std::io;
@@ -11,7 +11,7 @@ use minijinja::{Environment, Error, ErrorKind, Output, UndefinedBehavior};
 use super::{EmitError, number, text};
 use crate::scene::OwnTemplate;
 
-/// The built-in templates: name and text.
+/// The built-in templates: file name and text.
 pub const TEMPLATES: &[(&str, &str)] = &[
     ("frame.pov", include_str!("../../templates/frame.pov")),
     ("common.inc", include_str!("../../templates/common.inc")),
@@ -35,13 +35,13 @@ pub const TEMPLATES: &[(&str, &str)] = &[
     ("animation.ini", include_str!("../../templates/animation.ini")),
 ];
 
-/// The documentation of the templates: the names of the files, and the values that templates see.
+/// The documentation of the templates: the names of the files, and the values that they can use.
 const README: &str = include_str!("../../templates/README.md");
 
-/// Writes the built-in templates into a folder, and returns their number. Makes the folder if it does not exist.
+/// Writes the built-in templates into a folder, and returns their number. Creates the folder if it does not exist.
 ///
 /// # Errors
-/// If a file cannot be written, or one of the files exists already. Nothing is written if a file exists already.
+/// If a file cannot be written, or a file of the same name exists. In the latter case, nothing is written.
 pub fn write_templates(folder: &Path) -> io::Result<usize> {
     let files = || TEMPLATES.iter().copied().chain([("README.md", README)]);
     if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
@@ -52,22 +52,22 @@ pub fn write_templates(folder: &Path) -> io::Result<usize> {
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
         let mut file = fs::File::create_new(&path)?;
         io::Write::write_all(&mut file, text.as_bytes()).inspect_err(|_| {
-            // Remove the file, since a part of a template is useless.
+            // The file is removed, since a partly written template is useless.
             let _ = fs::remove_file(&path);
         })?;
     }
     Ok(TEMPLATES.len())
 }
 
-/// The templates, ready to be rendered.
+/// The parsed templates, built-in and the user's own.
 pub(super) struct Templates {
     environment: Environment<'static>,
     own: Vec<OwnTemplate>,
 }
 
 impl Templates {
-    /// Loads the built-in templates, with the user's templates in place of those of the same names. `digits` is the
-    /// number of significant digits.
+    /// Loads the built-in templates. The user's own templates (`own`) replace those of the same name. `digits` is the number of
+    /// significant digits of numbers in scripts.
     pub(super) fn new(own: &[OwnTemplate], digits: usize) -> Result<Templates, EmitError> {
         let templates = |environment| Templates { environment, own: own.to_vec() };
         let mut environment =
@@ -86,7 +86,7 @@ impl Templates {
         render().map_err(|error| self.error(&error))
     }
 
-    /// Whether a template uses the value with this name.
+    /// Returns true if any template uses the value with this name.
     pub(super) fn mention(&self, name: &str) -> bool {
         self.environment.templates().any(|(_, template)| template.undeclared_variables(false).contains(name))
     }
@@ -101,12 +101,12 @@ impl Templates {
     }
 }
 
-/// The built-in templates in their environment.
+/// Makes the template engine with the built-in templates.
 ///
 /// POV-Ray itself uses `{`, `{#` and `#`, so templates use `<% %>`, `${ }` and `<%# %>`.
 fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     let mut environment = Environment::new();
-    // In debug mode, errors contain their places.
+    // In debug mode, errors contain their positions in the template.
     environment.set_debug(true);
     let syntax = SyntaxConfig::builder()
         .block_delimiters("<%", "%>")
@@ -127,7 +127,7 @@ fn environment(digits: usize) -> Result<Environment<'static>, Error> {
     Ok(environment)
 }
 
-/// Writes a value in SDL: numbers with `digits` significant digits, lists of numbers as vectors.
+/// Writes a value in SDL. Numbers have `digits` significant digits, and lists of numbers become vectors.
 fn format(out: &mut Output<'_>, value: &Value, digits: usize) -> Result<(), Error> {
     match value.kind() {
         ValueKind::String => write_str(out, value.as_str().unwrap_or_default()),

@@ -2,14 +2,14 @@
 
 use std::collections::HashSet;
 
-/// A text for a `//` comment: on one line, without control characters.
+/// Escapes a text for a `//` comment: the result is one line without control characters.
 pub(crate) fn comment(text: &str) -> String {
     escaped(text, |c| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'))
 }
 
-/// A text for a string literal, without the quotes.
+/// Escapes a text for an SDL string literal. The result has no quotes around it.
 pub(crate) fn string(text: &str) -> String {
-    // The strings of POV-Ray hold about 255 bytes.
+    // POV-Ray limits strings to about 255 bytes, so longer texts are cut off.
     const MOST_BYTES: usize = 250;
     let mut out = String::new();
     for c in text.chars() {
@@ -31,13 +31,13 @@ fn escaped(text: &str, special: impl Fn(char) -> bool) -> String {
     text.chars().map(escape).collect()
 }
 
-/// The identifiers in use, which keeps new identifiers unique.
+/// The set of SDL identifiers in use, which keeps new identifiers unique.
 #[derive(Default)]
 pub(crate) struct Identifiers(HashSet<String>);
 
 impl Identifiers {
-    /// Makes a new identifier like `Prefix_name` from letters, digits and underscores. It is never a keyword of
-    /// POV-Ray, since keywords are lowercase.
+    /// Makes a new identifier like `Prefix_name` from letters, digits and underscores. It is never a keyword of POV-Ray, since keywords
+    /// are lowercase.
     pub(crate) fn add(&mut self, prefix: &str, name: &str) -> String {
         const MOST_CHARACTERS: usize = 60;
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };

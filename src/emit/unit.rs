@@ -4,25 +4,24 @@ use crate::picture::{Lens, Plan, decimal_step, rounded_outward};
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Bounds;
 
-/// The smallest half thickness of a body, POV-Ray units. POV-Ray 3.7 draws edges and shadows of thinner bodies wrongly,
-/// since it treats places nearer than 0.001 as one (measured).
+/// The smallest half thickness of a body, POV-Ray units. POV-Ray 3.7 draws edges and shadows of thinner bodies wrongly, since it treats
+/// points closer than 0.001 as one (measured).
 const THINNEST: f64 = 0.01;
 
-/// The unit of a scene's scripts.
+/// The length unit of a scene's scripts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unit {
-    /// The length of the unit, m.
+    /// The length of one POV-Ray unit, m.
     pub(super) length: f64,
-    /// The index of a body that is too thin in this unit, so that POV-Ray may not draw it. The indices of emitters
-    /// follow those of bodies.
+    /// The index of a body that may be too thin for POV-Ray to draw in this unit. The indices of particle emitters follow those of bodies.
     pub(super) too_thin: Option<usize>,
 }
 
 impl Unit {
-    /// The unit that the scene sets, or a unit in which POV-Ray can draw the scene.
+    /// Returns the unit that the scene sets, or else a unit in which POV-Ray can draw the scene.
     pub(super) fn of(scene: &Scene, plan: &Plan) -> Unit {
         let thinnest = thinnest(scene);
-        // If parallel rays see more than some hundred units, POV-Ray mistakes rounding errors for intersections.
+        // If the view of an orthographic camera is wider than some hundred units, POV-Ray mistakes rounding errors for intersections.
         let reach = reach(plan).metres.max(300.0 * parallel(plan));
         let length = scene.povray.unit.unwrap_or_else(|| unit(reach, thinnest.map(|(_, half)| half)));
         let too_thin = thinnest.filter(|(_, half)| half / length < THINNEST * 0.99).map(|(id, _)| id);
@@ -30,7 +29,7 @@ impl Unit {
     }
 }
 
-/// The thinnest body and half its thickness, m. `None` if no body has a size.
+/// Returns the index of the thinnest body or emitter's particle, and half its thickness, m. `None` if nothing has a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let halves =
         scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));
@@ -40,15 +39,15 @@ fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     halves.chain(particles.filter(|(_, radius)| *radius > 0.0)).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The reach of a scene.
+/// The largest coordinate of a scene, and what causes it.
 pub(super) struct Reach {
     /// The largest coordinate in a script of the scene, m, measured from the world's origin.
     pub(super) metres: f64,
-    /// Whether the camera causes the reach, rather than the bodies.
+    /// True if the position of the camera causes the largest coordinate, and not the bodies.
     pub(super) by_camera: bool,
 }
 
-/// Computes the reach of a scene.
+/// Computes the largest coordinate in the scripts of a scene, from the motion of all bodies and the camera.
 pub(super) fn reach(plan: &Plan) -> Reach {
     let Bounds { min, max } = rounded_outward(plan.stage().whole);
     let farthest = |points: [glam::DVec3; 2], least: f64| {
@@ -60,7 +59,7 @@ pub(super) fn reach(plan: &Plan) -> Reach {
     Reach { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
 }
 
-/// The larger edge of an orthographic camera's view, m. 0 for a perspective camera.
+/// Returns the larger edge of an orthographic camera's view, m. It is 0 for a perspective camera.
 fn parallel(plan: &Plan) -> f64 {
     match plan.placed().lens() {
         Lens::Perspective { .. } => 0.0,
@@ -68,15 +67,15 @@ fn parallel(plan: &Plan) -> f64 {
     }
 }
 
-/// The length of one POV-Ray unit, m. `reach` is the reach of the scene, m, and `thinnest` half the thickness of its
+/// Computes the length of one POV-Ray unit, m. `reach` is the largest coordinate of the scene, m. `thinnest` is half the thickness of the
 /// thinnest body, m.
 ///
 /// Coordinates stay below 10⁵ units, far from the 10⁷ at which POV-Ray 3.7 stops looking for intersections.
 fn unit(reach: f64, thinnest: Option<f64>) -> f64 {
     const FARTHEST: f64 = 1e5;
     let thinnest = thinnest.unwrap_or(THINNEST);
-    // Both are powers of ten: the smallest unit that suits the reach, and the largest unit that suits the thinnest
-    // body. The reach has priority.
+    // Both are powers of ten: `far` is the smallest unit that suits the largest coordinate, and `thin` is the largest unit that suits the
+    // thinnest body. The largest coordinate has priority.
     let far = 1.0 / decimal_step(FARTHEST / reach);
     let thin = decimal_step(thinnest / THINNEST);
     if thinnest >= THINNEST && reach <= FARTHEST {

@@ -1,5 +1,5 @@
-//! The values that templates see. With the names of the templates, they are an interface for users.
-//! `templates/README.md` documents the interface, and a test compares the two.
+//! The values that templates can use. Together with the names of the templates, they are an interface for users. `templates/README.md`
+//! documents the interface, and a test compares both.
 
 use minijinja::context;
 use minijinja::value::{Serde, Value};
@@ -15,7 +15,7 @@ use crate::picture::Plan;
 use crate::scene::{Body, Include, Layout, Scene};
 use crate::simulate::Frame;
 
-/// The values of `common.inc`.
+/// Returns the values for the template `common.inc`.
 pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText]) -> Value {
     let include = |include: &Include| match include {
         Include::Standard(name) => context! { name => name.clone(), text => () },
@@ -41,7 +41,7 @@ pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText
     }
 }
 
-/// The values of `animation.pov` and `animation.ini`.
+/// Returns the values for the templates `animation.pov` and `animation.ini`.
 pub(super) fn sequence(scene: &Scene) -> Value {
     let frames = scene.simulation.frames();
     let last = frames.saturating_sub(1);
@@ -51,8 +51,8 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         frames,
         last,
         digits,
-        // POV-Ray numbers images with as many digits as the last number has, and does not number a single image. These
-        // zeros supply the missing digits.
+        // POV-Ray numbers images with as many digits as the last number has, and does not number a single image. These zeros supply the
+        // missing digits.
         padding => "0".repeat(if last == 0 { digits } else { digits - last.to_string().len() }),
         width => scene.output.width,
         height => scene.output.height,
@@ -63,19 +63,19 @@ pub(super) fn sequence(scene: &Scene) -> Value {
     }
 }
 
-/// The constant values of `frame.pov`.
+/// The values for the template `frame.pov` that are equal in all frames.
 pub(super) struct FrameConstants {
     title: Value,
     frames: usize,
     common: Value,
     style: Style,
-    /// The values of bodies, for templates that use `bodies`. The built-in templates do not.
+    /// The constant values of each body, by index. `None` if no template uses `bodies`; the built-in templates do not.
     bodies: Option<Vec<BodyConstants>>,
-    /// Whether a template uses `bodies_sdl`, which combines `solids_sdl` and `showing_sdl`.
+    /// True if a template uses `bodies_sdl`, which combines `solids_sdl` and `showing_sdl`.
     with_all: bool,
 }
 
-/// The constant values of a body.
+/// The values of a body that are equal in all frames.
 #[derive(Serialize)]
 struct BodyConstants {
     name: String,
@@ -83,7 +83,7 @@ struct BodyConstants {
     material: Option<String>,
 }
 
-/// A body as templates see it.
+/// The values of a body in one frame, for templates. Location and matrix are in POV-Ray units; velocity and force are in SI units.
 #[derive(Serialize)]
 struct BodyValues<'a> {
     #[serde(flatten)]
@@ -96,8 +96,8 @@ struct BodyValues<'a> {
 }
 
 impl FrameConstants {
-    /// The constant values of a scene. `common` is the text of `common.inc`. `mentions` returns whether a template uses
-    /// a value.
+    /// Collects the constant values of a scene. `common` is the text of `common.inc`, or the line that includes it. `mentions` returns
+    /// true if a template uses the value of a given name.
     pub(super) fn new(
         scene: &Scene,
         common: String,
@@ -120,8 +120,7 @@ impl FrameConstants {
         }
     }
 
-    /// All values of a frame. `solids_sdl` is the block of the bodies, `showing_sdl` the block of the other drawn
-    /// things.
+    /// Returns all values of a frame. `solids_sdl` is the text of the bodies, and `showing_sdl` the text of all other drawn objects.
     pub(super) fn of(&self, plan: &Plan, frame: &Frame, solids_sdl: String, showing_sdl: String) -> Value {
         let bodies = self.bodies.as_ref().map(|constants| {
             let values = frame.bodies.iter().map(|body| self.body(&constants[body.id], body));
@@ -180,7 +179,7 @@ mod tests {
     use crate::emit::materials;
     use crate::simulate::{Frames, survey};
 
-    /// Adds the names of all values within a value: `camera.angle`, `lights[].name`.
+    /// Collects the names of all values within a value: `camera.angle`, `lights[].name`.
     fn names(value: &Value, path: &str, found: &mut BTreeSet<String>) {
         match value.kind() {
             ValueKind::Map => {
@@ -198,7 +197,7 @@ mod tests {
         }
     }
 
-    /// The names in the first column of the table below a heading of `templates/README.md`.
+    /// Returns the names in the first column of the table below a heading of `templates/README.md`.
     fn documented(heading: &str) -> BTreeSet<String> {
         let page = include_str!("../../templates/README.md");
         let (_, rest) = page.split_once(heading).unwrap();

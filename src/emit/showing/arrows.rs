@@ -1,4 +1,4 @@
-//! Arrows for velocity, acceleration and force, and the axes of bodies.
+//! Writes arrows for velocity, acceleration and force, and the axes of bodies, in SDL.
 
 use super::super::{sdl::Style, text};
 use super::Names;
@@ -6,8 +6,7 @@ use super::color;
 use crate::picture::{Arrow, Axes, Bearer, Plan};
 use crate::simulate::{Frame, Ghost};
 
-/// Appends the arrows and axes of all bodies and joints. `names` has their names. The arrows and axes of one body stand
-/// together.
+/// Appends the arrows and axes of all bodies and joints. The arrows and axes of one body are written one after another.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'_>, style: Style) {
     let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
@@ -20,7 +19,8 @@ pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'
     arrows.for_each(|left| arrow(out, &left, names, style));
 }
 
-/// Appends the arrows of a ghost, as the body was at the time of the ghost, if the body's ghosts have arrows.
+/// Appends the arrows of a ghost (an earlier pose of a body), if the body's ghosts have arrows. The arrows show the body's quantities at
+/// the time of the ghost.
 pub(super) fn write_ghost(
     out: &mut String,
     plan: &Plan,
@@ -41,7 +41,7 @@ fn axes(out: &mut String, axes: &Axes, names: Names<'_>, style: Style) {
 }
 
 fn arrow(out: &mut String, arrow: &Arrow, names: Names<'_>, style: Style) {
-    // Skip an arrow that is too short for POV-Ray. The run warns about arrows that are too short in all frames.
+    // An arrow that is too short for POV-Ray is left out. A warning of the run tells about arrows that are too short in all frames.
     if !style.can_tell(arrow.from, arrow.to) {
         return;
     }

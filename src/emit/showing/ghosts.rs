@@ -1,4 +1,4 @@
-//! Ghosts: the earlier poses of bodies, at regular intervals.
+//! Writes ghosts, which show the earlier poses of bodies at regular intervals, in SDL.
 
 use super::super::bodies::Block;
 use super::super::materials::MaterialText;
@@ -8,9 +8,9 @@ use crate::picture::Plan;
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
 
-/// The ghosts of a scene, prepared for writing.
+/// The planned text of the bodies that have ghosts.
 pub(super) struct Ghosts {
-    /// The bodies that have ghosts, in order of index, each with its block.
+    /// The indices of the bodies that have ghosts, in ascending order, each with its planned text.
     bodies: Vec<(usize, Block)>,
 }
 
@@ -25,7 +25,7 @@ impl Ghosts {
         Ghosts { bodies: bodies.map(block).collect() }
     }
 
-    /// Appends the ghosts of a frame.
+    /// Appends the ghosts that a frame shows.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame) {
         for ghost in plan.ghosts(frame) {
             if let Ok(of) = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number) {

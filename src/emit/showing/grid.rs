@@ -1,10 +1,10 @@
-//! The lines of the grid.
+//! Writes the grid of coordinate lines in SDL.
 
 use super::super::sdl::Style;
 use super::color;
 use crate::picture::Grid;
 
-/// The lines of a grid in SDL.
+/// Returns the lines of a grid as SDL text. The text is empty if the grid has no lines.
 pub(super) fn lines(grid: &Grid, style: Style) -> String {
     if grid.lines.is_empty() {
         return String::new();

@@ -7,14 +7,14 @@ use super::color;
 use crate::picture::{Link, LinkForm, Plan};
 use crate::simulate::Frame;
 
-/// Appends the springs and joints of a frame.
+/// Appends the springs and joints that a frame shows.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, style: Style) {
     plan.links(frame).iter().for_each(|its| link(out, its, style));
 }
 
 fn link(out: &mut String, link: &Link<'_>, style: Style) {
     let (name, color) = (text::comment(link.name), color(link.color, style));
-    // Skip a link that is too thin for POV-Ray. The run warns about links that are too thin in all frames.
+    // A spring or joint that is too thin for POV-Ray is left out. A warning of the run tells about those that are too thin in all frames.
     let is_seen = |radius: f64| style.can_tell(DVec3::ZERO, DVec3::X * radius);
     match &link.form {
         LinkForm::Pin { at, radius } => {
@@ -45,7 +45,7 @@ fn link(out: &mut String, link: &Link<'_>, style: Style) {
     }
 }
 
-/// Appends two points and a radius.
+/// Appends the two ends and the radius of a cylinder.
 fn bar(out: &mut String, [from, to]: [DVec3; 2], radius: f64, style: Style) {
     style.point(out, from);
     out.push_str(", ");
@@ -54,8 +54,8 @@ fn bar(out: &mut String, [from, to]: [DVec3; 2], radius: f64, style: Style) {
     style.length(out, radius);
 }
 
-/// Appends a rope: a cylinder between each two neighbouring points, and a ball at each inner point. A straight rope is
-/// a single cylinder, since POV-Ray warns about a union of one object.
+/// Appends a rope: a cylinder between each two neighboring points, and a ball at each inner point. A straight rope is a single cylinder,
+/// since POV-Ray warns about a union of one object.
 fn rope(out: &mut String, points: &[DVec3], radius: f64, color: &str, name: &str, style: Style) {
     let mut seen: Vec<DVec3> = Vec::with_capacity(points.len());
     for &point in points {

@@ -1,6 +1,6 @@
-//! Writes the physics drawn with the bodies in SDL: arrows, axes, ghosts, trails, springs, joints, texts.
+//! Writes the objects that are drawn beside the bodies in SDL: arrows, axes, ghosts, trails, springs, joints, texts.
 //!
-//! The [`Plan`] contains the things to draw and their places. Unused features add nothing to a script.
+//! The [`Plan`] contains these objects and their positions. Unused features add nothing to a script.
 
 mod arrows;
 mod ghosts;
@@ -24,34 +24,34 @@ use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
 
-/// The part of the drawn physics that is equal in all frames.
+/// The part of the drawn objects beside the bodies that is equal in all frames.
 pub(super) struct Showing {
     ghosts: Ghosts,
     trails: Trails,
-    /// The lines of the grid. Empty if the camera moves.
+    /// The SDL text of the grid's lines. It is empty if the camera moves, since the grid then differs from frame to frame.
     grid: String,
-    /// The names of the joints, if joints have arrows.
+    /// The names of the joints, by index in the scene.
     joints: Vec<String>,
     style: Style,
 }
 
-/// The names of the bodies and joints with arrows, by index.
+/// The names of all bodies and joints, by index in the scene.
 #[derive(Clone, Copy)]
 struct Names<'a> {
     bodies: &'a [Arc<str>],
     joints: &'a [String],
 }
 
-/// The macros that a scene needs, as templates see them.
+/// The POV-Ray macros that a scene needs, as values for templates.
 #[derive(Serialize)]
 pub(super) struct Shows {
-    /// Whether bodies or joints have arrows.
+    /// True if bodies or joints have arrows.
     arrows: bool,
-    /// Whether springs are drawn as coils.
+    /// True if springs are drawn as coils.
     coils: bool,
-    /// Whether there are texts in the picture.
+    /// True if the pictures contain texts.
     labels: bool,
-    /// Whether bodies have trails.
+    /// True if bodies have trails.
     trails: bool,
 }
 
@@ -70,7 +70,7 @@ impl Shows {
 }
 
 impl Showing {
-    /// Prepares the part of a plan that is equal in all frames.
+    /// Prepares the part of the drawn objects that is equal in all frames.
     pub(super) fn new(
         scene: &Scene,
         plan: &Plan,
@@ -87,7 +87,7 @@ impl Showing {
         }
     }
 
-    /// The trail files that the script of a frame includes, except the files whose names `has` accepts.
+    /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts.
     pub(super) fn trail_files(
         &self,
         plan: &Plan,
@@ -97,7 +97,7 @@ impl Showing {
         self.trails.files(plan, frame, has)
     }
 
-    /// Appends the drawn physics of a frame. `names` are the names of the bodies.
+    /// Appends the drawn objects of a frame. `names` are the names of the bodies.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
         let its = Names { bodies: names, joints: &self.joints };
@@ -123,7 +123,7 @@ impl Showing {
     }
 }
 
-/// A color as the argument of a macro: `<0.1, 0.2, 0.3>`.
+/// Returns an sRGB color as the argument of a macro: `<0.1, 0.2, 0.3>`.
 pub(super) fn color(color: Color, style: Style) -> String {
     let mut out = String::new();
     style.vector(&mut out, glam::DVec3::from_array(color.0));

@@ -1,10 +1,10 @@
-//! Writes texts and the scale bar on the image plane before the camera.
+//! Writes texts and the scale bar on the image plane in front of the camera, in SDL.
 
 use super::super::{sdl::Style, text};
 use super::color;
 use crate::picture::{Bar, Screen, Text, Vertical, number};
 
-/// The transform from the image plane to the world.
+/// Returns the SDL transform from coordinates in the image plane to world coordinates.
 pub(super) fn transform(screen: &Screen, style: Style) -> String {
     let mut out = "matrix <".to_owned();
     for row in screen.axes() {
@@ -21,7 +21,7 @@ pub(super) fn transform(screen: &Screen, style: Style) -> String {
     out
 }
 
-/// Appends a text.
+/// Appends a text on the image plane.
 pub(super) fn write(out: &mut String, text: &Text<'_>, style: Style) {
     let digits = |inset: f64| {
         let mut out = String::new();
@@ -41,7 +41,7 @@ pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: S
 }
 
 fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
-    // POV-Ray refuses an empty text.
+    // POV-Ray refuses an empty text, so a dash replaces it.
     let said = if text.says.trim().is_empty() { "-" } else { &text.says };
     let said = text::string(said);
     let (x, height, align) = (short(text.x), length(text.height), short(text.align));
@@ -49,7 +49,8 @@ fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
     out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
 }
 
-/// A height in the picture, as SDL. The heights of the edges are known only when POV-Ray renders the picture.
+/// Returns a vertical position in the image plane as an SDL expression. The positions of the upper and lower edge are known only when
+/// POV-Ray renders the picture.
 fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
     match y {
         Vertical::Middle(height) => short(height),
@@ -58,14 +59,14 @@ fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// A coordinate in the image plane, with a precision finer than a pixel.
+/// Formats a coordinate in the image plane, with a precision finer than a pixel.
 fn short(place: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, (place * 1e5).round() / 1e5, 6);
     out
 }
 
-/// A length in the image plane. In a very wide picture, texts are far smaller than the width of the picture.
+/// Formats a length in the image plane. Small lengths get more digits, since texts are far smaller than the width of a very wide picture.
 fn length(length: f64) -> String {
     if length >= 1e-3 {
         return short(length);

@@ -1,8 +1,8 @@
-//! Writes the trails of bodies.
+//! Writes the trails of bodies in SDL.
 //!
-//! The points of a trail are an array, and the macro `Trail` draws the array. In the layout `shared`, each finished
-//! stretch of a trail is a separate file, and a script contains only the rest of the trail. Otherwise each script would
-//! repeat the whole path of a body. The name of a file is the digest of its text, so the text of a file never changes.
+//! The points of a trail are an array, and the macro `Trail` draws the array. In the layout `shared`, each finished stretch of a trail is
+//! a separate file. A script then contains only the remaining part of the trail, and does not repeat the whole path of a body. The name of
+//! a file contains the digest of its text, so the text of a file never changes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -17,20 +17,20 @@ use crate::picture::{Plan, Stretch, Trail};
 use crate::scene::Layout;
 use crate::simulate::Frame;
 
-/// A file that scripts share: a stretch of a trail.
+/// An include file with a stretch of a trail. Several scripts include it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrailFile {
     /// The name of the file: `trail_5f0c1a2b3c4d5e6f.inc`.
     pub name: String,
-    /// The text of the file.
+    /// The SDL text of the file.
     pub text: String,
 }
 
-/// Writes the trails of a scene.
+/// Writes the trails of a scene in SDL.
 pub(super) struct Trails {
     layout: Layout,
     style: Style,
-    /// The digests of the stretches so far, by body, stride and number.
+    /// The digests of all stretches written so far, by index of the body, stride, and number of the stretch.
     words: Mutex<HashMap<(usize, usize, usize), String>>,
 }
 
@@ -46,8 +46,7 @@ impl Trails {
         }
     }
 
-    /// The trail files that the script of a frame includes, except the files that `has` reports as known. `has` is
-    /// called with the name of each file.
+    /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts.
     pub(super) fn files(&self, plan: &Plan, frame: &Frame, has: &dyn Fn(&str) -> bool) -> Vec<TrailFile> {
         let mut files = Vec::new();
         if self.layout == Layout::Shared {
@@ -65,7 +64,7 @@ impl Trails {
         files
     }
 
-    /// The trails with at least two neighbouring points that POV-Ray can tell apart.
+    /// Yields the trails that POV-Ray can draw: those with at least two neighboring points that differ enough.
     fn written(&self, plan: &Plan, frame: &Frame) -> impl Iterator<Item = Trail> {
         let style = self.style;
         let can_write = move |trail: &Trail| {
@@ -99,9 +98,9 @@ impl Trails {
         ));
     }
 
-    /// Appends a part of a trail, from point `first` to point `last`, as an array in the script itself.
+    /// Appends the part of a trail from point `first` to point `last`, as an array in the script itself.
     fn own(&self, out: &mut String, trail: &Trail, first: usize, last: usize) {
-        // If a body has hardly moved, two stretches meet in nearly equal points.
+        // If a body has hardly moved, the part may consist of two equal points, which POV-Ray cannot draw.
         let text = |number: usize| {
             let mut out = String::new();
             self.point(&mut out, trail, number);
@@ -114,7 +113,7 @@ impl Trails {
         }
     }
 
-    /// Appends the call that draws an array of points. `first` is the number of the array's first point in the trail.
+    /// Appends the macro call that draws an array of points. `first` is the index of the array's first point in the trail.
     fn call(&self, out: &mut String, trail: &Trail, points: &str, first: usize) {
         out.push_str(&format!("  Trail({points}, "));
         self.style.length(out, trail.radius_at(first));
@@ -123,7 +122,7 @@ impl Trails {
         out.push_str(")\n");
     }
 
-    /// The points of a trail from `first` to `last`, as an array.
+    /// Returns the points of a trail from `first` to `last`, as an SDL array.
     fn array(&self, trail: &Trail, first: usize, last: usize) -> String {
         let mut out = format!("array[{}] {{\n", last + 1 - first);
         for number in first..=last {
@@ -133,13 +132,13 @@ impl Trails {
         out
     }
 
-    /// Appends a point of a trail, only as precisely as is visible: more digits would make up most of a script.
+    /// Appends a point of a trail, rounded to the precision that is visible. More digits would make up most of a script.
     fn point(&self, out: &mut String, trail: &Trail, number: usize) {
         let step = trail.fineness;
         self.style.point(out, (trail.points[number] / step).round() * step);
     }
 
-    /// The digest in the file name of a stretch.
+    /// Returns the digest of a stretch's text, which is part of the name of its file.
     fn word(&self, trail: &Trail, stretch: &Stretch) -> String {
         let key = (trail.body, stretch.stride, stretch.number);
         let mut words = self.words.lock().unwrap_or_else(PoisonError::into_inner);
@@ -155,7 +154,7 @@ fn file_name(word: &str) -> String {
     format!("trail_{word}.inc")
 }
 
-/// Whether a file name is that of a trail file.
+/// Returns true if a file name is that of a trail file.
 pub fn is_trail_file(name: &str) -> bool {
     let word = name.strip_prefix("trail_").and_then(|name| name.strip_suffix(".inc"));
     let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
