@@ -1,4 +1,4 @@
-//! Frames → a table with a row for each time and body, which `motion.trajectory` reads.
+//! Writes the motion of all bodies as a CSV table with a row for each time and body. A scene can read the table by `motion.trajectory`.
 
 use std::io::Write;
 
@@ -6,7 +6,7 @@ use super::ExportError;
 use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
-/// The columns, with their units.
+/// The column names of the table of bodies, with units.
 pub const HEADER: [&str; 15] = [
     "t [s]",
     "body",
@@ -25,8 +25,8 @@ pub const HEADER: [&str; 15] = [
     "wz [rad/s]",
 ];
 
-/// Writes the poses of all bodies in some frames of a run: centre of mass, orientation as a quaternion, velocity, and angular
-/// velocity in world axes. Every number is the shortest text that reads back as the same bits.
+/// Writes the motion of all bodies in the selected frames: center of mass, orientation as a quaternion, velocity, and angular velocity,
+/// all in world axes. Every number is the shortest text that reads back as the same bits. Returns the number of rows.
 ///
 /// # Errors
 /// If the table cannot be written, or the recording cannot be read.

@@ -1,21 +1,21 @@
-//! Why a run cannot be exported.
+//! The errors of exporting a run.
 
 use std::{fmt, io};
 
 use crate::simulate::SimulateError;
 
-/// Why a run cannot be exported.
+/// The reason why a run cannot be exported.
 #[derive(Debug)]
 pub enum ExportError {
     /// The file cannot be written.
     Io(io::Error),
     /// The run cannot be simulated or read.
     Simulate(SimulateError),
-    /// The file would be larger than its format allows: at least this many bytes.
+    /// The file would be larger than its format allows. It would have at least this many bytes.
     TooLarge(u64),
-    /// The position of a body, a camera or a light exceeds the numbers of the format.
+    /// The location of a body, a camera or a light exceeds the largest number of the format.
     OutOfRange {
-        /// Its name.
+        /// The name of the body, camera or light.
         what: String,
         /// The time of the frame, s.
         time: f64,
@@ -23,7 +23,7 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// How to fix it, where the message does not make that plain.
+    /// Returns advice on how to correct the error. `None` if the message makes it plain.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             ExportError::TooLarge(_) => {

@@ -1,4 +1,4 @@
-//! Impacts → a table with a row for each.
+//! Writes impacts as a CSV table with one row for each.
 
 use std::io::Write;
 
@@ -6,7 +6,7 @@ use super::ExportError;
 use super::table::Table;
 use crate::simulate::Recorded;
 
-/// The columns, with their units.
+/// The column names of the table of impacts, with units.
 pub const EVENT_HEADER: [&str; 13] = [
     "t [s]",
     "body",
@@ -23,9 +23,9 @@ pub const EVENT_HEADER: [&str; 13] = [
     "lost [J]",
 ];
 
-/// Writes each impact: its time, the two bodies, the point of contact, the unit normal from the first to the second, the
-/// impulse on the second, and the lost kinetic energy. The ground is called `ground`. Every number is the shortest text that
-/// reads back as the same bits.
+/// Writes all impacts of a run: the time, the two bodies, the contact point, the unit normal from the first to the second body, the
+/// impulse on the second body, and the lost kinetic energy. The ground has the name `ground`. Every number is the shortest text that reads
+/// back as the same bits. Returns the number of rows.
 ///
 /// # Errors
 /// If the table cannot be written, or the recording cannot be read.

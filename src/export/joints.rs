@@ -1,4 +1,4 @@
-//! Frames → a table with a row for each time and joint: the forces and torques on their bodies.
+//! Writes the constraint forces and torques of joints as a CSV table with a row for each time and joint.
 
 use std::io::Write;
 
@@ -6,12 +6,12 @@ use super::ExportError;
 use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
-/// The columns, with their units.
+/// The column names of the table of joints, with units.
 pub const JOINT_HEADER: [&str; 8] =
     ["t [s]", "joint", "fx [N]", "fy [N]", "fz [N]", "tx [N·m]", "ty [N·m]", "tz [N·m]"];
 
-/// Writes the force of each joint on its second end, and its torque about the point of that end, in world axes; zero while a
-/// body of the joint is absent. Every number is the shortest text that reads back as the same bits.
+/// Writes the force of each joint on its second end, and its torque about the point of that end, in world axes. Both are zero while a body
+/// of the joint is absent. Every number is the shortest text that reads back as the same bits. Returns the number of rows.
 ///
 /// # Errors
 /// If the table cannot be written, or the recording cannot be read.
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// A recording that is read back equals the simulation, also where nothing changes.
+    /// The recording stores only changes. Its table must contain a row for each frame, even where nothing changes.
     #[test]
     fn a_mass_that_hangs_has_a_row_of_its_weight_at_each_time() {
         let scene = Scene::parse(

@@ -1,4 +1,4 @@
-//! Frames → data for other programs.
+//! Exports frames as tables and models for other programs.
 
 mod bodies;
 mod error;

@@ -1,4 +1,4 @@
-//! Particles → a table with a row for each time and particle.
+//! Writes particles as a CSV table with a row for each time and particle.
 
 use std::io::Write;
 
@@ -6,15 +6,15 @@ use super::ExportError;
 use super::table::Table;
 use crate::simulate::{Recorded, Selection};
 
-/// The columns, with their units.
+/// The column names of the table of particles, with units.
 pub const PARTICLE_HEADER: [&str; 11] = [
     "t [s]", "emitter", "particle", "x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]",
     "born [s]", "dies [s]",
 ];
 
-/// Writes the living particles in some frames of a run: the emitter, the number of the particle (constant for its life), place,
-/// velocity, and the times of its birth and death; the latter is empty for a particle that stays. Every number is the shortest
-/// text that reads back as the same bits.
+/// Writes the living particles in the selected frames of a run: the emitter, the number of the particle (constant during its life), its
+/// location and velocity, and the times of its birth and death. The time of death is empty for a particle that lives forever. Every number
+/// is the shortest text that reads back as the same bits. Returns the number of rows.
 ///
 /// # Errors
 /// If the table cannot be written, or the recording cannot be read.

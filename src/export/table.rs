@@ -1,4 +1,4 @@
-//! A table of comma-separated values, written row by row.
+//! Writes a CSV table (comma-separated values) row by row.
 
 use std::io::{self, Write};
 
@@ -6,26 +6,26 @@ use csv::{Writer, WriterBuilder};
 
 use super::ExportError;
 
-/// A table of comma-separated values. Every number is the shortest text that reads back as the same bits.
+/// A CSV table that is being written. Every number is the shortest text that reads back as the same bits.
 pub(super) struct Table<W: Write> {
     csv: Writer<W>,
     rows: usize,
 }
 
 impl<W: Write> Table<W> {
-    /// A table with one row: the names of the columns.
+    /// Begins a table with a row of column names.
     pub(super) fn new(out: W, header: &[&str]) -> Result<Table<W>, ExportError> {
         let mut csv = WriterBuilder::new().from_writer(out);
         csv.write_record(header).map_err(io::Error::from)?;
         Ok(Table { csv, rows: 0 })
     }
 
-    /// Adds a text to the current row.
+    /// Appends a text to the current row.
     pub(super) fn text(&mut self, text: &str) -> Result<(), ExportError> {
         Ok(self.csv.write_field(text).map_err(io::Error::from)?)
     }
 
-    /// Adds numbers to the current row.
+    /// Appends numbers to the current row.
     pub(super) fn numbers(&mut self, numbers: &[f64]) -> Result<(), ExportError> {
         numbers.iter().try_for_each(|number| self.text(&number.to_string()))
     }

@@ -1,9 +1,10 @@
-//! The animation of nodes.
+//! Describes the animation of nodes in a glTF document.
 
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
 use super::motion::{Motion, Way};
 
-/// The animation of the nodes, and the size of its keys in bytes, which are one view. No animation if nothing moves.
+/// Makes the animation of the nodes, and returns the size of its keyframes in bytes. All keyframes are in the buffer view `view`. The
+/// animation is `None` if nothing moves.
 pub(super) fn animation(
     motion: &Motion,
     nodes: &[u32],
@@ -31,7 +32,7 @@ pub(super) fn animation(
     let input = add("SCALAR", 1, count, end(motion.times().first()), end(motion.times().last()));
     let mut animation = Animation { name: "motion".to_owned(), channels: Vec::new(), samplers: Vec::new() };
     for (way, &node) in motion.ways().iter().zip(nodes) {
-        // In the order of `Motion::numbers`.
+        // The order must be that of `Motion::numbers`, which yields the keyframes.
         let parts = [
             ("translation", "VEC3", 3, &way.translations),
             ("rotation", "VEC4", 4, &way.rotations),
@@ -55,7 +56,7 @@ pub(super) fn animation(
 }
 
 impl Animation {
-    /// Connects a sampler to a target.
+    /// Adds a channel, which applies a sampler's keyframes to a property of a node.
     fn add(&mut self, sampler: Sampler, target: Target) {
         self.channels.push(Channel { sampler: self.samplers.len() as u32, target });
         self.samplers.push(sampler);

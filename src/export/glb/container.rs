@@ -1,4 +1,4 @@
-//! The file as bytes: a header, a chunk of JSON, a chunk of numbers.
+//! Writes the bytes of a `.glb` file: a header, a chunk of JSON, and a chunk of binary numbers.
 
 use std::io::{self, Write};
 
@@ -7,10 +7,10 @@ use super::geometry::Geometry;
 use super::motion::Motion;
 use crate::export::ExportError;
 
-/// The largest file, bytes: the format stores its length in 32 bits.
+/// The size of the largest possible `.glb` file, bytes. The format stores the length of the file in 32 bits.
 pub(super) const LARGEST: u64 = u32::MAX as u64;
 
-/// Writes a file, and returns its length in bytes. A file that would be too large is refused before anything is written.
+/// Writes a `.glb` file, and returns its length in bytes. A file that would be too large is refused before anything is written.
 pub(super) fn write(
     document: &Document,
     geometry: &Geometry,
@@ -18,7 +18,7 @@ pub(super) fn write(
     out: &mut impl Write,
 ) -> Result<u64, ExportError> {
     let mut json = serde_json::to_vec(document).map_err(io::Error::from)?;
-    // The length of a chunk is a multiple of four.
+    // The length of a chunk must be a multiple of four.
     json.resize(json.len().next_multiple_of(4), b' ');
     let binary = document.buffers.first().map_or(0, |buffer| buffer.byte_length);
     let chunk_of_numbers = if binary > 0 { 8 + binary } else { 0 };
@@ -27,7 +27,7 @@ pub(super) fn write(
     out.write_all(b"glTF")?;
     out.write_all(&2u32.to_le_bytes())?;
     out.write_all(&length.to_le_bytes())?;
-    // The whole fits, and so do its parts.
+    // These casts are safe: the length of the whole file fits into 32 bits, so the lengths of its chunks fit as well.
     out.write_all(&(json.len() as u32).to_le_bytes())?;
     out.write_all(b"JSON")?;
     out.write_all(&json)?;
@@ -39,7 +39,7 @@ pub(super) fn write(
     Ok(total)
 }
 
-/// Writes the numbers of the buffer's views.
+/// Writes the binary numbers: the triangles, and the keyframes unless the scene is `still`.
 fn numbers(geometry: &Geometry, motion: &Motion, still: bool, out: &mut impl Write) -> io::Result<()> {
     for number in geometry.vertices.iter().flatten() {
         out.write_all(&number.to_le_bytes())?;

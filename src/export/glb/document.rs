@@ -1,8 +1,8 @@
-//! The part of the glTF 2.0 format that jabuka uses.
+//! The part of the glTF 2.0 format that jabuka uses, as types for serde.
 
 use serde::Serialize;
 
-/// The whole document except the binary numbers. The format forbids empty lists.
+/// A glTF document without its binary numbers. The format forbids empty lists, so they are left out.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {
@@ -34,14 +34,14 @@ pub(super) struct Asset {
     pub(super) extras: Extras,
 }
 
-/// Additional data, which readers may show or ignore.
+/// Additional data about the scene, which viewers may show or ignore.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Extras {
     pub(super) title: String,
-    /// Frames per second of the scene's time.
+    /// The number of frames per second of simulated time.
     pub(super) frame_rate: f64,
-    /// How many times faster than real time the animation is.
+    /// The ratio of the simulated time to the time of the animation: 2 for an animation at twice the real speed.
     pub(super) faster: f64,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct SceneOfNodes {
     pub(super) nodes: Vec<u32>,
 }
 
-/// A node: scaled, then turned, then moved, relative to its parent.
+/// A glTF node. Its transform relative to its parent is a scaling, then a rotation, then a translation.
 #[derive(Default, Serialize)]
 pub(super) struct Node {
     pub(super) name: String,
@@ -117,7 +117,7 @@ pub(super) struct Shading {
     pub(super) roughness_factor: f64,
 }
 
-/// A camera. It looks along -z of its node, with y up.
+/// A camera. It looks along −z of its node, with y up.
 #[derive(Serialize)]
 pub(super) struct Camera {
     pub(super) name: String,
@@ -133,7 +133,7 @@ pub(super) enum CameraLens {
     Orthographic { orthographic: Orthographic },
 }
 
-/// Angles are in radians.
+/// A perspective projection. `yfov` is the vertical angle of view, rad; `znear` and `zfar` are the distances of the clipping planes, m.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Perspective {
@@ -143,7 +143,7 @@ pub(super) struct Perspective {
     pub(super) zfar: f64,
 }
 
-/// An orthographic camera, given by half its width and half its height.
+/// An orthographic projection. `xmag` and `ymag` are half the width and half the height of the view, m.
 #[derive(Serialize)]
 pub(super) struct Orthographic {
     pub(super) xmag: f64,
@@ -152,10 +152,10 @@ pub(super) struct Orthographic {
     pub(super) zfar: f64,
 }
 
-/// The extension of lights.
+/// The name of the glTF extension for lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
 
-/// The data of the lights extension for an object.
+/// The data that the glTF extension for lights adds to a document or a node.
 #[derive(Serialize)]
 pub(super) struct OfLights<T> {
     #[serde(rename = "KHR_lights_punctual")]
@@ -167,7 +167,7 @@ pub(super) struct Lights {
     pub(super) lights: Vec<Light>,
 }
 
-/// The number of the light of a node.
+/// The light of a node, as an index into the document's list of lights.
 #[derive(Serialize)]
 pub(super) struct LightOfNode {
     pub(super) light: u32,
@@ -178,9 +178,9 @@ pub(super) struct Light {
     pub(super) name: String,
     #[serde(rename = "type")]
     pub(super) kind: &'static str,
-    /// Linear, at most 1.
+    /// The linear color of the light. The largest component is 1.
     pub(super) color: [f64; 3],
-    /// Candela for a point light, lux for a directional one.
+    /// The intensity: in candela for a point light, in lux for a directional light.
     pub(super) intensity: f64,
 }
 
@@ -203,17 +203,17 @@ pub(super) struct Target {
     pub(super) path: &'static str,
 }
 
-/// Values at times.
+/// The keyframes of an animated property: accessors of the times (`input`) and of the values (`output`).
 #[derive(Serialize)]
 pub(super) struct Sampler {
     pub(super) input: u32,
-    /// The interpolation between two times. If it is absent, glTF's default LINEAR applies.
+    /// The interpolation between two keyframes. If it is absent, glTF's default LINEAR applies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) interpolation: Option<&'static str>,
     pub(super) output: u32,
 }
 
-/// Numbers of a view, from a byte offset on.
+/// A list of numbers or vectors in a buffer view, from a byte offset on.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
@@ -229,9 +229,9 @@ pub(super) struct Accessor {
     pub(super) max: Vec<f64>,
 }
 
-/// `f32`.
+/// glTF's code for the component type `f32`.
 pub(super) const FLOAT: u32 = 5126;
-/// `u32`.
+/// glTF's code for the component type `u32`.
 pub(super) const UNSIGNED_INT: u32 = 5125;
 
 /// A contiguous range of bytes in the buffer.

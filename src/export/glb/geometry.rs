@@ -1,4 +1,4 @@
-//! The forms of a scene; each is stored once.
+//! Stores the triangles of a scene. Each base shape (a shape in a standard size, called form) is stored once, and bodies scale it.
 
 use std::collections::HashMap;
 
@@ -12,20 +12,21 @@ const VERTICES: u32 = 0;
 const INDICES: u32 = 1;
 const KEYS: u32 = 2;
 
-/// The numbers of the accessors of a form.
+/// The accessors of a base shape's positions, normals and triangle indices, by their index in the document.
 #[derive(Clone, Copy)]
 pub(super) struct Known {
     pub(super) attributes: Attributes,
     pub(super) indices: u32,
 }
 
-/// The triangles of all forms so far.
+/// The triangles of all base shapes that have been added so far.
 pub(super) struct Geometry {
     detail: Detail,
-    /// Positions and normals.
+    /// For each base shape, first the positions of its vertices, then their normals.
     pub(super) vertices: Vec<[f32; 3]>,
     pub(super) indices: Vec<u32>,
-    /// The map is only used for look-ups, never iterated. A form without triangles is `None`.
+    /// The accessors of each base shape, `None` for a shape without triangles. The map is never iterated, so its random order does not
+    /// matter.
     known: HashMap<Form, Option<Known>>,
 }
 
@@ -34,7 +35,7 @@ impl Geometry {
         Geometry { detail, vertices: Vec::new(), indices: Vec::new(), known: HashMap::new() }
     }
 
-    /// The accessors of a form, which is added if it is new.
+    /// Returns the accessors of a base shape. Adds the shape if it is new.
     pub(super) fn form(&mut self, form: &Form, accessors: &mut Vec<Accessor>) -> Option<Known> {
         if let Some(known) = self.known.get(form) {
             return *known;
@@ -44,7 +45,8 @@ impl Geometry {
         known
     }
 
-    /// A form cut along the borders of a pattern. Gives for each color the accessors of the parts with that color.
+    /// Cuts a base shape along the borders of a pattern. Returns, for each color of the pattern, the accessors of the triangles with that
+    /// color. `to_pattern` is the transform from the shape to the pattern.
     pub(super) fn split(
         &mut self,
         form: &Form,
@@ -56,7 +58,7 @@ impl Geometry {
         Some(parts.into_iter().map(|part| self.add(part, accessors)).collect())
     }
 
-    /// Adds triangles, unless there are none.
+    /// Adds triangles, and returns their accessors. `None` if there are no triangles.
     fn add(&mut self, triangles: Triangles, accessors: &mut Vec<Accessor>) -> Option<Known> {
         if triangles.indices.is_empty() {
             return None;
@@ -88,12 +90,12 @@ impl Geometry {
         Some(Known { attributes: Attributes { position: first, normal: first + 1 }, indices: first + 2 })
     }
 
-    /// The number of the view with the keys. Empty views are left out.
+    /// Returns the index of the buffer view with the keyframes. Empty views are left out, so the index is 0 if there are no triangles.
     pub(super) fn keys(&self) -> u32 {
         if self.vertices.is_empty() { 0 } else { KEYS }
     }
 
-    /// The views of the buffer; the last one has this many bytes of keys.
+    /// Returns the views of the buffer: vertices, indices and keyframes. `keys` is the size of the keyframes in bytes.
     pub(super) fn views(&self, keys: u64) -> Vec<BufferView> {
         let (vertices, indices) = (12 * self.vertices.len() as u64, 4 * self.indices.len() as u64);
         let view = |byte_offset, byte_length, byte_stride, target| BufferView {
@@ -103,7 +105,7 @@ impl Geometry {
             byte_stride,
             target,
         };
-        // Targets: ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER.
+        // The numbers 34962 and 34963 are glTF's codes for the targets ARRAY_BUFFER and ELEMENT_ARRAY_BUFFER.
         let all = [
             view(0, vertices, Some(12), Some(34_962)),
             view(vertices, indices, None, Some(34_963)),
@@ -113,7 +115,7 @@ impl Geometry {
     }
 }
 
-/// The minimum and the maximum of each coordinate.
+/// Returns the smallest and the largest value of each coordinate.
 fn bounds(positions: &[[f32; 3]]) -> (Vec<f64>, Vec<f64>) {
     let of = |pick: fn(f32, f32) -> f32| {
         let axis = |i: usize| positions.iter().map(|position| position[i]).reduce(pick).map(f64::from);

@@ -1,4 +1,4 @@
-//! Nodes for springs and joints: one for each part, stretched from end to end.
+//! Makes nodes for springs and joints: one node for each part, stretched from end to end.
 //!
 //! A part has the size 0 while its bodies are absent or its ends coincide.
 
@@ -14,14 +14,14 @@ use crate::surface::Form;
 /// The number of straight pieces of a rope.
 const PIECES: usize = 24;
 
-/// A node for a part of a spring or of a joint.
+/// The node of a part of a spring or a joint: its name, base shape and color.
 pub(super) struct LinkNode {
     pub(super) name: String,
     pub(super) form: Form,
     pub(super) color: Color,
 }
 
-/// Adds the tracks of springs and joints to a motion; returns their nodes, in the order of the tracks.
+/// Records the motion of springs and joints, and appends it to `motion`. Returns their nodes in the same order.
 pub(super) fn nodes(
     run: &Recorded<'_>,
     selection: &Selection,
@@ -62,10 +62,10 @@ pub(super) fn nodes(
     Ok(nodes)
 }
 
-/// The place and size of a node.
+/// The pose and size of a spring's or joint's part in the current frame.
 struct Placed {
     pose: Pose,
-    /// The scale along its own axes, m; y is the axis of the form.
+    /// The scale along the part's own axes, m. The y axis is the axis of the base shape.
     size: DVec3,
 }
 
@@ -77,7 +77,7 @@ impl Default for Placed {
 }
 
 impl Placed {
-    /// Stretches a form with y from -1 to 1 and the radius 1 from one point to another. It turns the shortest way from its
+    /// Stretches a base shape of radius 1 with y from −1 to 1 from one point to another. The shape turns the shortest way from its
     /// previous orientation, so that it does not spin about its axis.
     fn stretch(&mut self, [from, to]: [DVec3; 2], radius: f64) {
         let half = (to - from) / 2.0;
@@ -91,7 +91,8 @@ impl Placed {
     }
 }
 
-/// Places the nodes of a part; they keep their places while the part is not drawn.
+/// Sets the poses and sizes of a part's nodes in a frame. Without a `form`, the part is not drawn: its nodes keep their locations and get
+/// the size 0.
 fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
     nodes.iter_mut().for_each(|node| node.size = DVec3::ZERO);
     let [first, ..] = nodes else { return };
@@ -112,8 +113,8 @@ fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
     }
 }
 
-/// The pieces of a rope, one for each node. Each piece covers an equal number of the rope's segments; a straight rope is
-/// divided evenly.
+/// Yields the ends of a rope's pieces, one piece for each node. Each piece covers an equal number of the rope's segments. A straight rope
+/// is divided evenly.
 fn chain(points: &[DVec3]) -> impl Iterator<Item = [DVec3; 2]> {
     let last = points.len() - 1;
     #[allow(clippy::cast_precision_loss, reason = "a rope has few points")]

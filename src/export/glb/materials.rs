@@ -1,4 +1,4 @@
-//! The looks of bodies as glTF materials.
+//! Converts the looks of bodies to glTF materials.
 
 use std::collections::HashMap;
 
@@ -6,27 +6,27 @@ use super::document::{Material, Shading};
 use crate::scene::{Color, Finish, Look, Scene};
 use crate::surface::{Appearance, Motif, appearance, ground};
 
-/// The material of an object.
+/// The key of a glTF material: what it colors, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Paint {
     pub(super) what: What,
-    /// Whether its back is visible as well.
+    /// True if the back of the surface is visible as well.
     pub(super) both_sides: bool,
-    /// Which color of its pattern; `None` for their mean.
+    /// The index of a color of the pattern. `None` for the mean of the pattern's colors.
     pub(super) color: Option<usize>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum What {
-    /// The material with this number in the scene.
+    /// The material with this index in the scene.
     Material(usize),
-    /// A color in sRGB, by the bits of its components.
+    /// An sRGB color, as the bits of its three components.
     Color([u64; 3]),
-    /// A spring or a joint with a color in sRGB, by the bits of its components.
+    /// The sRGB color of a spring or joint, as the bits of its three components.
     Link([u64; 3]),
     /// The ground of the scene's surroundings.
     Ground,
-    /// A look that only POV-Ray can draw.
+    /// The unknown look of a body without a material, which only POV-Ray code defines.
     Unknown,
 }
 
@@ -36,16 +36,16 @@ impl From<Color> for What {
     }
 }
 
-/// The paints in use.
+/// The glTF materials of a document.
 #[derive(Default)]
 pub(super) struct Paints {
     pub(super) materials: Vec<Material>,
-    /// The map is only used for look-ups, never iterated.
+    /// The index of each material in `materials`. The map is never iterated, so its random order does not matter.
     known: HashMap<Paint, u32>,
 }
 
 impl Paints {
-    /// The number of a paint, which is added if it is new.
+    /// Returns the index of a material. Adds the material if it is new.
     pub(super) fn number(&mut self, paint: Paint, scene: &Scene) -> u32 {
         *self.known.entry(paint).or_insert_with(|| {
             self.materials.push(material(paint, scene));
@@ -63,7 +63,7 @@ fn material(paint: Paint, scene: &Scene) -> Material {
     shaded(name, &look, paint.both_sides)
 }
 
-/// The material of an object, and a name for it.
+/// Returns the name of a material, and its appearance in a drawing without POV-Ray.
 pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
     let preset = scene.environment.preset;
     let satin =
@@ -82,7 +82,7 @@ pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
 
 fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {
     let color @ [red, green, blue, cover] = appearance.mean();
-    // A luminous surface reflects nothing, otherwise it would be brighter than its color.
+    // The base color of a luminous surface is black. If it also reflected light, it would be brighter than its color.
     let base = if appearance.emissive { [0.0, 0.0, 0.0, cover] } else { color };
     Material {
         name,

@@ -1,4 +1,4 @@
-//! Forms with their paints: the meshes of glTF, which bodies share.
+//! Combines base shapes and materials to glTF meshes, which several bodies can share.
 
 use std::collections::HashMap;
 
@@ -10,17 +10,17 @@ use super::materials::{self, Paint, Paints, What};
 use crate::scene::Scene;
 use crate::surface::{Detail, Form, Motif, Piece};
 
-/// The meshes so far.
+/// The glTF meshes of a document, with their materials and triangles.
 pub(super) struct Meshes {
     pub(super) meshes: Vec<Mesh>,
-    /// The number of each mesh; the map is only used for look-ups, never iterated.
+    /// The index of each mesh in `meshes`. The map is never iterated, so its random order does not matter.
     known: HashMap<(Form, Paint, Option<Cut>), u32>,
     pub(super) paints: Paints,
     pub(super) accessors: Vec<Accessor>,
     pub(super) geometry: Geometry,
 }
 
-/// The place of a form in a pattern, by the bits of the transform between them.
+/// The transform from a base shape to a pattern, as the bits of its twelve `f32` numbers.
 type Cut = [u32; 12];
 
 impl Meshes {
@@ -34,8 +34,8 @@ impl Meshes {
         }
     }
 
-    /// The number of the mesh for a piece; `None` if it has no triangles. The pattern has the given size, m. Without a
-    /// size, or if the pattern would be invisible, the mesh has the mean of its colors.
+    /// Returns the index of the mesh for a piece of a body. `None` if the piece has no triangles. `size` is the size of the material's
+    /// pattern, m. Without a size, or if the pattern would be invisible, the mesh has the mean of the pattern's colors.
     pub(super) fn number(
         &mut self,
         scene: &Scene,
@@ -80,7 +80,8 @@ impl Meshes {
     }
 }
 
-/// The place of a piece in a pattern of this size, m. The pattern is fixed to the body, or for a plane to the plane itself.
+/// Returns the transform from a piece's base shape to a pattern of this size, m. The pattern is fixed to the body. On a plane, it is fixed
+/// to the plane itself.
 #[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
 fn cut(piece: &Piece, size: f64) -> Cut {
     let scale = piece.scale / size;

@@ -1,21 +1,21 @@
-//! Frames → a binary glTF 2.0 file with all bodies and their animation, cameras and lights, for Blender, three.js and others.
+//! Exports frames as a binary glTF 2.0 file for Blender, three.js and other programs. The file contains all bodies with their animation,
+//! cameras and lights.
 //!
 //! | what | where |
 //! | --- | --- |
 //! | the poses of the bodies in all frames | `motion` |
-//! | the times at which they are present | `shown` |
+//! | the times at which bodies are present | `shown` |
 //! | the poses and properties of cameras and lights | `sight` |
 //! | the poses and lengths of springs and joints | `links` |
-//! | triangles, once for each form | `geometry` |
-//! | looks | `materials` |
-//! | forms with their looks | `meshes` |
+//! | triangles, once for each base shape | `geometry` |
+//! | materials | `materials` |
+//! | base shapes with their materials | `meshes` |
 //! | the nodes, and the whole document | `model` |
 //! | the animation of nodes | `channels` |
 //! | the types of glTF | `document` |
-//! | both chunks as bytes | `container` |
+//! | both chunks of the file as bytes | `container` |
 //!
-//! The file uses metres and seconds, with y up. Everything is below one node, so that programs with other units can scale that
-//! node.
+//! The file uses meters and seconds, with y up. Everything is below one node, so that programs with other units can scale that node.
 //! Vertices and poses are `f32`, as glTF requires.
 
 mod channels;
@@ -39,22 +39,22 @@ use self::sight::Sight;
 use super::ExportError;
 use crate::simulate::{Recorded, Selection};
 
-/// Figures on the exported file.
+/// A summary of the exported file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exported {
     /// The number of frames.
     pub frames: usize,
     /// The size of the file, bytes.
     pub bytes: u64,
-    /// How many times faster than real time the animation is; 1 if films can have the scene's frame rate.
+    /// The ratio of the simulated time to the time of the animation. It is 1 if films can have the scene's frame rate.
     pub faster: f64,
 }
 
-/// Writes the bodies, cameras and lights of a run with their motion in some frames. Only moving things get keys, at most 28
-/// bytes for each frame. glTF cannot animate the angle of view, so that of the first frame is kept.
+/// Writes a `.glb` file with the bodies, cameras and lights of a run and their motion in the selected frames. Only moving objects get
+/// keyframes. glTF cannot animate the angle of view, so the angle of the first frame is kept.
 ///
 /// # Errors
-/// If the file cannot be written, the recording cannot be read, or the format cannot hold the scene; then nothing is written.
+/// If the file cannot be written, the recording cannot be read, or the format cannot hold the scene. In the last case, nothing is written.
 pub fn write_glb(
     run: &Recorded<'_>,
     selection: &Selection,

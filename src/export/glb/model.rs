@@ -1,4 +1,4 @@
-//! The bodies, cameras and lights of a scene as nodes with their animation.
+//! Builds the glTF document: the bodies, cameras and lights of a scene as nodes with their animation.
 
 use glam::{DQuat, DVec3};
 
@@ -15,22 +15,22 @@ use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
 use crate::surface::{Detail, Form, Piece, pieces};
 
-/// With more pieces than this, each piece has fewer triangles.
+/// The number of pieces of bodies above which each piece gets fewer triangles.
 const MANY: usize = 200;
 
 /// The name of the root node.
 const ROOT: &str = "jabuka";
 
-/// A document under construction.
+/// A glTF document under construction.
 struct Model<'a> {
     scene: &'a Scene,
-    /// Surroundings, cameras and lights.
+    /// The surroundings, cameras and lights.
     sight: Sight,
     nodes: Vec<Node>,
     meshes: Meshes,
 }
 
-/// Turns a scene with known motion into a document and its triangles.
+/// Builds the glTF document of a scene whose motion is recorded. Also returns its triangles.
 pub(super) fn model(
     scene: &Scene,
     sight: Sight,
@@ -67,13 +67,14 @@ impl Model<'_> {
         self.nodes.len() as u32 - 1
     }
 
-    /// Adds the node of a body, with its pieces below it. A single piece at the body's own place becomes the node itself.
+    /// Adds the node of a body, with its pieces as child nodes. A single piece at the body's origin needs no child: the body's node draws
+    /// it.
     fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
         let material = body.material.map_or(What::Unknown, What::Material);
-        // A pattern is made for a ball of radius 1. A body gets the pattern of a ball with its volume.
+        // A pattern is designed for a ball of radius 1. A body gets the pattern of a ball with the same volume.
         let ball = body.shape.radius_of_ball();
         for mut piece in pieces {
             let mut pattern = ball;
@@ -86,7 +87,8 @@ impl Model<'_> {
             let mesh = self.meshes.number(self.scene, &piece, material, pattern);
             let centred = piece.location == DVec3::ZERO && piece.orientation == DQuat::IDENTITY;
             let scale = Some(piece.scale.to_array());
-            // A node has only one scale. If the body comes and goes, the scale shows its presence.
+            // A node has only one scale. For a body that comes and goes, that scale shows its presence (0 or 1), so its piece needs a
+            // child node.
             if single && centred && way.shown.is_always() {
                 let node = &mut self.nodes[number as usize];
                 (node.mesh, node.scale) = (mesh, scale);
@@ -100,7 +102,7 @@ impl Model<'_> {
         number
     }
 
-    /// Makes the square of a plane as large as needed, at the centre of the scene.
+    /// Scales and moves the square that shows an infinite plane, so that it extends beyond the scene and is centered on it.
     fn spread(&self, piece: &mut Piece, way: &Way) {
         let normal = piece.orientation * DVec3::Y;
         let Pose { location, orientation } = way.start;
@@ -109,12 +111,12 @@ impl Model<'_> {
         piece.scale = DVec3::splat(self.half_of_ground());
     }
 
-    /// Half the edge of an infinite plane.
+    /// Returns half the edge of the square that shows an infinite plane, m.
     fn half_of_ground(&self) -> f64 {
         1.5 * self.sight.stage.size
     }
 
-    /// Adds the ground of the surroundings.
+    /// Adds the ground of the surroundings. Returns its node, or `None` if the scene has no ground.
     fn ground(&mut self) -> Option<u32> {
         let ground = self.sight.stage.ground?;
         let scale = DVec3::splat(self.half_of_ground());
@@ -126,7 +128,7 @@ impl Model<'_> {
         Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(place) }))
     }
 
-    /// Adds the cameras and the lights, with these tracks.
+    /// Adds the nodes of the cameras and the lights. `ways` is their recorded motion.
     fn beside(&mut self, ways: &[Way]) -> Vec<u32> {
         let cameras = self.sight.cameras.iter().enumerate();
         let cameras = cameras.map(|(number, camera)| Node {
@@ -149,7 +151,7 @@ impl Model<'_> {
         (first..self.nodes.len() as u32).collect()
     }
 
-    /// Adds a part of a spring or of a joint.
+    /// Adds the node of a part of a spring or joint.
     fn link(&mut self, link: &LinkNode, way: &Way) -> u32 {
         let (location, orientation) = (DVec3::ZERO, DQuat::IDENTITY);
         let piece = Piece { form: link.form.clone(), scale: DVec3::ONE, location, orientation, color: None };
@@ -158,7 +160,7 @@ impl Model<'_> {
         self.node(Node { name, mesh, scale: Some(way.size.to_array()), ..at(way.start) })
     }
 
-    /// The title of the scene.
+    /// Returns the title of the scene, or else its name.
     fn title(&self) -> String {
         self.scene.title.as_ref().unwrap_or(&self.scene.name).clone()
     }
@@ -194,7 +196,7 @@ impl Model<'_> {
     }
 }
 
-/// A node at a place.
+/// Makes a node with this pose.
 fn at(pose: Pose) -> Node {
     let Pose { location, orientation } = pose;
     Node {

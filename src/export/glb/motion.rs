@@ -1,4 +1,4 @@
-//! The poses of all moving objects in all frames: first the bodies, then the rest.
+//! Records the poses of all moving objects in all frames: first bodies, then cameras, lights, springs and joints.
 
 use glam::{DQuat, DVec3};
 
@@ -9,44 +9,45 @@ use crate::picture::Pace;
 use crate::scene::Body;
 use crate::simulate::{Recorded, Selection};
 
-/// The motion of all bodies in the selected frames, and of cameras, lights, springs and joints.
+/// The motion of all bodies, cameras, lights, springs and joints in the selected frames.
 pub(super) struct Motion {
     /// The times of the frames in the animation, s.
     times: Vec<f32>,
-    /// Seconds of the animation for each second of the scene.
+    /// The ratio of the time of the animation to the simulated time.
     slower: f64,
     ways: Vec<Way>,
-    /// The remaining space in the file, bytes.
+    /// The size of the binary data in the file so far, checked against the largest file.
     pub(super) room: Room,
 }
 
-/// A location, m, and an orientation.
+/// A location in world axes, m, and an orientation.
 #[derive(Clone, Copy)]
 pub(super) struct Pose {
     pub(super) location: DVec3,
     pub(super) orientation: DQuat,
 }
 
-/// The track of an object.
+/// The recorded motion of one object.
 pub(super) struct Way {
-    /// The pose in the first frame.
+    /// The pose of the object in the first frame.
     pub(super) start: Pose,
-    /// Its locations in all frames, m; empty if they are all the same.
+    /// The locations in all frames, m, with three numbers for each. Empty if the location never changes.
     pub(super) translations: Vec<f32>,
-    /// Its orientations in all frames, each x, y, z, w; empty if they are all the same.
+    /// The orientations in all frames as quaternions x, y, z, w. Empty if the orientation never changes.
     pub(super) rotations: Vec<f32>,
-    /// Its size along its own axes in the first frame.
+    /// The size of the object along its own axes in the first frame.
     pub(super) size: DVec3,
-    /// Its sizes in all frames; empty if they are all the same.
+    /// The sizes in all frames, with three numbers for each. Empty if the size never changes.
     pub(super) scales: Vec<f32>,
-    /// The times at which it is present.
+    /// The times at which the object is present.
     pub(super) shown: Shown,
-    /// Its last orientation. Of the two signs of a quaternion, the one nearer to the orientation before.
+    /// The orientation in the latest frame. The quaternions q and −q are the same orientation; this is the one nearer to the previous
+    /// frame's.
     last: DQuat,
 }
 
 impl Motion {
-    /// Records the selected frames of a run.
+    /// Records the motion of the bodies in the selected frames of a run.
     pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<Motion, ExportError> {
         let scene = run.scene();
         let count = selection.count_within(scene.simulation.frames());
@@ -60,7 +61,7 @@ impl Motion {
         room.take(count)?;
         let mut bodies = Recorder::new(count);
         let pose = |location, orientation: DQuat| Pose { location, orientation: orientation.normalize() };
-        // An absent body stays at its last place, or waits where it will appear.
+        // An absent body stays at its last pose, or waits at the pose at which it will appear.
         let start = |body: &Body| pose(body.start.location, body.start.orientation);
         let mut poses: Vec<Pose> = scene.bodies.iter().map(start).collect();
         for exposure in run.exposures(selection) {
@@ -78,27 +79,28 @@ impl Motion {
         Ok(Motion { times, slower, ways: bodies.ways, room })
     }
 
-    /// Adds the tracks of other objects.
+    /// Appends the motion of cameras, lights, springs or joints.
     pub(super) fn append(&mut self, recorder: Recorder) {
         self.ways.extend(recorder.ways);
     }
 
-    /// The times of the frames in the animation, s.
+    /// Returns the times of the frames in the animation, s.
     pub(super) fn times(&self) -> &[f32] {
         &self.times
     }
 
-    /// How many times faster than real time the animation is.
+    /// Returns the ratio of the simulated time to the time of the animation.
     pub(super) fn faster(&self) -> f64 {
         1.0 / self.slower
     }
 
-    /// The tracks of the bodies, in the order of the scene, and of the added objects.
+    /// Returns the motion of all bodies, in the order of the scene, and then of the appended objects.
     pub(super) fn ways(&self) -> &[Way] {
         &self.ways
     }
 
-    /// All numbers in the order of the file: the times, and for each track its locations, orientations, sizes and presence.
+    /// Yields all numbers in the order of the file: the times of the frames, and for each object its locations, orientations, sizes and
+    /// presence.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
         let ways = self.ways.iter().flat_map(|Way { translations, rotations, scales, shown, .. }| {
             [&translations[..], &rotations[..], &scales[..], &shown.times[..], &shown.scales[..]]
@@ -110,18 +112,19 @@ impl Motion {
 /// Records the poses of several objects, frame after frame.
 pub(super) struct Recorder {
     ways: Vec<Way>,
-    /// The number of frames so far, and in total.
+    /// The number of frames recorded so far (`known`), and the total number of frames (`count`).
     known: usize,
     count: usize,
 }
 
 impl Recorder {
-    /// For this many frames.
+    /// Makes an empty recorder for this number of frames.
     pub(super) fn new(count: usize) -> Recorder {
         Recorder { ways: Vec::new(), known: 0, count }
     }
 
-    /// Adds the poses of all objects in a frame, if a file has room for them; the names are for the error.
+    /// Records the poses of all objects in a frame. Fails if the file would become too large or a location is not finite as `f32`. `name`
+    /// returns the name of an object for the error.
     pub(super) fn add(
         &mut self,
         poses: impl Iterator<Item = Pose>,
@@ -132,7 +135,7 @@ impl Recorder {
         self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, room)
     }
 
-    /// Adds the poses of all objects in a frame, and their sizes along their own axes.
+    /// Records the poses of all objects in a frame, and their sizes along their own axes. Fails like [`Recorder::add`].
     pub(super) fn add_sized(
         &mut self,
         poses: impl Iterator<Item = (Pose, DVec3)>,
@@ -160,7 +163,7 @@ impl Way {
         Way { start, translations, rotations, size, scales, shown: Shown::default(), last: start.orientation }
     }
 
-    /// Adds a pose after this many known frames, out of the total.
+    /// Records the pose and size of one frame. `known` is the number of frames recorded before, and `count` the total number.
     fn add(
         &mut self,
         pose: Pose,
@@ -170,7 +173,8 @@ impl Way {
         room: &mut Room,
     ) -> Result<(), ExportError> {
         let Pose { location, orientation } = pose;
-        // The quaternions q and -q are the same rotation. With the farther one, interpolation would turn the long way round.
+        // The quaternions q and −q are the same orientation. With the one farther from the previous frame's, viewers would rotate the long
+        // way round.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };
         let start = self.start.location.as_vec3().to_array();
         follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, room)?;
@@ -181,7 +185,8 @@ impl Way {
     }
 }
 
-/// Adds a value after this many known ones, out of the total. Values are stored from the first one that differs from the start.
+/// Records one value after `known` earlier ones. Nothing is stored until a value differs from `start`; then all `known` values are filled
+/// in.
 fn follow<const N: usize>(
     values: &mut Vec<f32>,
     start: [f32; N],
@@ -202,12 +207,12 @@ fn follow<const N: usize>(
     Ok(())
 }
 
-/// The number of bytes that the data will need in the file, as far as it is known by now.
+/// The number of bytes that the recorded numbers will take in the file.
 #[derive(Default)]
 pub(super) struct Room(u64);
 
 impl Room {
-    /// Reserves room for this many numbers, if a file can hold them.
+    /// Counts this many further numbers of 4 bytes. Fails if the file would become too large.
     pub(super) fn take(&mut self, numbers: usize) -> Result<(), ExportError> {
         self.0 += 4 * numbers as u64;
         if self.0 > LARGEST { Err(ExportError::TooLarge(self.0)) } else { Ok(()) }

@@ -1,29 +1,30 @@
-//! The presence of objects: glTF has no property for it, so absent objects have the size 0.
+//! Records when objects are present. glTF has no property for presence, so absent objects get the size 0.
 
 use super::motion::Room;
 use crate::export::ExportError;
 
-/// The times in the animation at which an object comes or goes (s), each with its scale from then on; empty for an object that
-/// is always present.
+/// The times in the animation at which an object appears or disappears (s), each with its scale from then on. Empty for an object that is
+/// always present.
 #[derive(Default)]
 pub(super) struct Shown {
     pub(super) times: Vec<f32>,
-    /// Three numbers for each time.
+    /// The scale from each time on, as three equal numbers: 1 if the object is present, 0 if it is absent.
     pub(super) scales: Vec<f32>,
 }
 
 impl Shown {
-    /// Whether it is always present.
+    /// Returns true if the object is always present.
     pub(super) fn is_always(&self) -> bool {
         self.times.is_empty()
     }
 
-    /// Whether it is present in the first frame.
+    /// Returns true if the object is present in the first frame.
     pub(super) fn at_first(&self) -> bool {
         self.scales.first() != Some(&0.0)
     }
 
-    /// Adds its presence in the last of some frames, if a file has room for it.
+    /// Records whether the object is present in the latest frame. `frames` holds the times of all frames so far. Fails if the file would
+    /// become too large.
     pub(super) fn add(&mut self, is_there: bool, frames: &[f32], room: &mut Room) -> Result<(), ExportError> {
         let &[first, .., now] = frames else {
             let first = frames.first().copied().unwrap_or_default();

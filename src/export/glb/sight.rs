@@ -1,4 +1,4 @@
-//! Cameras and lights, with their motion.
+//! Converts cameras and lights, with their motion, to glTF.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -9,20 +9,20 @@ use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Output, Scene};
 use crate::simulate::{Recorded, Selection};
 
-/// The widest angle of view in the file, degrees: glTF does not allow 180 degrees.
+/// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
 const WIDEST: f64 = 179.9;
 
-/// The cameras and lights of a scene. Their tracks come after those of the bodies in the motion, cameras first.
+/// The cameras and lights of a scene. Their recorded motion follows that of the bodies, cameras first.
 pub(super) struct Sight {
     /// The surroundings of the bodies.
     pub(super) stage: Stage,
-    /// The main camera, and those of the views.
+    /// The main camera, followed by the cameras of the views.
     pub(super) cameras: Vec<Camera>,
     pub(super) lights: Vec<Light>,
 }
 
 impl Sight {
-    /// The cameras and lights of a run, in the frames of a motion.
+    /// Converts the cameras and lights of a run, and appends their motion in the selected frames to `motion`.
     pub(super) fn of(
         run: &Recorded<'_>,
         selection: &Selection,
@@ -57,7 +57,7 @@ impl Sight {
     }
 }
 
-/// The pose of a camera.
+/// Returns the pose of a camera in glTF's convention: it looks along −z, with y up.
 fn pose(camera: &Placed) -> Pose {
     let screen = camera.screen();
     let (right, up) = (screen.right(), screen.up());
@@ -65,13 +65,13 @@ fn pose(camera: &Placed) -> Pose {
     Pose { location: camera.location(), orientation: DQuat::from_mat3(&turn).normalize() }
 }
 
-/// The projection of a camera in the first frame, with near and far planes that suit all frames.
+/// The lens of a camera in the first frame, and the distances in all frames from which the clipping planes follow.
 #[derive(Default)]
 struct Seen {
     lens: Option<Lens>,
-    /// Its shortest distance from the scene, m.
+    /// The shortest distance between the camera and the scene in all frames, m.
     near: Option<f64>,
-    /// Its longest distance from the centre of the scene, m.
+    /// The longest distance between the camera and the center of the scene in all frames, m.
     far: f64,
 }
 
@@ -88,9 +88,9 @@ impl Seen {
     }
 
     fn camera(self, name: String, output: Output, stage: &Stage) -> Camera {
-        // Beyond the corners of the ground.
+        // The far clipping plane is beyond the corners of the ground.
         let zfar = self.far + 2.5 * stage.size;
-        // The depth buffer has 24 bits. The closer the near plane, the fewer bits are left for distant objects.
+        // The depth buffer has 24 bits. The closer the near clipping plane is, the fewer bits are left for distant objects.
         let znear = (self.near.unwrap_or(0.0) / 10.0).max(zfar * 1e-6);
         let aspect = f64::from(output.width) / f64::from(output.height);
         let lens = match self.lens.unwrap_or(Lens::Orthographic { width: stage.size }) {
@@ -109,7 +109,7 @@ impl Seen {
     }
 }
 
-/// The given lights, or the default ones; adds their tracks to the motion.
+/// Converts the lights of the scene, or the default lights if it has none. Appends their motion to `motion`.
 fn lights(
     scene: &Scene,
     plan: &Plan,
@@ -146,13 +146,13 @@ fn lights(
     Ok((0..shining.len()).map(|i| light(name(i), &shining[i], plan.stage())).collect())
 }
 
-/// The rotation that turns the direction -z into another one.
+/// Returns the rotation that turns −z into this direction. A light in glTF shines along −z of its node.
 fn towards(direction: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::NEG_Z, direction.normalize_or(DVec3::NEG_Y))
 }
 
-/// A light in glTF. POV-Ray's lights are as bright at any distance, but glTF's lights fade. So they get POV-Ray's brightness at
-/// the centre of the scene, where a white surface that faces a light of intensity 1 is white. Such a surface reflects 1/π of
+/// Converts a light to glTF. POV-Ray's lights are equally bright at any distance, but glTF's lights fade. So a light gets POV-Ray's
+/// brightness at the center of the scene, where a white surface that faces a light of intensity 1 is white. Such a surface reflects 1/π of
 /// its light into each direction, so it needs π lux.
 fn light(name: String, light: &PlacedLight, stage: &Stage) -> Light {
     let largest = light.color.into_iter().fold(0.0, f64::max);
@@ -160,12 +160,13 @@ fn light(name: String, light: &PlacedLight, stage: &Stage) -> Light {
     let lux = largest * std::f64::consts::PI;
     let (kind, intensity) = match light.kind {
         Lamp::Sun => ("directional", lux),
-        // A lamp inside the scene lights what is around it.
+        // A lamp inside the scene is treated as if it were at half the size of the scene, since a lamp very close to the center would be
+        // too dim elsewhere.
         Lamp::Point | Lamp::Area => {
             let distance = light.location.distance(stage.center).max(stage.size / 2.0);
             ("point", lux * distance * distance)
         }
     };
-    // Readers store it as `f32`.
+    // Viewers store the intensity as `f32`, so a larger number is limited to the largest `f32`.
     Light { name, kind, color, intensity: intensity.min(f64::from(f32::MAX)) }
 }

@@ -1,4 +1,4 @@
-//! Tests that need no reader of glTF. Tests with readers are in `tests/output/gltf.rs`.
+//! Tests that need no program that reads glTF. Tests with such programs are in `tests/output/with_tools/gltf.rs`.
 
 use glam::DQuat;
 use serde_json::Value;
@@ -42,7 +42,7 @@ fn number(bytes: &[u8], at: usize) -> usize {
     u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize
 }
 
-/// The JSON chunk; checks all lengths on the way.
+/// Returns the JSON chunk of a file, and checks all lengths in the file.
 fn json(file: &[u8]) -> Value {
     assert_eq!((&file[..4], number(file, 4), number(file, 8)), (&b"glTF"[..], 2, file.len()));
     let length = number(file, 12);
@@ -79,7 +79,8 @@ fn balls_share_their_triangles() {
     assert!(json.get("animations").is_none(), "a single frame does not move");
 }
 
-/// Quaternions have two signs; if the sign changed between two keys, a wheel would turn back all the way.
+/// The quaternions q and −q are the same orientation. If the sign changed between two keyframes, viewers would turn the wheel back all the
+/// way.
 #[test]
 fn orientations_go_on_with_the_nearer_sign() {
     let motion = Motion::of(&Recorded::new(&scene(SCENE)).unwrap(), &Selection::first(41)).unwrap();
@@ -116,7 +117,7 @@ fn what_is_too_large_is_refused_before_anything_is_written() {
     let refused = write(&document, &geometry, &motion, &mut out);
     assert!(matches!(refused, Err(ExportError::TooLarge(_))) && out.is_empty());
 
-    // A thousand bodies in a thousand frames are 28 MB; two hundred in a million frames are too many.
+    // A thousand bodies in a thousand frames take 28 MB. Two hundred bodies in a million frames take too much.
     let mut room = Room::default();
     assert!(room.take(7 * 1_000 * 1_000).is_ok());
     assert!(matches!(room.take(7 * 200 * 1_000_000), Err(ExportError::TooLarge(5_628_000_000))));
@@ -143,7 +144,7 @@ fn a_camera_beyond_the_numbers_is_an_error() {
     assert_eq!(what, "camera");
 }
 
-/// glTF cannot animate the angle of view, and does not allow one of 180 degrees or more.
+/// glTF cannot animate the angle of view, and allows only angles below 180 degrees.
 #[test]
 fn an_angle_is_that_of_the_first_of_the_frames_and_less_than_half_a_turn() {
     for (angle, frames, degrees) in
