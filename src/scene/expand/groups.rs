@@ -41,7 +41,7 @@ impl Groups {
         self.links.insert(name.to_owned());
     }
 
-    /// Returns the name of the repeated force or joint that the copy `name` belongs to. `None` if `name` is no name of a copy.
+    /// Returns the name of the repeated force or joint that the copy `name` belongs to. `None` if `name` is not the name of a copy.
     pub(in crate::scene) fn original_link<'a>(&self, name: &'a str) -> Option<&'a str> {
         let (original, _) = split(name)?;
         self.links.contains(original).then_some(original)

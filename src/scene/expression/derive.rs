@@ -178,7 +178,7 @@ impl Deriver {
             | Binary::Equal
             | Binary::NotEqual
             | Binary::Step => None,
-            // atan2(y, x)' = (x y' − y x') / (x² + y²)
+            // The derivative of the angle: atan2(y, x)' = (x y' − y x') / (x² + y²).
             Binary::Atan2 => {
                 let (left, right) = (du.map(|du| self.product(v, du)), dv.map(|dv| self.product(u, dv)));
                 let top = self.difference(left, right)?;

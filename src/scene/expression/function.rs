@@ -53,7 +53,7 @@ const fn one(name: &'static str, operation: Unary, meaning: &'static str) -> Fun
     new(name, &["x"], Work::One(operation), meaning)
 }
 
-/// All functions of formulas, in the order of the documentation.
+/// All functions that formulas can call, in the order of the documentation.
 pub static FUNCTIONS: &[Function] = &[
     one("sin", Unary::Sin, "the sine of an angle in radians"),
     one("cos", Unary::Cos, "the cosine of an angle in radians"),

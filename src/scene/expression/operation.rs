@@ -3,7 +3,7 @@
 //! Constant folding, the search for a non-finite operation, and the compiled program all use these definitions, so all three compute the
 //! same bits.
 
-/// An operation on one number.
+/// An operation on one number, such as the sine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unary {
     Negate,
@@ -35,7 +35,7 @@ pub(super) enum Unary {
     Radians,
 }
 
-/// An operation on two numbers.
+/// An operation on two numbers, such as the sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Binary {
     Add,

@@ -94,24 +94,24 @@ pub(super) enum Instruction {
     VDiv { v: u32 },
     DivC { c: f64 },
     CDiv { c: f64 },
-    /// acc = acc + v * w
+    /// Sets the accumulator to `acc + v * w`.
     AddMulVV { v: u32, w: u32 },
-    /// acc = acc - v * w
+    /// Sets the accumulator to `acc - v * w`.
     SubMulVV { v: u32, w: u32 },
-    /// acc = acc + v * c
+    /// Sets the accumulator to `acc + v * c`.
     AddMulVC { v: u32, c: f64 },
-    /// acc = acc * v + c, one step of Horner's scheme.
+    /// Sets the accumulator to `acc * v + c`, a step of Horner's scheme.
     MulVAddC { v: u32, c: f64 },
     // These instructions combine the accumulator with a stack entry.
     AddS { at: u8 },
     MulS { at: u8 },
-    /// acc = stack[at] - acc
+    /// Sets the accumulator to `stack[at] - acc`.
     SubS { at: u8 },
-    /// acc = acc - stack[at]
+    /// Sets the accumulator to `acc - stack[at]`.
     SubFromAcc { at: u8 },
-    /// acc = stack[at] / acc
+    /// Sets the accumulator to `stack[at] / acc`.
     DivS { at: u8 },
-    /// acc = acc / stack[at]
+    /// Sets the accumulator to `acc / stack[at]`.
     DivAcc { at: u8 },
     // These instructions change only the accumulator, from its own value or also from stack entries.
     Negate,
@@ -120,11 +120,11 @@ pub(super) enum Instruction {
     Sqrt,
     WholePower { exponent: i32 },
     Call { f: fn(f64) -> f64 },
-    /// acc = f(stack[at], acc)
+    /// Sets the accumulator to `f(stack[at], acc)`.
     Call2 { at: u8, f: fn(f64, f64) -> f64 },
-    /// acc = f(acc, stack[at])
+    /// Sets the accumulator to `f(acc, stack[at])`.
     Call2Swapped { at: u8, f: fn(f64, f64) -> f64 },
-    /// acc = f(stack[at], stack[at + 1], acc)
+    /// Sets the accumulator to `f(stack[at], stack[at + 1], acc)`.
     Call3 { at: u8, f: fn(f64, f64, f64) -> f64 },
     // These instructions continue at another instruction.
     JumpIfZero { to: u32 },

@@ -130,7 +130,7 @@ impl Wide {
 
 struct Builder {
     steps: Vec<Step>,
-    /// The column of each step so far. The key identifies what the step computes.
+    /// The column of each step so far. The key encodes the operation and the operands of the step.
     known: HashMap<[u64; 5], usize>,
     inputs: usize,
     uses: Vec<bool>,

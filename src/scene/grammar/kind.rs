@@ -119,7 +119,8 @@ impl Bound {
 }
 
 impl Collection {
-    /// Returns the key of these tables in a scene, such as `body`. It is also the singular noun in messages.
+    /// Returns the key of a scene that defines the members of the collection, such as `body`. The key is also the singular noun in
+    /// messages.
     pub fn key(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "body",
@@ -128,7 +129,7 @@ impl Collection {
         }
     }
 
-    /// Returns the plural noun for messages, such as "bodies".
+    /// Returns the plural noun for the members of the collection, such as "bodies".
     pub fn plural(self) -> &'static str {
         match self {
             Collection::Body | Collection::Target => "bodies",

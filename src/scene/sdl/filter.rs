@@ -19,7 +19,7 @@ use super::standard::{WRITING_MACROS, is_standard, is_writing};
 use super::tokens::{Token, Tokens, Unclosed};
 use super::words::{DIRECTIVES, OTHERS, REFUSED};
 
-/// The position of a text of SDL in the script.
+/// The position in the script at which a text of SDL is inserted: at the top level, or within a body or material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
     /// At the top level before the bodies, or in a file that is included at the top level.
@@ -40,7 +40,7 @@ pub struct Refusal {
 /// The reason why a part of SDL is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// The named word opens, reads or writes files.
+    /// This word opens, reads or writes files.
     Word(String),
     /// The named macro, from one of POV-Ray's include files, writes files.
     Macro(String),

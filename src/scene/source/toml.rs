@@ -29,7 +29,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     let end = brackets.unclosed.as_ref().and_then(Diagnostic::span).map_or(text.len() + 1, |span| span.start);
     let mut last_line = None;
     for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
-        // A second error in the same line is usually a consequence of the first, so it is dropped.
+        // A second syntax error in the same line is usually a consequence of the first, so it is dropped.
         let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
         let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
         if line.is_none() || line != last_line {

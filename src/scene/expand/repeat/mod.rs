@@ -238,7 +238,7 @@ impl Expander<'_> {
         if is_whole(copy, "location") {
             let own = View::new(spec, Some(copy)).vector("location").unwrap_or_default();
             let location = numbers(&(own + offset).to_array(), repeat.node.span);
-            // A wrong location stays as it is, because the validation reports it.
+            // A location with an error stays as it is, because the validation reports it.
             if copy.get("location").is_none_or(|own| read::vector(&own.node, Bound::Any).is_some()) {
                 put(copy, "location", location.value, repeat);
             }
