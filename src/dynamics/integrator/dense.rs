@@ -1,36 +1,36 @@
-//! Dense output: the motion within a step, at any time, without additional steps.
+//! Dense output: the state at any time within a step, without additional steps.
 //!
 //! Each method has its own dense output. So the interpolated motion is as accurate as the steps, and the steps never depend on the times
-//! that are drawn. Velocities are the derivatives of positions.
+//! of frames. Velocities are the derivatives of positions.
 
 use glam::{DQuat, DVec3};
 
 use super::super::{Accounts, Loads, Model, State, System};
 use super::{rotation, splitting};
 
-/// A completed step.
+/// A completed step of an integration method.
 #[derive(Clone, Copy)]
 pub struct Step<'a> {
-    /// The masses and forces.
+    /// The masses of the bodies and the forces on them.
     pub model: &'a Model,
-    /// The time at its start, s.
+    /// The time at the start of the step, s.
     pub start: f64,
     /// The duration of the step, s.
     pub duration: f64,
-    /// The bodies at its start.
+    /// The state of the bodies at the start of the step.
     pub before: &'a State,
-    /// The bodies at its end.
+    /// The state of the bodies at the end of the step.
     pub after: &'a State,
 }
 
-/// The motion within a step.
+/// The interpolated motion of all bodies within a step.
 pub trait DenseOutput {
-    /// Sets `state` to that at time `t` (s) within the step. Bodies with a given motion are placed exactly.
+    /// Sets `state` to the interpolated state at time `t` (s) within the step. Bodies with a given motion are placed exactly.
     fn at(&self, t: f64, state: &mut State);
 }
 
 impl Step<'_> {
-    /// The fraction of the step that has passed at time `t`, from 0 to 1.
+    /// Returns the fraction of the step that has passed at time `t` (s), from 0 to 1.
     fn part(&self, t: f64) -> f64 {
         ((t - self.start) / self.duration).clamp(0.0, 1.0)
     }
@@ -41,7 +41,7 @@ impl Step<'_> {
     }
 }
 
-/// Interpolation for methods that kick at the start of a step: after the kick, bodies drift freely.
+/// Interpolation for Euler–Cromer and similar methods: forces change the velocities at the start of a step, and bodies then move freely.
 pub(super) struct Drift<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Drift<'_> {
@@ -57,7 +57,7 @@ impl DenseOutput for Drift<'_> {
     }
 }
 
-/// Interpolation for explicit Euler: the tangent at the start of the step.
+/// Interpolation for explicit Euler: bodies follow the tangent at the start of the step.
 pub(super) struct Tangent<'a>(pub(super) Step<'a>);
 
 impl DenseOutput for Tangent<'_> {
@@ -81,19 +81,20 @@ impl DenseOutput for Tangent<'_> {
     }
 }
 
-/// Quintic Hermite polynomials through positions, velocities and accelerations at both ends of a step. The error is O(h⁶) in the position
-/// and O(h⁵) in the velocity. An orientation is exp(θ) q₀, where the rotation vector θ is such a polynomial. Angular momenta and accounts
-/// are cubic polynomials through values and slopes. Source: Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6;
-/// the derivatives of θ: Iserles et al., *Lie-group methods*, Acta Numerica 9 (2000) 215, section B.
+/// Interpolation by quintic Hermite polynomials through positions, velocities and accelerations at both ends of a step. The error is O(h⁶)
+/// in the position and O(h⁵) in the velocity. An orientation is exp(θ) q₀, where the rotation vector θ is also a quintic polynomial.
+/// Angular momenta and accounts are cubic polynomials through values and slopes. Source: Hairer, Nørsett & Wanner, *Solving Ordinary
+/// Differential Equations I*, II.6; the derivatives of θ: Iserles et al., *Lie-group methods*, Acta Numerica 9 (2000) 215, section B.
 pub(super) struct Hermite<'a> {
     step: Step<'a>,
     start: Loads,
     end: Loads,
-    /// θ, θ' and θ'' at the end, for rotating bodies.
+    /// For each body, the data of its rotation vector θ; `None` for a body that does not rotate.
     turns: Vec<Option<Turn>>,
 }
 
-/// The rotation vector within a step, by its values at both ends; it is 0 at the start.
+/// The rotation vector θ of a body within a step: its derivatives θ' and θ'' at the start, and θ, θ' and θ'' at the end. At the start, θ
+/// is 0.
 #[derive(Clone, Copy)]
 struct Turn {
     rate: DVec3,
@@ -104,7 +105,7 @@ struct Turn {
 }
 
 impl<'a> Hermite<'a> {
-    /// The polynomials of a step. Forces are evaluated at both ends.
+    /// Computes the polynomials of a step. Evaluates the forces at both ends of the step.
     pub(super) fn new(system: &mut System<'_>, step: Step<'a>) -> Hermite<'a> {
         let (mut start, mut end) = (Loads::default(), Loads::default());
         system.evaluate(step.start, step.before, &mut start);
@@ -115,13 +116,13 @@ impl<'a> Hermite<'a> {
     }
 }
 
-/// The rotation of a body within a step, if it rotates.
+/// Returns the rotation vector of body `i` within a step; `None` if the body does not rotate.
 fn turn(step: &Step<'_>, i: usize, torque: DVec3, end_torque: DVec3) -> Option<Turn> {
     let (before, after) = (step.before, step.after);
     if before.angular_momentum[i] == DVec3::ZERO && before.orientation[i] == after.orientation[i] {
         return None;
     }
-    // ω' = I⁻¹ (τ − ω × L), in world axes.
+    // The angular acceleration is ω' = I⁻¹ (τ − ω × L), in world axes.
     let acceleration = |state: &State, torque: DVec3| {
         let omega = step.model.angular_velocity(i, state);
         let inverse = step.model.inverse_inertia()[i];
@@ -134,7 +135,8 @@ fn turn(step: &Step<'_>, i: usize, torque: DVec3, end_torque: DVec3) -> Option<T
     let turned = after.orientation[i] * before.orientation[i].conjugate();
     let turned = if turned.w < 0.0 { -turned } else { turned };
     let end = turned.to_scaled_axis();
-    // θ' = ω − ½ θ×ω + c θ×(θ×ω), the inverse of the left Jacobian of the exponential; c depends on u = θ².
+    // The derivative of θ is θ' = ω − ½ θ×ω + c θ×(θ×ω), by the inverse of the left Jacobian of the exponential map. The coefficient c
+    // depends on u = θ².
     let u = end.length_squared();
     let (c, slope) = coefficients(u);
     let crossed = end.cross(omega);
@@ -148,7 +150,8 @@ fn turn(step: &Step<'_>, i: usize, torque: DVec3, end_torque: DVec3) -> Option<T
     Some(Turn { rate, curvature, end, end_rate, end_curvature })
 }
 
-/// c(u) = 1/u − (1 + cos φ) / (2 φ sin φ) with u = φ², and its derivative. For small u, the terms cancel, so the series is used.
+/// Returns c(u) = 1/u − (1 + cos φ) / (2 φ sin φ) with u = φ², and its derivative by u. For small u, the terms cancel, so a series is
+/// used.
 fn coefficients(u: f64) -> (f64, f64) {
     let series = |u: f64| 1.0 / 12.0 + u * (1.0 / 720.0 + u * (1.0 / 30_240.0 + u / 1_209_600.0));
     let slope = |u: f64| 1.0 / 720.0 + u * (2.0 / 30_240.0 + u * (3.0 / 1_209_600.0));
@@ -158,7 +161,7 @@ fn coefficients(u: f64) -> (f64, f64) {
     let phi = u.sqrt();
     let (sin, cos) = libm::sincos(phi);
     let c = 1.0 / u - (1.0 + cos) / (2.0 * phi * sin);
-    // d/dφ of (1 + cos φ) / (2 φ sin φ) = cot(φ/2) / 2φ, divided by dφ → du.
+    // The second term of c is cot(φ/2) / 2φ. Its derivative by φ is converted to a derivative by u.
     let half = libm::sin(0.5 * phi);
     let cot = libm::cos(0.5 * phi) / half;
     let by_phi = -2.0 / (u * phi) + 0.25 / (phi * half * half) + cot / (2.0 * u);
@@ -185,7 +188,7 @@ impl DenseOutput for Hermite<'_> {
                 after.velocity[i] * h,
                 b * (h * h),
             ];
-            // Relative to the start, so that a body at rest keeps its position to the last bit.
+            // The displacement is relative to the start, so that a body at rest keeps its position to the last bit.
             let moved = terms[3] - terms[0];
             state.location[i] = terms[0]
                 + (place[1] * terms[1] + place[2] * terms[2] + place[3] * moved)
@@ -219,7 +222,7 @@ impl DenseOutput for Hermite<'_> {
     }
 }
 
-/// The quintic Hermite polynomials at `s`: for value, rate and curvature at 0, then for the same at 1.
+/// Returns the quintic Hermite polynomials at `s`: those of the value, the slope and the curvature at 0, then those at 1.
 fn quintic(s: f64) -> [f64; 6] {
     let (s2, s3) = (s * s, s * s * s);
     let end = s3 * (10.0 + s * (-15.0 + 6.0 * s));
@@ -233,7 +236,7 @@ fn quintic(s: f64) -> [f64; 6] {
     ]
 }
 
-/// Their derivatives.
+/// Returns the derivatives of the quintic Hermite polynomials at `s`.
 fn quintic_rate(s: f64) -> [f64; 6] {
     let s2 = s * s;
     let end = s2 * (30.0 + s * (-60.0 + 30.0 * s));
@@ -247,7 +250,7 @@ fn quintic_rate(s: f64) -> [f64; 6] {
     ]
 }
 
-/// The cubic Hermite polynomials at `s`: for value and slope at 0, then for the same at 1.
+/// Returns the cubic Hermite polynomials at `s`: those of the value and the slope at 0, then those at 1.
 fn cubic(s: f64) -> [f64; 4] {
     let (s2, s3) = (s * s, s * s * s);
     let end = 3.0 * s2 - 2.0 * s3;
@@ -258,7 +261,7 @@ fn cubic(s: f64) -> [f64; 4] {
 mod tests {
     use super::*;
 
-    /// c by its definition, and its slope by a difference quotient over 2e-4: off by 1e-8.
+    /// The coefficient c must equal its definition, and its derivative a difference quotient over 2e-4, which has an error of 1e-8.
     #[test]
     fn the_two_ways_to_compute_the_coefficient_agree() {
         for u in [0.0999, 0.1001, 1.0, 4.0] {

@@ -1,11 +1,11 @@
-//! Euler–Cromer: updates the velocity first, then the position with the new velocity.
+//! The Euler–Cromer method: it updates the velocity first, then the position with the new velocity.
 
 use super::super::{Loads, State, System};
 use super::dense::{DenseOutput, Drift, Hermite, Step};
 use super::{Integrator, Method, splitting};
 
-/// Also called semi-implicit or symplectic Euler. Source: A. Cromer, *Stable solutions using the Euler approximation*,
-/// Am. J. Phys. 49 (1981) 455. With constraints it is SHAKE, of first order: Hairer, Lubich & Wanner, *Geometric Numerical
+/// The Euler–Cromer method, also called semi-implicit or symplectic Euler. Source: A. Cromer, *Stable solutions using the Euler
+/// approximation*, Am. J. Phys. 49 (1981) 455. With constraints, it is SHAKE of first order: Hairer, Lubich & Wanner, *Geometric Numerical
 /// Integration*, VII.1.3.
 pub(super) const METHOD: Method = Method {
     name: "euler-cromer",
@@ -33,7 +33,8 @@ impl Integrator for EulerCromer {
     }
 
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        // With constraints, the velocity that leads to the end of the step differs from the velocity that is kept there.
+        // With constraints, the velocity that leads to the position at the end of the step differs from the velocity that is kept there.
+        // So `Drift` would give wrong velocities.
         if system.is_constrained() { Box::new(Hermite::new(system, step)) } else { Box::new(Drift(step)) }
     }
 

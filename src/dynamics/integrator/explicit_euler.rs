@@ -1,12 +1,12 @@
-//! Explicit Euler: all updates use the values at the start of the step.
+//! The explicit Euler method: all updates use the values at the start of the step.
 
 use super::super::{State, System};
 use super::dense::{DenseOutput, Step, Tangent};
 use super::runge_kutta::{Slope, follow};
 use super::{Integrator, Method};
 
-/// It shows what goes wrong: an oscillator gains energy without bound. Source: L. Euler, *Institutiones calculi integralis* I (1768), §
-/// 650; Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, I.7.
+/// The explicit Euler method, for comparison: with it, an oscillator gains energy without bound. Source: L. Euler, *Institutiones calculi
+/// integralis* I (1768), § 650; Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, I.7.
 pub(super) const METHOD: Method = Method {
     name: "explicit-euler",
     order: 1,

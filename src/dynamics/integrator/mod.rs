@@ -1,4 +1,4 @@
-//! Integration methods: their interface, the table of all methods, and one file for each.
+//! Integration methods: their interface, the table of all methods, and one file for each method.
 //!
 //! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]. The tests of order and energy then cover it
 //! automatically.
@@ -21,22 +21,23 @@ pub use dense::{DenseOutput, Step};
 pub(super) use rotation::{free as turn_freely, rate as orientation_rate};
 pub(super) use splitting::drift_body;
 
-/// An integration method. It advances a state; the time belongs to the [`World`](super::World).
+/// An integration method, which advances the state of bodies. The [`World`](super::World) keeps the time.
 pub trait Integrator: Send {
-    /// Advances `state` from time `t` by one step of `dt` seconds. To evaluate forces at a later time, it must [arrive](System::arrive)
-    /// there first. The caller arrives at the end of the step, and settles the constraints there.
+    /// Advances `state` from time `t` by one step of `dt` seconds. To evaluate forces at a later time, the method must call
+    /// [`System::arrive`] for that time. After the step, the caller places the guided bodies and satisfies the constraints.
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State);
 
-    /// The motion within the last step. The default uses quintic Hermite polynomials, which suit smooth methods of order 2 and higher.
+    /// Returns the interpolated motion within the last step. The default uses quintic Hermite polynomials, which suit smooth methods of
+    /// order 2 and higher.
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
         Box::new(dense::Hermite::new(system, step))
     }
 
-    /// Called after anything that is not smooth (an impact, a birth, a force changed by hand): values kept from earlier steps become
-    /// invalid.
+    /// Discards values that are kept from earlier steps. The caller reports a discontinuity of the motion with this function: an impact, a
+    /// birth, or a manual change of a force.
     fn discontinuity(&mut self) {}
 
-    /// A copy that continues exactly as this one would.
+    /// Returns a copy that continues exactly as the original would.
     fn clone_box(&self) -> Box<dyn Integrator>;
 }
 
@@ -46,32 +47,32 @@ impl Clone for Box<dyn Integrator> {
     }
 }
 
-/// Takes over a world and advances it from then on.
+/// A function that takes over a world and returns a simulation of it with the given accuracy.
 pub type TakeOver = fn(World, Accuracy) -> Box<dyn Dynamics>;
 
-/// An entry of the table of methods.
+/// An integration method in the table of methods, with its properties.
 #[derive(Debug)]
 pub struct Method {
-    /// The name that selects it.
+    /// The name by which a scene selects the method.
     pub name: &'static str,
-    /// The order p: halving the step divides the error by 2ᵖ.
+    /// The order p of the method: half the step divides the error by 2ᵖ.
     pub order: u32,
-    /// Whether it is symplectic: the energy error then stays bounded over any time.
+    /// Whether the method is symplectic. Its energy error then stays bounded over any time.
     pub symplectic: bool,
-    /// Whether it supports constraints. A scene with joints cannot use other methods.
+    /// Whether the method supports constraints. A scene with joints cannot use other methods.
     pub constraints: bool,
-    /// Whether it chooses its steps by their error. A scene then sets `tolerance`, not `step`.
+    /// Whether the method chooses its steps by their error. A scene then sets `tolerance` instead of `step`.
     pub adaptive: bool,
-    /// One line for a list of methods.
+    /// A description of the method in one line, for lists of methods.
     pub summary: &'static str,
-    /// Makes a new integrator.
+    /// Creates an integrator of this method, for steps of given lengths.
     pub create: fn() -> Box<dyn Integrator>,
-    /// Takes over a world, to advance it by steps that are independent of frames. `None` for a method whose steps divide the time between
+    /// Takes over a world to advance it in steps that are independent of frames. `None` for a method whose steps divide the time between
     /// two frames.
     pub ahead: Option<TakeOver>,
 }
 
-/// The methods whose steps divide the time between two frames; the first is the default.
+/// The methods whose steps divide the time between two frames. The first method is the default.
 pub static METHODS: &[Method] =
     &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
@@ -79,18 +80,18 @@ pub static METHODS: &[Method] =
 pub static AHEAD: &[Method] = &[ahead::DOP853, ahead::GAUSS_RADAU, ahead::WISDOM_HOLMAN];
 
 impl Method {
-    /// All methods.
+    /// Returns all methods of both tables.
     pub fn all() -> impl Iterator<Item = &'static Method> {
         METHODS.iter().chain(AHEAD)
     }
 
-    /// The method of this name.
+    /// Returns the method with this name; `None` if there is no such method.
     #[must_use]
     pub fn by_name(name: &str) -> Option<&'static Method> {
         Method::all().find(|method| method.name == name)
     }
 
-    /// Whether it is only for planets about a heavy body that gravitation alone moves.
+    /// Whether the method can only advance planets about a heavy body that nothing but gravitation moves.
     #[must_use]
     pub fn is_of_planets(&self) -> bool {
         self.name == ahead::WISDOM_HOLMAN.name

@@ -1,12 +1,12 @@
-//! The classical Runge–Kutta method.
+//! The classical Runge–Kutta method of order 4.
 
 use super::super::{State, System};
 use super::runge_kutta::{Slope, follow};
 use super::straight::{Stage, Straight};
 use super::{Integrator, Method};
 
-/// Source: W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Nørsett & Wanner, *Solving Ordinary Differential
-/// Equations I*, II.1, table 1.2.
+/// The classical Runge–Kutta method. Source: W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Nørsett & Wanner, *Solving Ordinary
+/// Differential Equations I*, II.1, table 1.2.
 pub(super) const METHOD: Method = Method {
     name: "rk4",
     order: 4,

@@ -4,18 +4,18 @@ use glam::{DQuat, DVec3};
 
 use super::super::model::is_isotropic;
 
-/// The rate of change of an orientation that rotates at `angular_velocity` (world axes, rad/s): q' = ½ ω q, with ω as a quaternion
-/// without real part.
+/// Returns the time derivative of an orientation that rotates at `angular_velocity` (world axes, rad/s): q' = ½ ω q, where ω is a
+/// quaternion without real part.
 pub(in crate::dynamics) fn rate(orientation: DQuat, angular_velocity: DVec3) -> DQuat {
     let half = 0.5 * angular_velocity;
     DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * orientation
 }
 
-/// The orientation after `dt` of free rotation with the given angular momentum (world axes).
+/// Returns the orientation of a body after `dt` seconds of free rotation with the given angular momentum (world axes, kg m²/s).
 ///
-/// With m = Rᵀ L the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃. Each of the three terms alone rotates the body uniformly about one of
-/// its own axes. Rotating by x for half the time, y half, z, y half, x half is a symmetric splitting: second order, reversible,
-/// symplectic. It does not change L, so L is conserved exactly. Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
+/// With m = Rᵀ L, the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃. Each of the three terms alone rotates the body uniformly about one of
+/// its own axes. A rotation by x for half the time, y half, z, y half, x half is a symmetric splitting: it is of second order, reversible
+/// and symplectic. It does not change L, so L is conserved exactly. Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
 /// 5840; Touma & Wisdom, Astron. J. 107 (1994) 1189.
 pub(in crate::dynamics) fn free(
     orientation: DQuat,
@@ -24,7 +24,7 @@ pub(in crate::dynamics) fn free(
     dt: f64,
 ) -> DQuat {
     if is_isotropic(inverse_inertia) {
-        // ω is parallel to L and constant: one rotation is exact for any step.
+        // With three equal moments of inertia, ω is parallel to L and constant, so a single rotation is exact for any step.
         let turn = DQuat::from_scaled_axis(inverse_inertia.x * dt * angular_momentum);
         return (turn * orientation).normalize();
     }
@@ -36,14 +36,15 @@ pub(in crate::dynamics) fn free(
     body.orientation.normalize()
 }
 
-/// A freely rotating body: its orientation, and its angular momentum in its own frame.
+/// A freely rotating body: its orientation, and its angular momentum in body axes.
 struct Free {
     orientation: DQuat,
     momentum: DVec3,
 }
 
 impl Free {
-    /// Rotates the body by `angle` about its own axis. The momentum is fixed in the world, so it rotates backwards in the body's frame.
+    /// Rotates the body by `angle` (rad) about one of its own axes. The angular momentum is fixed in the world, so it rotates backwards in
+    /// body axes.
     fn turn(&mut self, axis: usize, angle: f64) {
         let (sin, cos) = libm::sincos(0.5 * angle);
         let turn = DQuat::from_vec4((DVec3::AXES[axis] * sin).extend(cos));
@@ -84,7 +85,7 @@ mod tests {
         assert!(back.abs_diff_eq(start(), 1e-15));
     }
 
-    /// A difference quotient over dt = 1e-6; its error is ½ q'' dt, and q'' is about 1 here.
+    /// The difference quotient of a free rotation over dt = 1e-6 must equal the rate. Its error is ½ q'' dt, where q'' is about 1.
     #[test]
     fn both_ways_to_turn_begin_with_the_same_rate() {
         for inverse in [INVERSE, DVec3::splat(0.5)] {

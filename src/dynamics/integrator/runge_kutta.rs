@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
-/// The derivative of a [`State`] with respect to time. The loads hold the slopes of angular momentum (torque) and work (power).
+/// The time derivative of a [`State`]. The loads hold the derivatives of angular momentum (torque) and of work (power).
 #[derive(Clone, Default)]
 pub(super) struct Slope {
     location: Vec<DVec3>,
@@ -15,13 +15,13 @@ pub(super) struct Slope {
 }
 
 impl Slope {
-    /// Measures the slope at `state`: the right-hand side of the equations of motion.
+    /// Evaluates the time derivative at `state` and time `t` (s): the right-hand side of the equations of motion.
     pub(super) fn measure(&mut self, system: &mut System<'_>, t: f64, state: &State) {
         system.evaluate(t, state, &mut self.loads);
         self.read(system.model(), state);
     }
 
-    /// Measures the slope at a later time, at which bodies with a given motion have moved.
+    /// Places the bodies with a given motion for a later time `t` (s), and evaluates the time derivative at that time.
     pub(super) fn arrive(&mut self, system: &mut System<'_>, t: f64, state: &mut State) {
         system.arrive(t, state, &mut self.loads);
         self.read(system.model(), state);
@@ -41,8 +41,8 @@ impl Slope {
     }
 }
 
-/// Advances `state` by `dt` along the weighted sum of slopes. The sum takes orientations off the unit sphere, so they are normalized at
-/// the end, also at the stages of a method. This keeps the method's order: it only writes the same equations differently.
+/// Advances `state` by `dt` (s) along the weighted sum of slopes. The sum moves orientations off the unit sphere, so they are normalized
+/// afterwards, also at the stages of a method. This does not change the order of the method.
 pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state: &mut State) {
     add(&mut state.location, dt, slopes.map(|(weight, slope)| (weight, slope.location.as_slice())));
     add(&mut state.velocity, dt, slopes.map(|(weight, slope)| (weight, slope.velocity.as_slice())));
@@ -56,7 +56,7 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
         for (weight, slope) in slopes {
             rate += slope.orientation[i] * weight;
         }
-        // Most bodies do not rotate: this saves a square root.
+        // Most bodies do not rotate, so this condition saves a square root.
         if rate.length_squared() != 0.0 {
             *orientation = (*orientation + rate * dt).normalize();
         }
@@ -66,7 +66,7 @@ pub(super) fn follow<const N: usize>(slopes: [(f64, &Slope); N], dt: f64, state:
     state.accounts.add(dt, power);
 }
 
-/// values += dt · Σ weight · slope. The small terms are summed first to reduce rounding.
+/// Computes values += dt · Σ weight · slope. The small terms are summed up first, which reduces rounding errors.
 fn add<const N: usize>(values: &mut [DVec3], dt: f64, slopes: [(f64, &[DVec3]); N]) {
     for (i, value) in values.iter_mut().enumerate() {
         let mut sum = DVec3::ZERO;

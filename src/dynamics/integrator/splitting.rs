@@ -1,11 +1,11 @@
-//! Building blocks of symplectic methods: the motion is split into two parts, each of which can be solved exactly.
+//! Building blocks of symplectic methods. The equations of motion are split into two parts, and each part is solved exactly.
 
 use glam::DVec3;
 
 use super::super::{Loads, Model, State};
 use super::rotation;
 
-/// The effect of constant loads for `dt` at fixed positions: v += F/m dt, L += τ dt.
+/// Applies constant loads for `dt` seconds at fixed positions: v += F/m dt, L += τ dt.
 pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     if let Some(bodies) = model.in_focus() {
         for &i in bodies {
@@ -24,7 +24,7 @@ pub(super) fn kick(model: &Model, loads: &Loads, dt: f64, state: &mut State) {
     }
 }
 
-/// Corrects a kick of `dt` that was made with the loads `first`, now that they are `later`.
+/// Corrects a kick of `dt` seconds that was made with the loads `first`, so that it equals a kick with the loads `later`.
 pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, state: &mut State) {
     let mut change = |i: usize| {
         state.velocity[i] += dt * model.inverse_mass()[i] * (later.force[i] - first.force[i]);
@@ -36,7 +36,7 @@ pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, st
     }
 }
 
-/// The free motion of bodies for `dt`: x += v dt, and a free rotation.
+/// Moves bodies without loads for `dt` seconds: x += v dt, and a free rotation.
 pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
     if let Some(bodies) = model.in_focus() {
         bodies.iter().for_each(|&i| drift_body(model, dt, state, i));
@@ -53,7 +53,7 @@ pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
     }
 }
 
-/// The same for one body.
+/// Moves body `i` without loads for `dt` seconds: x += v dt, and a free rotation.
 pub(in crate::dynamics) fn drift_body(model: &Model, dt: f64, state: &mut State, i: usize) {
     state.location[i] += dt * state.velocity[i];
     let angular_momentum = state.angular_momentum[i];

@@ -1,4 +1,4 @@
-//! Runge–Kutta steps of bodies that nothing can rotate: only their positions and velocities cost time.
+//! Runge–Kutta steps of bodies that nothing can rotate. Only their positions and velocities need the full computation.
 
 use std::ops::Range;
 
@@ -7,39 +7,40 @@ use glam::{DQuat, DVec3};
 use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
-/// The number of independent bodies that are advanced together, so that their data stay in the first-level cache.
+/// The number of independent bodies that are advanced together. Their data stay in the first-level cache.
 const BLOCK: usize = 128;
 
-/// A stage of a method in which each stage depends only on the one before.
+/// A stage of a Runge–Kutta method in which each stage depends only on the previous stage.
 #[derive(Clone, Copy)]
 pub(super) struct Stage {
-    /// Its time, s.
+    /// The time of the stage, s.
     pub(super) time: f64,
-    /// The weight of its slope in the step.
+    /// The weight of the stage's slope in the result of the step.
     pub(super) weight: f64,
-    /// The duration for which its slope leads from the start of the step to the next stage, s.
+    /// The duration from the start of the step to the next stage, s. The next stage follows from the start along this stage's slope.
     pub(super) next: f64,
 }
 
-/// Memory for a step. The bits are the same as with [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow).
+/// Advances bodies that nothing can rotate, with working memory for a step. The results have the same bits as those of
+/// [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow).
 #[derive(Clone, Default)]
 pub(super) struct Straight {
     stage: State,
     loads: Loads,
-    /// The weighted slopes of the stages so far, for the bodies of a block.
+    /// The weighted sums of the slopes of all stages so far, for the bodies of a block.
     location: Vec<DVec3>,
     velocity: Vec<DVec3>,
     power: Accounts,
 }
 
 impl Straight {
-    /// Whether nothing can rotate, guide or hold a body.
+    /// Returns whether this type can advance a system: no force can rotate bodies, no motion is given, and no constraint is active.
     pub(super) fn suits(system: &System<'_>) -> bool {
         let model = system.model();
         !model.turns_bodies() && !model.has_guided() && !system.is_constrained()
     }
 
-    /// Advances `state` by `dt`.
+    /// Advances `state` by one step of `dt` seconds with the given stages.
     pub(super) fn advance(&mut self, system: &System<'_>, stages: &[Stage], dt: f64, state: &mut State) {
         let (model, count) = (system.model(), state.len());
         if self.stage.len() != count {
@@ -73,7 +74,7 @@ impl Straight {
         }
     }
 
-    /// Adds the slopes of a stage, and continues to the next one.
+    /// Adds the slopes of a stage to the weighted sums, and moves the bodies of a block to the next stage.
     #[inline]
     fn go_on(&mut self, model: &Model, block: Range<usize>, stage: &Stage, is_first: bool, state: &State) {
         let Stage { weight, next, .. } = *stage;
@@ -89,13 +90,13 @@ impl Straight {
             let (velocity, acceleration) = (*here.1, *load.0 * *load.1);
             *sum.0 += weight * velocity;
             *sum.1 += weight * acceleration;
-            // A sum that begins with zero has no negative zero.
+            // `follow` sums up slopes from zero, which turns a negative zero into zero. The added zero has the same effect.
             *here.0 = *begin.0 + next * (DVec3::ZERO + velocity);
             *here.1 = *begin.1 + next * (DVec3::ZERO + acceleration);
         }
     }
 
-    /// Rotates the rotating bodies, each on its own. Their angular momenta stay the same.
+    /// Advances the orientation of each rotating body. The angular momenta are constant.
     fn turn(&mut self, model: &Model, stages: &[Stage], dt: f64, state: &mut State) {
         let nothing = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         let advanced = |from: DQuat, rate: DQuat, time: f64| {
@@ -115,7 +116,7 @@ impl Straight {
                 here.orientation[i] = advanced(state.orientation[i], nothing + rate * 1.0, stage.next);
             }
             state.orientation[i] = advanced(state.orientation[i], sum, dt);
-            // Adding a zero torque removes a negative zero.
+            // `follow` adds a torque of zero, which turns a negative zero into zero.
             state.angular_momentum[i] += DVec3::ZERO;
         }
     }
@@ -127,7 +128,7 @@ mod tests {
     use super::super::Method;
     use super::*;
 
-    /// A force that could rotate bodies, but does nothing.
+    /// A force without effect. The integrator must assume that it can rotate bodies.
     struct Idle;
 
     impl super::super::super::Force for Idle {
@@ -173,7 +174,8 @@ mod tests {
         world
     }
 
-    /// Compares this path with the general one, for independent bodies and for bodies that attract each other.
+    /// Steps of this type must have the same bits as those of the general method, for independent bodies and for bodies that attract each
+    /// other.
     #[test]
     fn bodies_that_nothing_turns_have_the_same_bits_as_all_others() {
         for attract in [false, true] {

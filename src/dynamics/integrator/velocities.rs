@@ -1,13 +1,13 @@
-//! The velocities of all bodies, for methods that try several of them in a step.
+//! Copies of the velocities of all bodies, for methods that compute several velocities in a step.
 
 use glam::DVec3;
 
 use super::super::State;
 
-/// Velocities count as equal if their relative difference is below this.
+/// Two velocities count as equal if their relative difference is at most this.
 const SAME: f64 = 4e-16;
 
-/// The velocities of all bodies.
+/// The velocities and angular momenta of all bodies at one stage of a step.
 #[derive(Clone, Default)]
 pub(super) struct Velocities {
     velocity: Vec<DVec3>,
@@ -25,7 +25,7 @@ impl Velocities {
         state.angular_momentum.clone_from(&self.angular_momentum);
     }
 
-    /// Extrapolates the velocities of a state: adds their difference from these velocities.
+    /// Extrapolates the velocities of `state` linearly: adds their difference from the stored velocities.
     pub(super) fn extrapolate(&self, state: &mut State) {
         let pairs = state.velocity.iter_mut().zip(&self.velocity);
         pairs.for_each(|(now, before)| *now += *now - *before);
@@ -33,7 +33,7 @@ impl Velocities {
         pairs.for_each(|(now, before)| *now += *now - *before);
     }
 
-    /// Writes the mean of these and others to a state.
+    /// Writes the mean of these velocities and `others` to `state`.
     pub(super) fn write_mean(&self, others: &Velocities, state: &mut State) {
         let mean = |(a, b): (&DVec3, &DVec3)| 0.5 * (*a + *b);
         state.velocity.clear();
@@ -42,7 +42,7 @@ impl Velocities {
         state.angular_momentum.extend(self.angular_momentum.iter().zip(&others.angular_momentum).map(mean));
     }
 
-    /// Sets the velocities of a state to these where they agree up to rounding. Returns whether all agree.
+    /// Replaces velocities of `state` by the stored velocities where both agree up to rounding. Returns whether all velocities agree.
     ///
     /// Each body is compared on its own, so that particles that are advanced together do not depend on each other.
     pub(super) fn settle(&self, state: &mut State) -> bool {

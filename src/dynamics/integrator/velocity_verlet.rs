@@ -1,14 +1,14 @@
-//! Velocity Verlet: half a kick, a drift, half a kick.
+//! The velocity Verlet method: half a kick, a drift, half a kick.
 
 use super::super::{Loads, State, System};
 use super::velocities::Velocities;
 use super::{Integrator, Method, splitting};
 
-/// Source: W. C. Swope et al., J. Chem. Phys. 76 (1982) 637.
+/// The velocity Verlet method. Source: W. C. Swope et al., J. Chem. Phys. 76 (1982) 637.
 ///
-/// The published method falls to first order if a force depends on velocity, since it evaluates the force at the end of the step before
-/// the velocity there is known. This version predicts that velocity as v + a·dt. The prediction is off by O(dt²) and the step by O(dt³),
-/// so the method stays of second order. With constraints it is RATTLE: H. C. Andersen, J. Comput. Phys. 52 (1983) 24.
+/// The published method falls to first order if a force depends on velocity, because it evaluates the force at the end of the step before
+/// the velocity at that time is known. This version predicts that velocity as v + a·dt. The prediction has an error of O(dt²) and the step
+/// one of O(dt³), so the method stays of second order. With constraints, it is RATTLE: H. C. Andersen, J. Comput. Phys. 52 (1983) 24.
 pub(super) const METHOD: Method = Method {
     name: "velocity-verlet",
     order: 2,
@@ -24,16 +24,16 @@ pub(super) const METHOD: Method = Method {
 struct VelocityVerlet {
     start: Loads,
     end: Loads,
-    /// Whether `start` holds the loads at the current state, from the end of the last step.
+    /// Whether `start` holds the loads at the present state, kept from the end of the last step.
     primed: bool,
-    /// Velocities at the start and in the middle of a step, if constraints change them within the step.
+    /// The velocities at the start and in the middle of a step, if constraints change them within the step.
     begin: Velocities,
     middle: Velocities,
 }
 
 impl VelocityVerlet {
-    /// A step of RATTLE: the impulses of the constraints are part of the kicks. [`System::settle`] adds the impulses at the end of the
-    /// step.
+    /// Makes a step of RATTLE, in which the impulses of the constraints are part of the kicks. [`System::settle`] adds the impulses at the
+    /// end of the step.
     fn rattle(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let (model, half) = (system.model(), 0.5 * dt);
         self.begin.read(state);
@@ -41,7 +41,7 @@ impl VelocityVerlet {
         system.aim(t, dt, state);
         self.middle.read(state);
         splitting::drift(model, dt, state);
-        // Predicts that the second half of the kick is like the first.
+        // The velocity at the end is predicted on the assumption that both halves of the kick are equal.
         self.begin.extrapolate(state);
         model.place(t + dt, state);
         system.evaluate_forces(t + dt, state, &mut self.end);
@@ -54,12 +54,12 @@ impl VelocityVerlet {
         splitting::kick(model, &self.start, half, state);
         splitting::drift(model, dt, state);
 
-        // The second half of the kick with the old loads is the prediction.
+        // A second half kick with the old loads predicts the velocity at the end.
         splitting::kick(model, &self.start, half, state);
         model.place(t + dt, state);
         system.evaluate_forces(t + dt, state, &mut self.end);
 
-        // Corrects the prediction with the new loads.
+        // The new loads replace the old loads in the second half kick.
         splitting::kick_again(model, [&self.start, &self.end], half, state);
     }
 }

@@ -1,15 +1,14 @@
-//! Yoshida's fourth-order method: three second-order steps, the middle one backwards in time.
+//! Yoshida's fourth-order method: three second-order steps, of which the middle one goes backwards in time.
 
 use super::super::{Loads, State, System};
 use super::velocities::Velocities;
 use super::{Integrator, Method, splitting};
 
-/// Yoshida's method. Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150
-/// (1990) 262.
+/// Yoshida's fourth-order method. Source: H. Yoshida, *Construction of higher order symplectic integrators*, Phys. Lett. A 150 (1990) 262.
 ///
-/// Each second-order step must be symmetric in time, or the method loses its fourth order. So each step is a drift for
-/// half of its time, a kick, and a second such drift. Forces that depend on velocity use the mean of the velocities
-/// before and after the kick.
+/// Each second-order step must be symmetric in time, because the method otherwise loses its fourth order. So each of these steps is a
+/// drift for half of its time, a kick, and a second such drift. Forces that depend on velocity use the mean of the velocities before and
+/// after the kick.
 pub(super) const METHOD: Method = Method {
     name: "yoshida4",
     order: 4,
@@ -21,10 +20,11 @@ pub(super) const METHOD: Method = Method {
     ahead: None,
 };
 
-/// 1 / (2 − ∛2): the length of the first and third step. The three lengths add up to 1.
+/// 1 / (2 − ∛2): the length of the first and of the third second-order step, as a fraction of the whole step. The three lengths add up to
+/// 1.
 const OUTER: f64 = 1.351_207_191_959_657_8;
 
-/// The largest number of iterations for the mean velocity.
+/// The largest number of iterations that find the mean velocity in a kick.
 const TRIALS: usize = 60;
 
 #[derive(Clone, Default)]
@@ -35,7 +35,7 @@ struct Yoshida4 {
 }
 
 impl Yoshida4 {
-    /// A second-order step, which can go backwards in time.
+    /// Makes a second-order step of `dt` seconds; a negative `dt` goes backwards in time.
     fn leap(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
         let (model, half) = (system.model(), 0.5 * dt);
         splitting::drift(model, half, state);
