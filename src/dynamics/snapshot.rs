@@ -53,7 +53,7 @@ impl BodySnapshot {
     }
 }
 
-/// The reason why a run cannot continue.
+/// The reason why a simulation run cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
     /// The position or velocity of a body is not finite: the method cannot follow this motion with this step.

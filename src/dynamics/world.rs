@@ -42,7 +42,7 @@ pub struct World {
     method: &'static Method,
     integrator: Box<dyn Integrator>,
     solver: Solver,
-    /// True if the state satisfies the constraints and nothing has been changed since.
+    /// True if the state satisfies the constraints, because nothing has changed from outside since the last correction.
     is_settled: bool,
     ledger: EnergyLedger,
     calendar: Calendar,
@@ -53,7 +53,7 @@ pub struct World {
     /// The contacts of bodies under time-stepping. Only filled in the copy of a world from which a snapshot is taken.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
-    /// Working memory for the loads at one moment.
+    /// Working memory for the forces and torques at one moment.
     loads: Loads,
     /// The time at which the present step ends, s.
     end: f64,

@@ -33,7 +33,7 @@ pub(super) struct Anderson {
 /// The result of one sweep, or the difference between the results of two successive sweeps.
 #[derive(Default)]
 struct Sweep {
-    /// The values after the sweep.
+    /// The values after the sweep, one entry per unknown.
     found: Vec<f64>,
     /// The change of each value by the sweep, times the square root of the value's weight.
     change: Vec<f64>,

@@ -43,17 +43,17 @@ impl Columns {
         self.weights.push(weight);
     }
 
-    /// Returns the velocity changes of the bodies by a unit impulse along a row.
+    /// Returns the velocity changes of the bodies by a unit impulse along a constraint row.
     pub(super) fn of(&self, row: usize) -> &[Change] {
         &self.changes[self.rows[row].clone()]
     }
 
-    /// Returns the change of each row's own rate c' by a unit impulse along it, one entry per row; 0 for rows of joints.
+    /// Returns the change of each constraint row's own rate c' by a unit impulse along it, one entry per row; 0 for rows of joints.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Adds the velocity changes by an impulse along a row to the members' velocities.
+    /// Adds the velocity changes by an impulse along a constraint row to the members' velocities.
     #[inline]
     pub(super) fn apply(&self, row: usize, impulse: f64, members: &mut [Member]) {
         for change in self.of(row) {
@@ -64,8 +64,8 @@ impl Columns {
 }
 
 impl Solver {
-    /// Computes the velocity changes by a unit impulse along each row, including the reactions of the joints. The columns of the joints'
-    /// own rows stay empty.
+    /// Computes the velocity changes by a unit impulse along each constraint row, including the reactions of the joints. The columns of
+    /// the joints' own rows stay empty.
     pub(super) fn find_columns(&mut self) {
         let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
@@ -82,8 +82,8 @@ impl Solver {
         self.columns = columns;
     }
 
-    /// Appends the velocity changes by a unit impulse along a row when joints are active. The reactions of the joints move other bodies as
-    /// well.
+    /// Appends the velocity changes by a unit impulse along a constraint row when joints are active. The reactions of the joints move
+    /// other bodies as well.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let mut moved: Vec<Member> = self.members.clone();
@@ -106,7 +106,7 @@ impl Solver {
         columns.push(moved.iter().enumerate().map(change), weight);
     }
 
-    /// Appends the velocity changes by a unit impulse along a row when no joint is active: only the bodies of this row move.
+    /// Appends the velocity changes by a unit impulse along a constraint row when no joint is active: only the bodies of this row move.
     fn push_free_column(&self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let directions = &self.jacobian[structure.directions_of(row)];

@@ -24,8 +24,8 @@ impl Solver {
         &self.contacts
     }
 
-    /// Replaces the lasting contacts of the solver. Returns true if they differ from the previous ones; the modes of the rows must then be
-    /// [decided](Self::decide) again.
+    /// Replaces the lasting contacts of the solver. Returns true if they differ from the previous ones; the modes of the constraint rows
+    /// must then be [decided](Self::decide) again.
     pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
         let is_same = |(old, new): (&Arc<Closed>, &Arc<Closed>)| old.is(new);
         let are_same =
@@ -37,21 +37,22 @@ impl Solver {
         !are_same
     }
 
-    /// Creates a solver for these contacts only. It inherits the typical rates and accelerations and the counts of mode changes.
+    /// Creates a solver for these contacts only, with the typical rates and accelerations and the counts of mode changes of this solver.
     pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<Closed>>) -> Solver {
         let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
         let changes = self.changes.clone();
         Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
     }
 
-    /// Returns true if the solver has exactly these contacts and the modes of their rows are decided.
+    /// Returns true if the solver has exactly these contacts and the modes of their constraint rows are decided.
     pub(in crate::dynamics) fn has(&self, contacts: &[Arc<Closed>]) -> bool {
         self.structure.is_some()
             && self.contacts.len() == contacts.len()
             && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
     }
 
-    /// Merges the contacts and histories of other solvers into this one. The modes of the rows must then be [decided](Self::decide) again.
+    /// Merges the contacts and histories of other solvers into this one. The modes of the constraint rows must then be
+    /// [decided](Self::decide) again.
     pub(in crate::dynamics) fn unite(&mut self, parts: &[Solver]) {
         let mut contacts = Vec::new();
         for part in parts {
@@ -81,14 +82,14 @@ impl Solver {
     /// return to their places.
     pub(in crate::dynamics) fn close_gaps(&mut self, model: &Model, t: f64, state: &mut State) {
         if !self.is_idle(model) {
-            // The errors of some rows are measured relative to the start of a step.
+            // The errors of some constraint rows are measured relative to the start of a step.
             self.begin(model, t, state);
             self.is_ready = false;
             self.measure(t, state);
             let (before, gaps) = (self.worst(), state.clone());
             self.settle_places(t, state);
             self.measure(t, state);
-            // If rows contradict each other, their gaps cannot all close.
+            // If constraint rows contradict each other, their gaps cannot all close.
             if self.worst().is_nan() || self.worst() > before {
                 state.clone_from(&gaps);
             }
@@ -120,7 +121,8 @@ impl Solver {
         self.settle_places(t, state);
     }
 
-    /// Returns the speed, m/s, below which the bodies at each row count as at rest, one entry per row; 0 for rows of joints and friction.
+    /// Returns the speed, m/s, below which the bodies at each constraint row count as at rest, one entry per row; 0 for rows of joints and
+    /// friction.
     pub(super) fn stills(&self, model: &Model) -> Vec<f64> {
         let mut stills = vec![0.0; self.rows.len()];
         let places = self.structure.iter().flat_map(|structure| &structure.places);
@@ -188,7 +190,7 @@ impl Solver {
         true
     }
 
-    /// Solves A x = b for the active rows, where A = J M⁻¹ Jᵀ. `unknown` holds b before the call and x after it.
+    /// Solves A x = b for the active constraint rows, where A = J M⁻¹ Jᵀ. `unknown` holds b before the call and x after it.
     #[inline]
     pub(super) fn solve(&mut self) {
         if self.factor.is_soft() {
@@ -199,7 +201,7 @@ impl Solver {
     }
 
     fn solve_softly(&mut self) {
-        // The factors belong to a slightly enlarged diagonal in soft rows. Iterative refinement removes the resulting error.
+        // For soft constraint rows, the factors belong to a slightly enlarged diagonal. Iterative refinement removes the resulting error.
         let right = self.unknown.clone();
         self.factor.solve(&mut self.unknown);
         for _ in 0..REFINEMENTS {
@@ -210,7 +212,7 @@ impl Solver {
         }
     }
 
-    /// Activates only the rows of the joints, at a state that satisfies them. The computed impacts then respect the joints.
+    /// Activates only the constraint rows of the joints, at a state that satisfies them. The computed impacts then respect the joints.
     pub(in crate::dynamics) fn hold_joints(&mut self, model: &Model, t: f64, state: &State) {
         self.is_ready = false;
         self.plan(model);
@@ -292,5 +294,6 @@ impl Solver {
     }
 }
 
-/// The number of iterative refinements when rows are soft. Each multiplies the error by about the relative softness of the rows.
+/// The number of iterative refinements when constraint rows are soft. Each multiplies the error by about the relative softness of the
+/// rows.
 const REFINEMENTS: usize = 3;

@@ -118,11 +118,11 @@ pub(super) struct CoordinateRow<'a> {
     pub(super) row: usize,
     /// The coordinates in the equation, each with its factor.
     pub(super) terms: &'a [(f64, Free)],
-    /// The value of c; 0 if the equation holds.
+    /// The value of c, the left-hand side; 0 if the equation holds.
     pub(super) violation: f64,
-    /// ∂c/∂t, the partial derivative with respect to time.
+    /// ∂c/∂t, the partial derivative of the equation with respect to time.
     pub(super) rate: f64,
-    /// ∂²c/∂t², the second partial derivative with respect to time.
+    /// ∂²c/∂t², the second partial derivative of the equation with respect to time.
     pub(super) curvature: f64,
 }
 

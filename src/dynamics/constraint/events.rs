@@ -7,8 +7,8 @@ use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
 
-/// The tolerance of events. A stop is passed if its error exceeds this fraction of its scale. A row moves if its rate exceeds this
-/// fraction of the largest rate.
+/// The tolerance of events. An inequality c ≥ 0 (a stop) is passed if its error exceeds this fraction of its scale. A constraint row moves
+/// if its rate exceeds this fraction of the largest rate.
 pub(super) const PASSED: f64 = 1e-12;
 
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
@@ -21,8 +21,8 @@ impl Solver {
         self.has_modes
     }
 
-    /// Returns the distance of a state from the next event, in units of the event's tolerance, and the row that causes this event. The
-    /// distance is 1 where a stop just touches, and negative once an event has happened. `loads` is working memory.
+    /// Returns the distance of a state from the next event, in units of the event's tolerance, and the constraint row that causes this
+    /// event. The distance is 1 where a stop (c ≥ 0) just touches, and negative once an event has happened. `loads` is working memory.
     pub(in crate::dynamics) fn margin(
         &mut self,
         model: &Model,
@@ -86,7 +86,7 @@ impl Solver {
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
     }
 
-    /// Returns the typical change of a row's rate c' by forces within `time` seconds.
+    /// Returns the typical change of a constraint row's rate c' by forces within `time` seconds.
     pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
         let change = self.largest_acceleration * time;
         if change.is_finite() { change } else { 0.0 }
@@ -114,7 +114,7 @@ impl Solver {
         (place.constraint >= joints).then(|| self.bodies_of(row))
     }
 
-    /// Reports that the run cannot continue, because a row changes its mode endlessly.
+    /// Reports that the run cannot continue, because a constraint row changes its mode endlessly.
     pub(in crate::dynamics) fn give_up(&mut self, model: &Model, row: usize, time: f64) {
         let Some(structure) = &self.structure else { return };
         let place = structure.place_of_row(row);

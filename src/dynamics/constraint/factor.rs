@@ -8,8 +8,8 @@ use std::ops::Range;
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// A row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. A smaller pivot is only a
-/// rounding error.
+/// A constraint row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. A smaller pivot
+/// is only a rounding error.
 const IMPLIED: f64 = 1e-11;
 
 /// A symmetric matrix and its L D Lᵀ factors, with fixed sparsity patterns.
@@ -25,14 +25,14 @@ pub(super) struct Factor {
     crossings: Vec<Crossing>,
     /// The entries of L below the diagonal, column by column.
     lower: Vec<Entry>,
-    /// The diagonal of D⁻¹; 0 for rows that are left out.
+    /// The diagonal of D⁻¹; 0 for constraint rows that are left out.
     inverse: Vec<f64>,
-    /// For each soft row (see [`SOFT`]), the row that is softened by the same amount; `None` for other rows. A normal row is paired with
-    /// itself. The two tangents of a contact are paired with each other, so the result does not depend on their directions.
+    /// For each soft constraint row (see [`SOFT`]), the row that is softened by the same amount; `None` for other rows. A normal row is
+    /// paired with itself. The two tangents of a contact are paired with each other, so the result does not depend on their directions.
     soft: Vec<Option<usize>>,
-    /// The softness of each soft row, relative to the standard value [`SOFT`]: a row with weight 2 yields twice as much.
+    /// The softness of each soft constraint row, relative to the standard value [`SOFT`]: a row with weight 2 yields twice as much.
     weights: Vec<f64>,
-    /// Working memory, one entry per row. All entries are zero between two factorizations.
+    /// Working memory, one entry per matrix row. All entries are zero between two factorizations.
     work: Vec<f64>,
 }
 
@@ -41,13 +41,13 @@ pub(super) struct Factor {
 struct Line {
     /// The column of the matrix with this row's index, as a range of `Factor::matrix`.
     column: Range<usize>,
-    /// The row of L, as a range of `Factor::crossings`.
+    /// The row of the factor L, as a range of `Factor::crossings`.
     crossings: Range<usize>,
-    /// The column of L with this row's index, as a range of `Factor::lower`.
+    /// The column of the factor L with this row's index, as a range of `Factor::lower`.
     below: Range<usize>,
 }
 
-/// An entry of a sparse column: its row and its value.
+/// An entry of a column of a sparse matrix: the index of its row, and its value.
 #[derive(Clone, Copy, Debug, Default)]
 struct Entry {
     row: usize,
@@ -64,7 +64,7 @@ struct Coupling {
     other: usize,
 }
 
-/// The position of an entry of L in its row.
+/// The position of an entry of the factor L within its row.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
     column: usize,
@@ -74,9 +74,9 @@ struct Crossing {
     at: usize,
 }
 
-/// The relative softness of soft rows: the diagonal entry of such a row grows by this fraction of the mean of its own and its partner's
-/// diagonal entries. Redundant rows can then all be active, and share the load with the smallest sum of squares. Iterative refinement
-/// removes the remaining error.
+/// The relative softness of soft constraint rows. The diagonal entry of a soft row grows by this fraction of the mean of its own and its
+/// partner's diagonal entries. Redundant rows can then all be active, and share the load with the smallest sum of squares. Iterative
+/// refinement removes the remaining error.
 const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
@@ -115,8 +115,8 @@ impl Factor {
         factor
     }
 
-    /// Computes the sparsity pattern of L. Each matrix entry causes entries of L in its row, for all its ancestors in the elimination
-    /// tree.
+    /// Computes the sparsity pattern of the factor L. Each matrix entry causes entries of L in its row, for all its ancestors in the
+    /// elimination tree.
     fn plan(&mut self, columns: Vec<Range<usize>>) {
         let n = columns.len();
         // The elimination tree: the parent of a column of L is the first later row in which the column has an entry.
@@ -217,19 +217,20 @@ impl Factor {
         }
     }
 
-    /// Sets which rows are soft: each soft row names the row that is softened by the same amount. By default, no row is soft.
+    /// Sets which constraint rows are soft (see [`SOFT`]): each soft row names the row that is softened by the same amount. By default, no
+    /// row is soft.
     pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
         self.weights = vec![1.0; soft.len()];
         self.soft = soft;
     }
 
-    /// Sets the softness weights of the given rows. All other weights become 1.
+    /// Sets the softness weights of the given constraint rows. All other weights become 1.
     pub(super) fn weigh(&mut self, weights: impl IntoIterator<Item = (usize, f64)>) {
         self.weights.fill(1.0);
         weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
     }
 
-    /// Returns true if any row is soft. Solutions then need iterative refinement.
+    /// Returns true if any constraint row is soft (see [`SOFT`]). Solutions then need iterative refinement.
     pub(super) fn is_soft(&self) -> bool {
         self.soft.iter().any(Option::is_some)
     }
@@ -250,12 +251,12 @@ impl Factor {
         sizes
     }
 
-    /// Returns true if this row is soft.
+    /// Returns true if this constraint row is soft (see [`SOFT`]).
     pub(super) fn is_row_soft(&self, row: usize) -> bool {
         self.soft.get(row).is_some_and(Option::is_some)
     }
 
-    /// Subtracts the product A x from `out`, in all rows.
+    /// Subtracts the product of the matrix A and the vector x from `out`, in all rows.
     pub(super) fn subtract_product(&self, x: &[f64], out: &mut [f64]) {
         for (k, line) in self.lines.iter().enumerate() {
             for entry in &self.matrix[line.column.clone()] {
@@ -267,7 +268,7 @@ impl Factor {
         }
     }
 
-    /// Solves A x = b for the active rows. `x` holds b before the call; the entries of inactive rows become 0.
+    /// Solves A x = b for the active constraint rows. `x` holds b before the call; its entries for inactive rows become 0.
     #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         for (i, line) in self.lines.iter().enumerate() {

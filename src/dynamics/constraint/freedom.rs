@@ -21,7 +21,7 @@ pub struct Freedom {
 pub enum Motor {
     /// A motor that keeps a constant speed, as far as the limit of its torque or force allows.
     Speed {
-        /// The target speed, rad/s or m/s.
+        /// The speed that the motor keeps, rad/s or m/s.
         speed: f64,
         /// The largest torque, N m, or force, N, of the motor. It is positive.
         limit: f64,

@@ -46,7 +46,7 @@ pub(super) struct Grip {
     /// True if friction can stop the slip within the step. The friction then keeps its direction until the slip ends. Otherwise the slip
     /// would change its sign endlessly.
     pub(super) is_slow: bool,
-    /// True if the two bodies also touch at other points.
+    /// True if the two bodies also touch at other contact points.
     pub(super) is_shared: bool,
     /// True if the contact must stick at once, because no sliding force is consistent with its slip.
     pub(super) is_caught: bool,
@@ -56,7 +56,7 @@ pub(super) struct Grip {
     /// The strongest coupling of this pair with all friction rows: for each of the pair's rows, the absolute values of its friction
     /// entries of A = J M⁻¹ Jᵀ are added; the larger sum counts.
     pub(super) stiffness: f64,
-    /// The largest change of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
+    /// The largest acceleration of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
     pub(super) strength: f64,
 }
 
@@ -105,7 +105,7 @@ impl Grip {
             && slip.dot(self.heading) > ABOUT * slip.length()
     }
 
-    /// Returns the two entries of this pair from a list with one value per row.
+    /// Returns the two entries that belong to this pair of friction rows, from a list with one value per constraint row.
     pub(super) fn of(&self, values: &[f64]) -> DVec2 {
         DVec2::new(values[self.row], values[self.row + 1])
     }
@@ -193,9 +193,9 @@ impl Solver {
             || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
     }
 
-    /// Makes a sliding contact stick at once if no mode of its row `wrong` is consistent (Painlevé's paradox). Friction then grows without
-    /// bound until the slip ends, as in an impact without restitution. Returns true if such a contact was found. Source: D. E. Stewart,
-    /// SIAM Review 42 (2000) 3.
+    /// Makes a sliding contact stick at once if no mode of its constraint row `wrong` is consistent (Painlevé's paradox). Friction then
+    /// grows without bound until the slip ends, as in an impact without restitution. Returns true if such a contact was found. Source: D.
+    /// E. Stewart, SIAM Review 42 (2000) 3.
     pub(super) fn catch(&mut self, wrong: usize) -> bool {
         let is_wrong = |grip: &&mut Grip| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
         let grip = self.grips.iter_mut().find(is_wrong);

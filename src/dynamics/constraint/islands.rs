@@ -1,6 +1,6 @@
 //! Gauss–Seidel sweeps over contacts without joints, island by island. An island is a set of bodies that touch each other.
 //!
-//! Islands are independent, so each is swept only until it has converged. Its rows are stored in the order of the sweep.
+//! Islands are independent, so each is swept only until it has converged. Its contact rows are stored in the order of the sweep.
 
 use std::ops::Range;
 
@@ -12,28 +12,28 @@ use super::anderson::Anderson;
 use super::solver::Solver;
 use super::sweep::SWEEPS;
 
-/// A row of a contact (normal or tangent) in the form that sweeps need.
+/// A constraint row of a contact (normal or tangent) in the form that sweeps need.
 struct Line {
-    /// The index of the row in the solver.
+    /// The index of the contact row in the solver.
     row: usize,
-    /// The terms of the row's rate, as a range of `Island::terms`.
+    /// The terms of the contact row's rate, as a range of `Island::terms`.
     terms: Range<usize>,
-    /// The change of the row's rate c' by a unit impulse along it.
+    /// The change of the contact row's rate c' by a unit impulse along it.
     weight: f64,
-    /// The part of the row's rate c' that the sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
+    /// The part of the contact row's rate c' that the sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
     bias: f64,
     goal: f64,
-    /// The smallest impulse that the row may have.
+    /// The smallest impulse that the contact row may have.
     least: f64,
 }
 
-/// The dependence of a row on one body's velocity or angular velocity.
+/// The dependence of a contact row on one body's velocity or angular velocity.
 struct Term {
     /// The index into the list of all velocities: 2 i for the velocity of member i, 2 i + 1 for its angular velocity.
     velocity: usize,
     /// The entry of the Jacobian: the derivative of the row's rate with respect to this velocity.
     along: DVec3,
-    /// The change of this velocity by a unit impulse along the row.
+    /// The change of this velocity by a unit impulse along the contact row.
     change: DVec3,
 }
 
@@ -108,7 +108,7 @@ impl Island {
         change
     }
 
-    /// Returns the absolute change of the rate of `other` by a unit impulse along `line`. Both rows have the same members.
+    /// Returns the absolute change of the rate of `other` by a unit impulse along `line`. Both contact rows have the same members.
     fn coupling(&self, line: &Line, other: &Line) -> f64 {
         let of = |term: &Term| {
             let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);
@@ -192,7 +192,7 @@ impl Solver {
                 if with_friction {
                     let first = normal + grip.row - place.row;
                     let [u, w] = [&island.lines[first], &island.lines[first + 1]];
-                    // The coupling of the two rows is added to the weight; it is weak, since the tangents are perpendicular.
+                    // The coupling of the two contact rows is added to the weight; it is weak, since the tangents are perpendicular.
                     let weight = u.weight.max(w.weight);
                     let weight = if weight > 0.0 { weight + island.coupling(u, w) } else { 0.0 };
                     island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });

@@ -39,8 +39,8 @@ pub(super) fn for_each_direction(
     }
 }
 
-/// Computes the rate c' = J v + ∂c/∂t of each row from the velocities of the members. Returns the magnitude of the terms: the largest sum
-/// of absolute values in a row.
+/// Computes the rate c' = J v + ∂c/∂t of each constraint row from the velocities of the members. Returns the magnitude of the terms: the
+/// largest sum of absolute values in a row.
 pub(super) fn rates(
     structure: &Structure,
     jacobian: &[Direction],
@@ -61,15 +61,15 @@ pub(super) fn rates(
     largest
 }
 
-/// Computes J v for each row from the velocities of the members. If the members hold accelerations in place of velocities, the result is J
-/// a.
+/// Computes J v for each constraint row from the velocities of the members. If the members hold accelerations in place of velocities, the
+/// result is J a.
 pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &[Member], out: &mut [f64]) {
     for (row, out) in out.iter_mut().enumerate() {
         *out = product(structure, jacobian, members, row).0;
     }
 }
 
-/// Computes J v for one row. Returns it with the sum of the absolute values of its terms.
+/// Computes J v for one constraint row. Returns it with the sum of the absolute values of its terms.
 #[inline(always)]
 pub(super) fn product(
     structure: &Structure,
@@ -93,7 +93,7 @@ pub(super) fn product(
     (sum, size)
 }
 
-/// Books the work that the impulses Λ do through rows that depend on time, such as motors: Λ J v, where J v = −∂c/∂t.
+/// Books the work that the impulses Λ do through constraint rows that depend on time, such as motors: Λ J v, where J v = −∂c/∂t.
 pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &mut State) {
     for (rate, impulse) in rates.zip(impulses) {
         state.accounts.motors -= impulse * rate;

@@ -208,7 +208,7 @@ impl Equations<'_> {
     /// first row.
     pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
         self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
-        // A loop by index: the compiler would unroll an iterator's loop for many bodies, but most rows have one or two.
+        // A loop by index: the compiler would unroll an iterator's loop for many bodies, but most constraint rows have one or two.
         let mut i = self.direction + row * self.bodies;
         let end = i + self.bodies;
         while i != end {

@@ -15,11 +15,11 @@ use super::{Law, Row};
 /// The mode of a constraint row: whether the row is active, and how it exerts force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
-    /// The row is active: it keeps c = 0, or c' = 0 for a motor or sticking friction.
+    /// The constraint row is active: it keeps c = 0, or c' = 0 for a motor or sticking friction.
     Held,
-    /// The row is inactive: it exerts no force.
+    /// The constraint row is inactive: it exerts no force.
     Open,
-    /// The motor of this row pushes with its limit. The value is the sign of its multiplier, ±1.
+    /// The motor of this constraint row pushes with its limit. The value is the sign of its multiplier, ±1.
     Pushed(f64),
     /// The friction row slides: friction has its full size and opposes the slip.
     Slid,
@@ -35,7 +35,7 @@ const CAUGHT: usize = 4;
 pub(super) const SLIGHT: f64 = 1e-10;
 
 impl Mode {
-    /// Returns the initial mode of a row with this law.
+    /// Returns the initial mode of a constraint row with this law.
     pub(super) fn first(law: &Law) -> Mode {
         match law {
             Law::Tie => Mode::Held,
@@ -63,7 +63,7 @@ impl Solver {
             self.settle(model, t, state);
             return;
         }
-        // Violated stops correct the positions only, not the velocities.
+        // A violated stop (inequality c ≥ 0) corrects the positions only, not the velocities.
         for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
             if *law == Law::Stop && row.violation < 0.0 {
                 *mode = Mode::Held;
@@ -77,8 +77,8 @@ impl Solver {
         self.decide(model, t, state, loads);
     }
 
-    /// Decides the mode of each row from now on. Applies the impulses of stops that are hit, and finds from the accelerations which rows
-    /// stay active. `loads` is working memory.
+    /// Decides the mode of each constraint row from now on. Applies the impulses of stops (inequalities c ≥ 0) that are hit, and finds
+    /// from the accelerations which rows stay active. `loads` is working memory.
     pub(in crate::dynamics) fn decide(
         &mut self,
         model: &Model,
@@ -108,8 +108,8 @@ impl Solver {
         let mut can_hold = vec![false; self.rows.len()];
         let stills = self.stills(model);
         for i in 0..self.rows.len() {
-            // A body that passes a stop by the tolerated depth c reaches a rate of √(2 c'' c). This rate counts as zero. Otherwise two
-            // active stops would hit in turn endlessly.
+            // A body that passes a stop (inequality c ≥ 0) by the tolerated depth c reaches a rate of √(2 c'' c). This rate counts as
+            // zero. Otherwise two active stops would be hit in turn endlessly.
             let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
             let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
@@ -152,8 +152,8 @@ impl Solver {
         self.see_strength();
     }
 
-    /// Computes c'' of each row in the present modes. `members` are the bodies with their velocities; the velocities in `self.members` are
-    /// overwritten by accelerations.
+    /// Computes c'' of each constraint row in the present modes. `members` are the bodies with their velocities; the velocities in
+    /// `self.members` are overwritten by accelerations.
     fn see_accelerations(
         &mut self,
         model: &Model,
@@ -170,8 +170,8 @@ impl Solver {
         accelerations
     }
 
-    /// Applies the impulses of stops that are hit. They only push, and afterwards no body moves further into a stop. Returns the largest
-    /// magnitude of the rates so far.
+    /// Applies the impulses of stops (inequalities c ≥ 0) that are hit. The impulses only push, and afterwards no body moves further into
+    /// a stop. Returns the largest magnitude of the rates so far.
     fn hit(&mut self, model: &Model, state: &mut State, touched: &[bool]) -> f64 {
         let n = self.rows.len();
         let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
@@ -233,7 +233,7 @@ impl Solver {
         size
     }
 
-    /// Stops the motion along the active rows by impulses, and books the work of these impulses.
+    /// Stops the motion along the active constraint rows by impulses, and books the work of these impulses.
     fn halt(&mut self, model: &Model, state: &mut State, rates: &[f64]) {
         for (value, rate) in self.unknown.iter_mut().zip(rates) {
             *value = -rate;
@@ -246,7 +246,8 @@ impl Solver {
         state.accounts.impacts += work;
     }
 
-    /// Decides from the accelerations which rows stay active. Returns `None` on success, otherwise a row for which no mode was consistent.
+    /// Decides from the accelerations which constraint rows stay active. Returns `None` on success, otherwise a row for which no mode was
+    /// consistent.
     fn go_on(
         &mut self,
         model: &Model,
@@ -311,19 +312,19 @@ impl Solver {
     }
 }
 
-/// Returns the number of rounds that update all sticking or starting contacts together, in a problem of `n` rows. Later rounds change one
-/// contact at a time. Large problems get fewer such rounds.
+/// Returns the number of rounds that update all sticking or starting contacts together, in a problem of `n` constraint rows. Later rounds
+/// change one contact at a time. Large problems get fewer such rounds.
 fn together(n: usize) -> usize {
     (3_000 / n.max(1)).clamp(30, 300)
 }
 
-/// Returns the largest number of rounds of mode changes in a problem of `n` rows.
+/// Returns the largest number of rounds of mode changes in a problem of `n` constraint rows.
 fn rounds(n: usize) -> usize {
     together(n) + 50 + 2 * n
 }
 
-/// Returns the row with the largest error above the tolerance `slight`, or `None`. After many rounds, it returns the first row with such
-/// an error, which breaks cycles.
+/// Returns the constraint row with the largest error above the tolerance `slight`, or `None`. After many rounds, it returns the first row
+/// with such an error, which breaks cycles.
 fn worst(n: usize, round: usize, slight: f64, wrong: impl Fn(usize) -> f64) -> Option<usize> {
     let all = (0..n).map(|i| (i, wrong(i))).filter(|(_, wrong)| *wrong > slight);
     if round > 50 + 2 * n {

@@ -57,14 +57,14 @@ impl<'a> Way<'a> {
         Way { length, bias, scale, u, ends }
     }
 
-    /// Returns the unit vector u and 1/|d|.
+    /// Returns the unit vector u along the vector d between two ends, and 1/|d|.
     #[inline(always)]
     fn along(apart: DVec3, length: f64) -> (DVec3, f64) {
         let inverse = length.recip();
         (apart * inverse, inverse)
     }
 
-    /// Returns the unit vector u and a bounded 1/|d| for a very short vector d.
+    /// Returns the unit vector u along a very short vector d between two ends, and a bounded 1/|d|.
     #[cold]
     fn short(apart: DVec3, length: f64, shortest: f64) -> (DVec3, f64) {
         // If both ends are at the same point, the direction is arbitrary.
@@ -79,7 +79,7 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// Writes the single row of a rod or a rope: c = `sign` (|d| − `length`).
+    /// Writes the single constraint row of a rod or a rope: c = `sign` (|d| − `length`).
     #[inline(always)]
     pub(super) fn write_only(&self, sign: f64, length: f64, equations: &mut Equations<'_>) {
         let scale = if length > self.scale { length } else { self.scale };
@@ -97,7 +97,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Writes three rows that keep two points at the same place.
+/// Writes three constraint rows that keep two points at the same place.
 pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let (apart, bias) = (to - from, b.motion().1 - a.motion().1);
@@ -109,8 +109,8 @@ pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Eq
     }
 }
 
-/// Writes one row that keeps the vectors `u` and `w` perpendicular. `u` rotates with the first end, `w` with the second. Both are unit
-/// vectors in world axes.
+/// Writes one constraint row that keeps the vectors `u` and `w` perpendicular. `u` rotates with the first end, `w` with the second. Both
+/// are unit vectors in world axes.
 pub(super) fn perpendicular(
     [a, b]: &[End<'_>; 2],
     u: DVec3,
@@ -126,8 +126,8 @@ pub(super) fn perpendicular(
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
 }
 
-/// Writes three rows that keep the second end from rotating relative to the first. `turned` is the rotation from the body axes of the
-/// first end to those of the second.
+/// Writes three constraint rows that keep the second end from rotating relative to the first. `turned` is the rotation from the body axes
+/// of the first end to those of the second.
 pub(super) fn same_turn(
     ends: &[End<'_>; 2],
     turned: glam::DQuat,
@@ -142,8 +142,8 @@ pub(super) fn same_turn(
     }
 }
 
-/// Writes one row that keeps the vector from the first end to the second perpendicular to `u`, a unit vector in world axes that rotates
-/// with the first end.
+/// Writes one constraint row that keeps the vector from the first end to the second perpendicular to `u`, a unit vector in world axes that
+/// rotates with the first end.
 pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let [(from_rate, from_bend), (to_rate, to_bend)] = [a.motion(), b.motion()];

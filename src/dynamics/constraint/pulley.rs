@@ -41,7 +41,7 @@ impl Constraint for Pulley {
     }
 
     /// Writes c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ are the vectors from the points to the ends of the rope, and r is the ratio. Two
-    /// more rows keep |d₁| and |d₂| above the smallest distance.
+    /// more constraint rows keep |d₁| and |d₂| above the smallest distance.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let [a, b, c, d] = End::all(&self.anchors(), members);
         let [first, second] = [[a, b], [c, d]];

@@ -72,7 +72,7 @@ impl Solver {
     }
 
     /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
-    /// Writes c'' of each row to `accelerations`, and returns the largest magnitude of its terms.
+    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,

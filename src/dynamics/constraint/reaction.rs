@@ -11,9 +11,9 @@ use super::{Law, Member};
 /// body of the constraint is absent. Redundant equations carry no load; the independent equations carry it all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
-    /// The force on the second end, N.
+    /// The force of the constraint on its second end, world axes, N.
     pub force: DVec3,
-    /// The torque on the second end, about the point of that end, N m.
+    /// The torque of the constraint on its second end, about the point of that end, world axes, N m.
     pub torque: DVec3,
 }
 

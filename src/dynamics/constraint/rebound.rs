@@ -75,7 +75,8 @@ impl Solver {
         Struck { impacts, early }
     }
 
-    /// Returns the smallest impulse that a stop may have, 0 unless it rebounds.
+    /// Returns the smallest impulse that a constraint row may have: the second phase of Poisson's law for a contact that rebounds,
+    /// otherwise 0.
     pub(super) fn least(&self, row: usize) -> f64 {
         self.least.get(row).copied().unwrap_or(0.0)
     }
@@ -132,7 +133,7 @@ impl Solver {
     }
 
     /// Describes the impact of one rebound in the part of a step that starts at `time`, s. `velocities` are those of the bodies before the
-    /// impact. `before` and `after` are the rates of all rows before and after it.
+    /// impact. `before` and `after` are the rates of all constraint rows before and after it.
     fn impact(
         &self,
         rebound: &Rebound,

@@ -14,10 +14,10 @@ const ROUNDING: f64 = 1e-15;
 /// step, so a projection that needs more does not converge.
 const ITERATIONS: usize = 60;
 
-/// With friction, the iteration stops if the remaining error exceeds this fraction of the error of the last iteration.
+/// With friction, the projection stops if the remaining error exceeds this fraction of the error in the iteration before.
 const STAYS: f64 = 0.95;
 
-/// The iteration diverges if its error grows by more than this factor.
+/// The projection diverges if the error grows by more than this factor in one iteration.
 const DIVERGED: f64 = 10.0;
 
 impl Solver {
@@ -74,7 +74,7 @@ impl Solver {
             self.blame(model, t + dt);
         }
         self.is_aiming = false;
-        // The errors of some rows are measured differently while the velocities are corrected.
+        // The errors of some constraint rows are measured differently while the velocities are corrected.
         self.measured = f64::NAN;
     }
 
@@ -109,7 +109,7 @@ impl Solver {
             for (value, row) in self.unknown.iter_mut().zip(&self.rows) {
                 *value = -row.violation;
             }
-            // If nearly redundant rows contradict each other, the softness keeps bodies from moving far.
+            // If nearly redundant constraint rows contradict each other, the softness keeps bodies from moving far.
             self.factor.solve(&mut self.unknown);
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;

@@ -6,9 +6,9 @@ use super::modes::Mode;
 use super::solver::Solver;
 
 impl Solver {
-    /// Solves A λ = b for the active rows, including sliding friction. `unknown` holds b before the call and λ after it. Friction is μ n,
-    /// where n are the normal forces, and n = c + K n, where c are the normal forces without friction. A small dense system gives n.
-    /// Returns true if it has a solution.
+    /// Solves A λ = b for the active constraint rows, including sliding friction. `unknown` holds b before the call and λ after it.
+    /// Friction is μ n, where n are the normal forces, and n = c + K n, where c are the normal forces without friction. A small dense
+    /// system gives n. Returns true if it has a solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
         let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
         let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();

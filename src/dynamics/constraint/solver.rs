@@ -51,18 +51,18 @@ pub(in crate::dynamics) struct Solver {
     pub(super) jacobian: Vec<Direction>,
     /// The Jacobian at the start of the step, along which SHAKE and RATTLE apply their impulses.
     pub(super) first: Vec<Direction>,
-    /// ∂c/∂t of each row at the start of the step.
+    /// ∂c/∂t of each constraint row at the start of the step; nonzero for constraints that depend on time.
     pub(super) first_rates: Vec<f64>,
-    /// The law of each row. `modes` holds the present mode of each row.
+    /// The law of each constraint row. `modes` holds the present mode of each row.
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
     /// The pairs of friction rows, in the order of their rows.
     pub(super) grips: Vec<Grip>,
     /// For each pair of bodies, the number of mode changes at their contacts in the present step.
     pub(super) changes: BTreeMap<[usize; 2], u32>,
-    /// J v of each row, computed only while contacts slide.
+    /// The product J v of each constraint row, for slip velocities. Computed only while contacts slide.
     pub(super) slips: Vec<f64>,
-    /// True if the mode of any row can change, so that not all laws are [`Law::Tie`].
+    /// True if the mode of any constraint row can change, so that not all laws are [`Law::Tie`].
     pub(super) has_modes: bool,
     /// The largest magnitude of the terms of c' so far; `largest_acceleration` is that of c''. Values far below them count as rounding
     /// errors.
@@ -70,24 +70,24 @@ pub(in crate::dynamics) struct Solver {
     pub(super) largest_acceleration: f64,
     /// The largest magnitudes of the terms of c' and c'' at the state of the last [`Solver::margin`].
     pub(super) seen: [f64; 2],
-    /// For each row, true if the row is active in this step: it is in mode `Held` and not redundant.
+    /// For each constraint row, true if the row is active in this step: it is in mode `Held` and not redundant.
     pub(super) held: Vec<bool>,
-    /// The right-hand side of the linear systems and their solution, the multipliers: one entry per row.
+    /// The right-hand side of the linear systems and their solution, the multipliers: one entry per constraint row.
     pub(super) unknown: Vec<f64>,
-    /// The smallest impulse of each row, for stops that rebound. Empty if all are 0.
+    /// The smallest impulse of each constraint row, for inequalities (stops) that rebound. Empty if all are 0.
     pub(super) least: Vec<f64>,
-    /// The velocity changes by a unit impulse along each row, which sweeps use.
+    /// The velocity changes by a unit impulse along each constraint row, which sweeps use.
     pub(super) columns: Columns,
     /// The contact forces that the last sweeps found, from which the next sweeps start.
     pub(super) warm: Warm,
-    /// The largest absolute rate c' of a row before the contact forces acted, in the last part of a step.
+    /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last part of a step.
     pub(super) forced: f64,
     /// True if sweeps find all forces, because there are no joints. No matrix is then factorized.
     pub(super) is_loose: bool,
-    /// A row for which the last decision of modes found no consistent mode.
+    /// A constraint row for which the last decision of modes found no consistent mode.
     pub(super) undecided: Option<usize>,
     pub(super) trial: State,
-    /// True if rows and factors already belong to the state at which forces are evaluated next.
+    /// True if constraint rows and factors already belong to the state at which forces are evaluated next.
     pub(super) is_ready: bool,
     /// True if the present factors are accurate enough for the projection of the step. `factorised` is the time of these factors, s.
     pub(super) is_factorised: bool,
@@ -101,7 +101,7 @@ impl Solver {
     /// Discards the layout of the constraints. Must be called whenever bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;
-        // The old rows must not act any more, nor their work be booked.
+        // The old constraint rows must not act any more, nor their work be booked.
         self.has_modes = false;
         self.modes.clear();
         self.grips.clear();
@@ -122,7 +122,7 @@ impl Solver {
         self.measure(t, state);
         self.origin.clone_from(&self.members);
         self.begun = t;
-        // The errors of some rows are measured relative to the start of the step.
+        // The errors of some constraint rows are measured relative to the start of the step.
         self.measured = f64::NAN;
         self.hold();
         self.is_ready = true;
@@ -146,12 +146,12 @@ impl Solver {
         missing.fold(0.0, f64::max)
     }
 
-    /// Returns the error of a row in its present mode.
+    /// Returns the error of a constraint row in its present mode.
     fn missing(&self, row: usize) -> f64 {
         self.modes[row].missing(self.laws[row], &self.rows[row])
     }
 
-    /// Returns the diagonal entry of A = J M⁻¹ Jᵀ for a row, as last assembled.
+    /// Returns the diagonal entry of A = J M⁻¹ Jᵀ for a constraint row, as last assembled.
     pub(super) fn weight(&self, row: usize) -> f64 {
         self.factor.diagonal(row)
     }
@@ -161,7 +161,7 @@ impl Solver {
         let Some(structure) = &self.structure else { return };
         let mut failed = None;
         for place in &structure.places {
-            // Open stops do not count: a trial step may pass them.
+            // Open stops (inequalities without contact) do not count: a trial step may pass them.
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
                 let is_kept = missing <= FAILURE * self.rows[row].scale;
@@ -269,7 +269,7 @@ impl Solver {
         self.measured = t;
     }
 
-    /// Returns the largest error of an active row, as a fraction of its scale. A NaN counts as infinite.
+    /// Returns the largest error of an active constraint row, as a fraction of its scale. A NaN counts as infinite.
     pub(super) fn worst(&self) -> f64 {
         let off = |row: &Row| row.violation.abs() / row.scale.max(f64::MIN_POSITIVE);
         let held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
@@ -284,7 +284,7 @@ impl Solver {
         })
     }
 
-    /// Factorizes J M⁻¹ Jᵀ of the last measurement. With `choose`, redundant rows become inactive.
+    /// Factorizes J M⁻¹ Jᵀ of the last measurement. With `choose`, redundant constraint rows become inactive.
     pub(super) fn factorise(&mut self, choose: bool) {
         self.factor.assemble(&self.jacobian, &self.members);
         self.factor.compute(&mut self.held, choose);

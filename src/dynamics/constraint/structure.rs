@@ -17,7 +17,7 @@ pub(super) struct Structure {
     pub(super) rows: usize,
     /// The total number of directions (blocks of the Jacobian) of all constraints: one for each row and each body of its constraint.
     pub(super) directions: usize,
-    /// The index of each row's first direction. The last entry is the number of directions.
+    /// The index of each constraint row's first direction. The last entry is the number of directions.
     pub(super) row_start: Vec<usize>,
     /// For each constraint, the constraints eliminated before it that share a movable body with it, and the constraint itself as the last
     /// entry.

@@ -46,8 +46,8 @@ impl Solver {
     }
 
     /// Applies the impulses of contacts, limits and motors to the bodies, and books their work. [`prepare_sweeps`](Self::prepare_sweeps)
-    /// must have run at these positions. The rates of stops may fall to `goals`. Friction reduces slip velocities to the `goals` of its
-    /// rows.
+    /// must have run at these positions. The rates of stops (inequalities c ≥ 0) may fall to `goals`. Friction reduces slip velocities to
+    /// the `goals` of its constraint rows.
     pub(in crate::dynamics) fn push_all(
         &mut self,
         model: &Model,
@@ -83,8 +83,8 @@ impl Solver {
         self.unknown = impulses;
     }
 
-    /// Computes the rate c' of each row from the velocities of a state, at the positions of the last measurement. Velocities that violate
-    /// the joints are removed first.
+    /// Computes the rate c' of each constraint row from the velocities of a state, at the positions of the last measurement. Velocities
+    /// that violate the joints are removed first.
     pub(in crate::dynamics) fn rates_of(&mut self, model: &Model, state: &mut State) -> Vec<f64> {
         for (member, nature) in self.members.iter_mut().zip(&self.natures) {
             member.follow(nature, state);
@@ -93,9 +93,9 @@ impl Solver {
         self.rates_now()
     }
 
-    /// Returns the target rate of each row for the middle of a time interval: the mean of the present rate and `goals`, the target at the
-    /// end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than its goal stops
-    /// at once.
+    /// Returns the target rate of each constraint row for the middle of a time interval: the mean of the present rate and `goals`, the
+    /// target at the end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than
+    /// its goal stops at once.
     pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
         let middle = |(row, &goal): (usize, &f64)| {
             let middle = 0.5 * (goal + self.rate_of(row));
@@ -104,8 +104,8 @@ impl Solver {
         goals.iter().enumerate().map(middle).collect()
     }
 
-    /// Returns the gap of each row at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller body count as
-    /// zero, as do all rows that are no stops.
+    /// Returns the gap of each constraint row at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller
+    /// body count as zero, as do all rows that are not inequalities (stops).
     pub(in crate::dynamics) fn gaps(&self, closed: f64) -> Vec<f64> {
         let gap = |(row, law): (&Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
         let mut gaps: Vec<f64> = self.rows.iter().zip(&self.laws).map(gap).collect();
@@ -125,7 +125,7 @@ impl Solver {
         pushing.filter_map(move |place| place.constraint.checked_sub(joints))
     }
 
-    /// Computes the rate c' of each row from the velocities of the members.
+    /// Computes the rate c' of each constraint row from the velocities of the members.
     fn rates_now(&self) -> Vec<f64> {
         (0..self.rows.len()).map(|row| self.rate_of(row)).collect()
     }
@@ -141,8 +141,8 @@ impl Solver {
         rate
     }
 
-    /// Finds the impulses in `unknown`, and applies them to the velocities of the members. `before` holds the rate of each row without
-    /// these impulses.
+    /// Finds the impulses in `unknown`, and applies them to the velocities of the members. `before` holds the rate of each constraint row
+    /// without these impulses.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
         self.unknown.fill(0.0);
         if let Purpose::Forces(time) = purpose {
@@ -249,7 +249,7 @@ impl Solver {
         if most == 0.0 && before == DVec2::ZERO {
             return 0.0;
         }
-        // The coupling of the two rows is added to the weight; it is weak, since the tangents are perpendicular.
+        // The coupling of the two constraint rows is added to the weight; it is weak, since the tangents are perpendicular.
         let weight = self.columns.weights()[row].max(self.columns.weights()[row + 1]);
         if weight <= 0.0 {
             return 0.0;
@@ -263,7 +263,7 @@ impl Solver {
         (next - before).length() * weight
     }
 
-    /// Returns the absolute change of the next row's rate by a unit impulse along this row.
+    /// Returns the absolute change of the next constraint row's rate by a unit impulse along this row.
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];

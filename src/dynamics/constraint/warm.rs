@@ -14,13 +14,13 @@ impl Warm {
         self.0.remove(&bodies);
     }
 
-    /// Stores the forces along the rows of a contact, N or N m.
+    /// Stores the forces along the constraint rows of a contact, N or N m.
     pub(super) fn note(&mut self, contact: &Closed, forces: impl Iterator<Item = f64>) {
         let known = self.0.entry(contact.bodies).or_default();
         known.push((contact.clone(), forces.collect()));
     }
 
-    /// Returns the stored forces along the rows of the same contact; `None` if there are none.
+    /// Returns the stored forces along the constraint rows of the same contact; `None` if there are none.
     pub(super) fn find(&self, contact: &Closed) -> Option<&[f64]> {
         let known = self.0.get(&contact.bodies)?.iter();
         let mut same = known.filter(|(other, _)| other.is(contact));

@@ -32,7 +32,7 @@ pub(super) struct Approach<'a> {
     pub(super) paths: [&'a Path; 2],
     /// Gaps that close at less than this rate do not count as approaching, m/s.
     pub(super) slight: f64,
-    /// The bodies touch if their gap is at most this, m.
+    /// The gap at which the two bodies count as touching, m.
     pub(super) touch: f64,
 }
 

@@ -13,7 +13,7 @@ const DIFFERENCE: f64 = 1e-4;
 
 /// The rates at which the point and the normal of a contact change, for given velocities of the bodies.
 pub(super) struct Change {
-    /// The rate of the unit normal, 1/s.
+    /// The time derivative of the unit contact normal, 1/s.
     pub(super) normal: DVec3,
     /// The velocity of the contact point, m/s. The contact point moves over the surfaces; it is no material point of a body.
     pub(super) place: DVec3,

@@ -75,7 +75,7 @@ impl Closed {
     }
 }
 
-/// Returns the current pose of a constrained body.
+/// Returns the current pose (position and orientation) of a body.
 fn pose(member: &Member) -> Pose {
     Pose { location: member.location, orientation: member.orientation }
 }

@@ -44,7 +44,7 @@ pub(in crate::dynamics) struct Collider {
     is_known: Vec<bool>,
     /// The largest closing speed of two bodies so far, m/s. Much smaller speeds count as rounding errors.
     pub(super) fastest: f64,
-    /// The impacts since the last call of `take_impacts`.
+    /// The impacts since the last call of `take_impacts`, in order of time.
     pub(super) impacts: Vec<Impact>,
     /// For each pair of bodies, the number of impacts in the current step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,

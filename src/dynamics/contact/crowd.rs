@@ -17,8 +17,8 @@ use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
-/// The largest number of further steps for which a body stays in the crowd. Without further steps, a settling heap would collect thousands
-/// of events in each step before it joins the crowd again.
+/// The largest number of further steps for which a body stays under time-stepping (in the crowd). Without further steps, a settling heap
+/// would collect thousands of events in each step before it joins the crowd again.
 const AGAIN: u32 = 16;
 
 /// The set of bodies that time-stepping advances, with their contacts and computed motion.
@@ -26,24 +26,24 @@ const AGAIN: u32 = 16;
 pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
     solver: Solver,
-    /// The motion of the crowd until the end of the step; `None` until it is computed.
+    /// The motion of the crowd (the bodies under time-stepping) until the end of the step; `None` until it is computed.
     course: Option<Course>,
-    /// The contacts of the crowd's bodies at the end of the last step.
+    /// The contacts of the bodies under time-stepping (the crowd) at the end of the last step.
     places: Vec<Arc<Closed>>,
-    /// The impacts in the last substep.
+    /// The impacts in the last substep of time-stepping.
     impacts: Vec<Impact>,
     /// The pairs of bodies with contact forces between them in the last substep.
     pushing: BTreeSet<[usize; 2]>,
-    /// For each body that joined the crowd recently, for how many further steps it stays there.
+    /// For each body that joined the crowd (the bodies under time-stepping) recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
-    /// The bodies that have been in the crowd as part of a heap.
+    /// The bodies that have been under time-stepping (in the crowd) as part of a heap.
     heaps: BTreeSet<usize>,
 }
 
-/// How long a body stays in the crowd.
+/// How long a body stays under time-stepping (in the crowd).
 #[derive(Clone, Copy, Default)]
 struct Again {
-    /// The remaining number of further steps in the crowd.
+    /// The remaining number of further steps under time-stepping (in the crowd).
     left: u32,
     /// The number of further steps that the body got when it last joined. It doubles if the body has to join again right after these
     /// steps.
@@ -53,12 +53,12 @@ struct Again {
 }
 
 impl Crowd {
-    /// Returns true if no bodies are in the crowd.
+    /// Returns true if no bodies are under time-stepping (in the crowd).
     pub(in crate::dynamics) fn is_empty(&self) -> bool {
         self.bodies.is_empty()
     }
 
-    /// Returns a copy of the crowd without its computed motion.
+    /// Returns a copy of the crowd (the bodies under time-stepping) without its computed motion.
     pub(super) fn without_course(&self) -> Crowd {
         Crowd { course: None, ..self.clone() }
     }
@@ -67,7 +67,7 @@ impl Crowd {
         self.bodies.iter()
     }
 
-    /// Removes these bodies from the crowd.
+    /// Removes these bodies from the crowd (the bodies under time-stepping).
     pub(super) fn lose(&mut self, bodies: &[usize]) {
         for body in bodies {
             self.bodies.remove(body);
@@ -77,7 +77,8 @@ impl Crowd {
         self.course = None;
     }
 
-    /// Restricts the crowd to the given bodies, whose indices are in ascending order. Returns the bodies that are set aside.
+    /// Restricts the crowd (the bodies under time-stepping) to the given bodies, whose indices are in ascending order. Returns the bodies
+    /// that are set aside.
     pub(super) fn focus(&mut self, bodies: &[usize]) -> BTreeSet<usize> {
         let is_here = |body: &usize| bodies.binary_search(body).is_ok();
         let (here, others) = std::mem::take(&mut self.bodies).into_iter().partition(is_here);
@@ -86,7 +87,7 @@ impl Crowd {
         others
     }
 
-    /// Ends the restriction by `focus`: adds the bodies that were set aside to the crowd again.
+    /// Ends the restriction by `focus`: adds the bodies that were set aside to the crowd (the bodies under time-stepping) again.
     pub(super) fn unfocus(&mut self, others: BTreeSet<usize>) {
         self.bodies.extend(others);
         self.course = None;
@@ -105,17 +106,17 @@ impl Crowd {
 }
 
 impl Collider {
-    /// Returns the indices of the bodies in the crowd.
+    /// Returns the indices of the bodies under time-stepping (in the crowd).
     pub(in crate::dynamics) fn crowded(&self) -> &BTreeSet<usize> {
         &self.crowd.bodies
     }
 
-    /// Returns true if at least one of two bodies is in the crowd.
+    /// Returns true if at least one of two bodies is under time-stepping (in the crowd).
     pub(in crate::dynamics) fn is_in_crowd(&self, bodies: [usize; 2]) -> bool {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Returns true if all bodies of the crowd stay in it for the next step. `places` are the contacts of the crowd.
+    /// Returns true if all bodies under time-stepping (the crowd) remain so for the next step. `places` are the contacts of the crowd.
     pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
@@ -144,18 +145,18 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Returns true if a body is in the crowd, has just left it, or has been in it as part of a heap.
+    /// Returns true if a body is under time-stepping (in the crowd), has just left it, or has been in it as part of a heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
-    /// Removes all bodies from the crowd. The number of further steps of each body is kept.
+    /// Removes all bodies from the crowd (the bodies under time-stepping). The number of further steps of each body is kept.
     pub(in crate::dynamics) fn dissolve(&mut self) {
         self.crowd.bodies.clear();
     }
 
-    /// Adds bodies to the crowd for this step and some further steps, with all bodies that touch them or are joined to them. Returns true
-    /// if the crowd has grown.
+    /// Adds bodies to the crowd (the bodies under time-stepping) for this step and some further steps, with all bodies that touch them or
+    /// are joined to them. Returns true if the crowd has grown.
     pub(in crate::dynamics) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
@@ -163,8 +164,8 @@ impl Collider {
         has_grown
     }
 
-    /// Sets the number of further steps for the bodies that have joined the crowd since it was `before`. All of them get the largest
-    /// number among them.
+    /// Sets the number of further steps for the bodies that have joined the crowd (the bodies under time-stepping) since its set of bodies
+    /// was `before`. All of them get the largest number among them.
     fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
@@ -179,7 +180,8 @@ impl Collider {
         }
     }
 
-    /// Adds the bodies `seeds` to the crowd, with all bodies that touch them or are joined to them. Returns true if the crowd has grown.
+    /// Adds the bodies `seeds` to the crowd (the bodies under time-stepping), with all bodies that touch them or are joined to them.
+    /// Returns true if the crowd has grown.
     pub(in crate::dynamics) fn gather(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut links: Vec<Vec<usize>> =
@@ -202,9 +204,9 @@ impl Collider {
         has_grown
     }
 
-    /// Updates the crowd at the beginning of a step of `dt` seconds. Counts down the further steps of the bodies being advanced, drops
-    /// bodies in free flight, and adds bodies that touch the remaining ones or may hit them. Returns true if the crowd has more bodies
-    /// than remained.
+    /// Updates the crowd (the bodies under time-stepping) at the beginning of a step of `dt` seconds. Counts down the further steps of the
+    /// bodies being advanced, drops bodies in free flight, and adds bodies that touch the remaining ones or may hit them. Returns true if
+    /// the crowd has more bodies than remained.
     pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
@@ -219,7 +221,7 @@ impl Collider {
         }
         let mut held = self.leaning(model, state);
         held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
-        // Bodies in free flight leave the crowd, so that they rebound from the bodies that they hit.
+        // Bodies in free flight leave time-stepping (the crowd), so that they rebound from the bodies that they hit.
         let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
@@ -233,12 +235,12 @@ impl Collider {
         self.crowd.bodies.len() > seeds.len()
     }
 
-    /// Forgets for how many further steps bodies stay in the crowd.
+    /// Forgets for how many further steps bodies stay under time-stepping (in the crowd).
     pub(in crate::dynamics) fn release(&mut self) {
         self.crowd.again.clear();
     }
 
-    /// Returns all contact points of touching bodies, including those within the crowd.
+    /// Returns all contact points of touching bodies, including those withunder time-stepping (in the crowd).
     pub(super) fn touching_all(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         let bodies = std::mem::take(&mut self.crowd.bodies);
         let touching = self.touching(model, state);

@@ -19,7 +19,7 @@ pub(super) struct Feature {
 /// The part of its patch that a feature covers: the borders of the feature.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
-    /// The feature covers its whole patch.
+    /// The feature covers its whole patch, which has no borders.
     All,
     /// A line segment: points at most `half` from the middle `at`, measured along the unit vector `along`.
     Length { at: DVec3, along: DVec3, half: f64 },

@@ -16,9 +16,9 @@ const SETTLED: f64 = 1e-14;
 /// The restitution and the friction at one contact point of an impact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounce {
-    /// The coefficient of restitution.
+    /// The coefficient of restitution at the contact point.
     pub(super) restitution: f64,
-    /// Coulomb's coefficient of friction.
+    /// Coulomb's coefficient of friction at the contact point.
     pub(super) friction: f64,
 }
 

@@ -52,7 +52,7 @@ pub struct Contacts {
 /// One impact of two bodies, as frames and labels report it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// The time of the impact, s.
+    /// The time at which the impact happened, s.
     pub time: f64,
     /// The indices of the two bodies, the smaller one first.
     pub bodies: [usize; 2],

@@ -180,7 +180,7 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
     }
     let (inside, i) = best.map_or((edge, 0), |(inside, _, i)| (inside, i));
     let found = meet(patch, pose, &part.features[i].patch, at);
-    // If the closest point is outside of this triangle, another triangle is nearer.
+    // The closest point is outside of this triangle, so another triangle is nearer and this one does not count.
     let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
     (Nearest { gap, ..found }, i)
 }
@@ -223,7 +223,7 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     search.pairs(&all(a), &all(b));
     match search.best {
         Some((along, found)) => Nearest { gap: along, ..found },
-        // A coordinate is NaN.
+        // No candidate was found, because a coordinate is NaN.
         None => Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
     }
 }

@@ -99,7 +99,7 @@ fn turned(i: usize, model: &Model, before: &State, after: &State, duration: f64)
 }
 
 impl Path {
-    /// Turns this path into that of a body at rest.
+    /// Changes this path into that of a body at rest.
     pub(super) fn stop(&mut self) {
         self.velocity = DVec3::ZERO;
         self.acceleration = [DVec3::ZERO; 2];

@@ -6,7 +6,7 @@ const FRICTION: f64 = 0.5;
 /// The contact properties of a body's surface; `None` where the body does not specify a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surface {
-    /// The coefficient of restitution, from 0 to 1.
+    /// The coefficient of restitution of the surface, from 0 to 1.
     pub restitution: Option<f64>,
     /// Coulomb's coefficient of friction.
     pub friction: Option<f64>,

@@ -428,7 +428,7 @@ fn nothing_catches_at_the_seams_of_a_flat_surface() {
     }
     let found = touch(&surface, &place, &CUBE, &at(0.13, 0.7, 0.41));
     assert_eq!(found.len(), 4, "{found:?}");
-    // Beyond the end of the mesh there is no ground.
+    // A ball just beyond the end of the mesh touches nothing; slightly lower, it touches the edge.
     assert!(touch(&surface, &place, &BALL, &at(2.3, 0.45, 0.0)).is_empty());
     assert_eq!(touch(&surface, &place, &BALL, &at(2.3, 0.4, 0.0)).len(), 1);
 }

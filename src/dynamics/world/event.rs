@@ -19,7 +19,7 @@ const MANY: u32 = 100;
 /// More events at the same instant than this count as endless, since each event already resolves all impacts of its instant.
 const AT_ONCE: u32 = 1_000;
 
-/// An event that ends a piece of a step.
+/// An event that ends a piece of a time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Event {
     /// A constraint row, given by its index, changes its mode: a rope becomes taut, a contact opens, friction begins to slide.
@@ -35,7 +35,7 @@ pub(super) struct Counts {
     impacts: u32,
     /// The number of consecutive events at the same instant.
     at_once: u32,
-    /// The number of consecutive quick mode changes.
+    /// The number of consecutive mode changes that follow each other quickly.
     quick: u32,
 }
 

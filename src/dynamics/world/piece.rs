@@ -209,7 +209,7 @@ impl World {
     fn margin(&mut self, t: f64) -> (f64, usize) {
         let margin = System::new(&self.model, &mut self.solver).margin(t, &self.state, &mut self.loads);
         let Some(collider) = &self.collider else { return margin };
-        // Touching bodies can get further contact points, which have no rows yet.
+        // Touching bodies can get further contact points, which have no constraint rows yet.
         let places = collider.margin(&self.model, &self.state, self.solver.contacts()) + 1.0;
         if places < margin.0 { (places, margin.1) } else { margin }
     }
@@ -266,7 +266,8 @@ impl World {
         (length, row)
     }
 
-    /// Advances from the start of the piece by one step of `dt` seconds. Returns the margin to the next event there, and its row.
+    /// Advances from the start of the piece by one step of `dt` seconds. Returns the margin to the next event there, and the constraint
+    /// row of this event.
     fn try_piece(&mut self, t: f64, dt: f64) -> (f64, usize) {
         self.try_step(t, dt);
         self.margin(t + dt)
