@@ -1,7 +1,8 @@
-//! What event-driven contacts cost: each impact of the blocks that count pi, and each frame of Galton's board.
+//! Measures the cost of event-driven contacts: the time of an impact in the scene `pi_by_collisions`, and the time of a frame in the scene
+//! `galton` (Galton's board).
 //!
-//! The time of an impact must not grow with their number. `cargo bench --bench contacts -- galton` measures the board as well, which
-//! takes a minute.
+//! The time of an impact must not grow with the number of impacts. `cargo bench --bench contacts -- galton` measures the board as well,
+//! which takes a minute.
 
 #![allow(
     clippy::unwrap_used,
@@ -14,10 +15,10 @@ use std::time::Instant;
 use jabuka::scene::{Options, Override};
 use jabuka::{Run, Scene};
 
-/// The ratios of the masses, and how many impacts they give.
+/// The mass ratios of the two blocks in `pi_by_collisions`, and the numbers of impacts that they lead to.
 const IMPACTS: [(&str, u32); 4] = [("1e4", 314), ("1e6", 3_141), ("1e8", 31_415), ("1e10", 314_159)];
 
-/// The seconds of the board's film between which the mean time of a frame is measured.
+/// The times at which parts of the film of Galton's board begin and end, s. The mean time of a frame is measured for each part.
 const SECONDS: [u32; 6] = [0, 2, 8, 12, 16, 20];
 
 fn main() {
@@ -32,7 +33,7 @@ fn main() {
     }
 }
 
-/// A film is simulated from its beginning for each of its lengths. The differences are the times of its parts.
+/// Measures Galton's board. Simulates the film from its beginning up to the end of each part; the differences are the times of the parts.
 fn galton() {
     println!("Galton's board");
     let mut before = 0.0;
@@ -44,7 +45,7 @@ fn galton() {
     }
 }
 
-/// How long it takes to simulate a scene of the gallery with a setting, s.
+/// Returns the time to simulate a scene of the gallery with a changed setting, s.
 fn simulate(name: &str, setting: &str) -> f64 {
     let options = Options { overrides: vec![Override::new(setting)], ..Options::default() };
     let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

@@ -1,6 +1,6 @@
-//! Emission of 1,000 spheres × 1,000 frames against a raw copy of the same bytes into fresh files.
+//! Compares the time to write the scripts of 1,000 spheres in 1,000 frames with the time to copy the same bytes into new files.
 //!
-//! Both are done in turn, since a machine's speed drifts; the ratio of the medians counts, and is to stay below 4.
+//! Both are measured alternately, because the speed of a machine drifts. The ratio of the medians counts. It should stay below 4.
 
 #![allow(
     clippy::unwrap_used,
@@ -33,7 +33,7 @@ fn main() {
         bytes = size;
         fs::remove_dir_all(&written).unwrap();
         fs::remove_dir_all(&copied).unwrap();
-        // The first round warms up.
+        // The first round only warms up the machine and does not count.
         if round > 0 {
             emissions.push(emission);
             wholes.push(whole);
@@ -47,7 +47,7 @@ fn main() {
     println!("whole run {:7.3} s   {:.2} × copy", whole.as_secs_f64(), ratio(whole, copy));
 }
 
-/// Free spheres in one material, at places and velocities that need all digits.
+/// Returns a scene of free spheres in one material. Their locations and velocities need all digits of a number.
 fn scene() -> String {
     let mut text =
         format!("[simulation]\nduration = {}\nframe_rate = 25\nstep = 0.04\n", (FRAMES - 1) as f64 / 25.0);
@@ -68,7 +68,8 @@ fn scene() -> String {
     text
 }
 
-/// Compiles the scene: the time from the first frame to the last file, the time of the whole run, the bytes.
+/// Compiles the scene into scripts. Returns the time from the first frame to the last file, the time of the whole run, and the number of
+/// bytes written.
 fn emit(scene: &Scene, path: &Path) -> (Duration, Duration, u64) {
     let start = Instant::now();
     let run = Run::new(scene).unwrap();
@@ -78,7 +79,7 @@ fn emit(scene: &Scene, path: &Path) -> (Duration, Duration, u64) {
     (middle.elapsed(), start.elapsed(), written.bytes)
 }
 
-/// Copies all files of a folder into a new one.
+/// Copies all files of a folder into a new folder. Returns the time that this takes.
 fn copy(from: &Path, to: &Path) -> Duration {
     let start = Instant::now();
     fs::create_dir(to).unwrap();

@@ -1,7 +1,8 @@
-//! Forces by formulas against the same forces in Rust, and the Lennard-Jones force of 32,000 atoms against that of 4,000.
+//! Compares forces given by formulas with the same forces written in Rust, and the Lennard-Jones force of 32,000 atoms with that of 4,000
+//! atoms.
 //!
-//! Both are done in turn, since a machine's speed drifts; the ratio of the medians counts. A formula is to stay below 3 times the same in
-//! Rust, and eight times as many atoms below 8.8 times the time.
+//! Both sides of a comparison are measured alternately, because the speed of a machine drifts. The ratio of the medians counts. A formula
+//! should take less than 3 times as long as the Rust code, and eight times as many atoms less than 8.8 times as long.
 
 #![allow(
     clippy::unwrap_used,
@@ -22,7 +23,7 @@ use jabuka::simulate::world;
 const BODIES: usize = 10_000;
 const ROUNDS: usize = 41;
 
-/// A force in Rust, as anyone would write it: its work is booked.
+/// A straightforward implementation of a force in Rust, for comparison. It adds its power to the loads.
 struct Plain<F>(F);
 
 impl<F: Fn(DVec3, DVec3, f64) -> DVec3 + Send + Sync> Force for Plain<F> {
@@ -78,7 +79,7 @@ fn main() {
     println!("{:6} {quick:8.5}\n{:6} {slow:8.5}   {:.2} times as long", 4096, 32768, slow / quick);
 }
 
-/// Prints how long a formula takes, and the same in Rust.
+/// Prints the time to evaluate a force by a formula, and the time of the same force in Rust.
 fn compare(formula: &str, plain: &impl Force) {
     let text = format!(
         "variables = {{ k = 4, c = 0.5 }}\nsimulation.duration = 0
@@ -107,7 +108,7 @@ fn loads(force: &dyn Force, world: &World) -> Loads {
     loads
 }
 
-/// The seconds that an evaluation takes.
+/// Returns the time of one evaluation of a force, s.
 fn evaluated(force: &dyn Force, world: &World) -> f64 {
     let zero = vec![DVec3::ZERO; world.state().len()];
     let mut loads = Loads { force: zero.clone(), torque: zero, power: Accounts::default() };
@@ -119,7 +120,8 @@ fn evaluated(force: &dyn Force, world: &World) -> f64 {
     seconds
 }
 
-/// A cube of atoms, half as dense as a liquid, each a little off its place, and the force between them.
+/// Returns a cube of atoms and the Lennard-Jones force between them. The atoms are half as dense as in a liquid, and slightly displaced
+/// from a lattice.
 fn atoms(edge: usize) -> (World, LennardJones) {
     let mut world = World::new();
     let part = |i: usize, k: f64| 0.3 * (i as f64 * k).fract();

@@ -1,5 +1,5 @@
-//! A compiled formula against the same expression as a function in Rust, each evaluated a million times with other numbers
-//! every time. The ratio of the medians counts, and is to stay below 5.
+//! Compares a compiled formula with the same expression as a Rust function. Each is evaluated a million times, each time with other
+//! numbers. The ratio of the medians counts. It should stay below 5.
 
 #![allow(
     clippy::unwrap_used,
@@ -17,7 +17,7 @@ use jabuka::scene::expression::{Program, Scope};
 const EVALUATIONS: usize = 1_000_000;
 const ROUNDS: usize = 15;
 
-/// A formula of x, v, t, k, c, r, and the same in Rust.
+/// A formula of x, v, t, k, c and r, and the same expression as a Rust function.
 type Pair = (&'static str, fn(&[f64; 6]) -> f64);
 
 const PAIRS: [Pair; 9] = [
@@ -42,7 +42,7 @@ fn main() {
         let program = Program::compile(text, &scope).unwrap();
         let (mut plains, mut formulas) = (Vec::new(), Vec::new());
         for _ in 0..ROUNDS {
-            // Neither is known to the compiler where it is called, as in a run it is not.
+            // `black_box` hides both functions from the compiler, because in a run, it does not know the formula either.
             let plain = black_box(plain);
             let (seconds, expected) = timed(&inputs, plain);
             plains.push(seconds);
@@ -56,7 +56,7 @@ fn main() {
     }
 }
 
-/// The seconds that the evaluations take, and the sum of their values.
+/// Returns the time of the evaluations, s, and the sum of their values.
 fn timed(inputs: &[[f64; 6]], evaluate: impl Fn(&[f64; 6]) -> f64) -> (f64, f64) {
     let start = Instant::now();
     let mut sum = 0.0;
@@ -66,7 +66,7 @@ fn timed(inputs: &[[f64; 6]], evaluate: impl Fn(&[f64; 6]) -> f64) -> (f64, f64)
     (start.elapsed().as_secs_f64(), sum)
 }
 
-/// Numbers that need all digits; few enough to stay in the nearest cache.
+/// Returns numbers that need all digits. They are few enough to stay in the first-level cache.
 fn inputs() -> Vec<[f64; 6]> {
     let row = |i: usize| {
         let part = |k: f64| (i as f64 * k).fract();

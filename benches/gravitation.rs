@@ -1,9 +1,10 @@
-//! Gravitation of many stars, as ratios.
+//! Measures the gravitation of many stars, as ratios to other programs.
 //!
-//! - `cargo bench --bench gravitation`: 10,000 stars, all pairs, against a plain double loop in C (`cc -O3`), and the same result. Both are
-//!   done in turn, since a machine's speed drifts; the ratio of the medians counts, and is to stay below 0.75.
-//! - `cargo bench --bench gravitation -- tree [PYTHON]`: 100,000 stars by the tree, and by REBOUND's where that Python has it. A step is to take
-//!   at most 0.7 of REBOUND's processor time at the same angle, with smaller errors.
+//! - `cargo bench --bench gravitation`: the sum over all pairs of 10,000 stars, against a plain double loop in C (`cc -O3`) with the same
+//!   result. Both are measured alternately, because the speed of a machine drifts. The ratio of the medians counts. It should stay below
+//!   0.75.
+//! - `cargo bench --bench gravitation -- tree [PYTHON]`: 100,000 stars by the tree, and by REBOUND's tree if that Python has REBOUND. A
+//!   step should take at most 0.7 of REBOUND's processor time at the same angle, with smaller errors.
 
 #![allow(
     clippy::unwrap_used,
@@ -19,7 +20,7 @@ mod pairs;
 mod tree;
 
 fn main() {
-    // Cargo adds `--bench`.
+    // Cargo adds the argument `--bench`, which is skipped.
     let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
     match words.next().as_deref() {
         None => pairs::measure(),

@@ -1,11 +1,12 @@
-//! How time grows with each kind of thing that a scene can have many of: from the text to the script of the second frame.
+//! Measures how the time grows with the number of things of one kind in a scene, from the text of the scene to the script of the second
+//! frame.
 //!
-//! A table with the times at 100, 1,000 and 10,000, and the exponents p of n^p from 100 to 10,000 and from 1,000 to 10,000:
-//! linear is 1, and more than 1.1 from 100 to 10,000 is too much; forces between all pairs may have 2.1. Constant costs,
-//! which count most at 100, make this exponent smaller. The one from 1,000 on has none of them, but what 1,000 things need
-//! fits into the fast caches of a processor, and what 10,000 need does not: up to 0.2 of it is waiting for memory (the
-//! groups, with 1.2, take 9.7 times as many instructions for 10 times as many). So more than 0.15 above what is allowed is
-//! too much there. The times are those of the processor where one thread works.
+//! Prints a table with the times for 100, 1,000 and 10,000 things. If the time grows as n^p, linear growth has p = 1. The table shows p
+//! from 100 to 10,000, and p from 1,000 to 10,000. The first exponent may be at most 1.1, and 2.1 for forces between all pairs. Constant
+//! costs, which matter most for 100 things, make it smaller. The second exponent is nearly free of constant costs, but it includes waiting
+//! for memory: the data of 1,000 things fit into the fast caches of a processor, those of 10,000 do not. Waiting adds up to 0.2 (the
+//! groups, with an exponent of 1.2, take 9.7 times as many instructions for 10 times as many things). So the second exponent may be larger
+//! by 0.15. Where only one thread works, processor time is measured.
 //!
 //! `cargo bench --bench growth -- labels frames` measures the kinds with these words in their names.
 
@@ -30,10 +31,10 @@ use tempfile::TempDir;
 const NUMBERS: [usize; 3] = [100, 1_000, 10_000];
 const LINEAR: f64 = 1.1;
 const PAIRS: f64 = 2.1;
-/// So much is added to the exponent from 1,000 to 10,000 by waiting for memory.
+/// The amount by which the exponent from 1,000 to 10,000 may exceed the allowed one, because of waiting for memory.
 const MEMORY: f64 = 0.15;
 
-/// A kind of thing: its name, the scene of so many of them, the exponent that is allowed.
+/// A kind of thing in a scene: its name, a function that returns a scene with n such things, and the largest allowed exponent.
 type Kind = (&'static str, fn(usize) -> String, f64);
 
 const KINDS: [Kind; 26] = [
@@ -85,7 +86,7 @@ const KINDS: [Kind; 26] = [
     ("gravitation of all pairs", gravitation, PAIRS),
 ];
 
-/// Each at times of its own.
+/// The keys of guided bodies that each appear and disappear at different times.
 const COMING_AND_GOING: &str = "motion.formula.location = ['i % 100 + sin(t)', 'i / 100', 'cos(t)']\n\
     start = '0.04*(0.618*i % 1)'\nend = '0.02 + 0.04*(0.618*i % 1)'";
 
@@ -125,13 +126,13 @@ fn main() {
     println!("\nthe fastest growth is {fastest:.2} of what is allowed");
 }
 
-/// Whether the arguments name a kind, or none at all.
+/// Returns whether a kind is to be measured: the arguments contain a part of its name, or there are no arguments.
 fn is_asked_for(name: &str) -> bool {
     let mut words = std::env::args().skip(1).filter(|word| !word.starts_with("--")).peekable();
     words.peek().is_none() || words.any(|word| name.contains(&word))
 }
 
-/// How large the scripts of four trails are.
+/// Prints the sizes of the scripts of a scene with four trails.
 fn megabytes() {
     println!("\nmegabytes of four trails{:>14}{:>10}{:>10} frames", "100", "1,000", "10,000");
     for layout in ["self-contained", "shared"] {
@@ -147,7 +148,7 @@ fn megabytes() {
     }
 }
 
-/// The line of a kind, of which so many take a time, s.
+/// Prints the row of a kind in the table. `time` returns the time for n things, s; `most` is the allowed exponent.
 fn row(name: &str, time: impl Fn(usize) -> f64, most: f64, fastest: &mut f64) {
     let [a, b, c] = NUMBERS.map(&time);
     let (overall, last) = (libm::log10(c / a) / 2.0, libm::log10(c / b));
@@ -156,7 +157,7 @@ fn row(name: &str, time: impl Fn(usize) -> f64, most: f64, fastest: &mut f64) {
     *fastest = fastest.max(overall / most).max(last / (most + MEMORY));
 }
 
-/// From the text to the script of the second frame, for every camera.
+/// Compiles the text of a scene to the script of the second frame, for every camera.
 fn to_script(text: &str) {
     let scene = Scene::parse(text).unwrap();
     let run = Run::new(&scene).unwrap();
@@ -167,7 +168,7 @@ fn to_script(text: &str) {
     }
 }
 
-/// What the checks of many mistakes and of two included files with many bodies take.
+/// Measures the checks of a scene with many mistakes, and of two included files with many bodies.
 fn mistakes_and_includes(folder: &Path, fastest: &mut f64) {
     let time = |n| {
         let text = bodies(n, |_| "mass = 'x'".to_owned());
@@ -185,7 +186,7 @@ fn mistakes_and_includes(folder: &Path, fastest: &mut f64) {
     row("bodies in included files", time, LINEAR, fastest);
 }
 
-/// A folder in memory, where the system has one: file systems on disks take long where files have just been removed.
+/// Creates a temporary folder in memory, if the system has one there. File systems on disks are slow after files have been removed.
 fn in_memory() -> TempDir {
     tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
 }
@@ -196,7 +197,8 @@ fn write(scene: &Scene, path: &Path) {
     output::write(&run, &folder, &Selection::first(scene.simulation.frames()), &|| ()).unwrap();
 }
 
-/// The mean time of some work, repeated until the clock of the processor, which may tick in milliseconds, is fine enough.
+/// Returns the mean time of some work, s. Repeats the work until the total is long compared with the resolution of the processor's clock,
+/// which may be milliseconds.
 fn mean(text: &str, work: impl Fn(&str)) -> f64 {
     const LEAST: f64 = 0.4;
     let (mut total, mut rounds) = (0.0, 0.0);
@@ -207,8 +209,7 @@ fn mean(text: &str, work: impl Fn(&str)) -> f64 {
     total / rounds
 }
 
-/// The time that some work takes on this thread: where the system tells, that of the processor, which is the same on a
-/// machine with other work to do.
+/// Returns the time of some work on this thread, s. On Linux, this is processor time, which does not depend on other work of the machine.
 fn timed(work: impl FnOnce()) -> f64 {
     let (start, begin) = (Instant::now(), of_processor());
     work();
@@ -218,13 +219,13 @@ fn timed(work: impl FnOnce()) -> f64 {
     }
 }
 
-/// What this thread has taken of the processor, s, as Linux tells it.
+/// Returns the processor time of this thread so far, s; `None` if the system is not Linux.
 fn of_processor() -> Option<f64> {
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(text.split(' ').next()?.parse::<f64>().ok()? / 1e9)
 }
 
-/// The time that passes during some work, which several threads do.
+/// Returns the wall time of some work that several threads do, s.
 fn passed(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
@@ -326,8 +327,8 @@ fn gravitation(n: usize) -> String {
         + "[force.f.gravitation]\nsoftening = 0.1\n"
 }
 
-/// A body on a circle, so fast that its trail soon has as many points as a trail may have: 512 with 16 pieces between two.
-/// The trail of a slow body has more points for each frame until then.
+/// Returns a scene with a body that moves fast on a circle. Its trail soon has the largest number of points: 512, with 16 pieces between
+/// two frames. The trail of a slow body would take longer to reach this number.
 fn film(frames: usize, layout: &str, keys: &str) -> String {
     let duration = (frames - 1) as f64 / 25.0;
     format!(
@@ -336,7 +337,8 @@ fn film(frames: usize, layout: &str, keys: &str) -> String {
     )
 }
 
-/// Four bodies on circles: about a radian from frame to frame would be too fast to be seen.
+/// Returns a scene with four bodies on circles and their trails. The bodies move by 0.12 rad per frame, slowly enough for a visible
+/// motion.
 fn four_trails(frames: usize, layout: &str) -> String {
     let body = |i: usize| {
         format!(

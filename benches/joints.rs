@@ -1,4 +1,5 @@
-//! What constraints cost: a pendulum on a rod against a free body, and how a step of a chain grows with its links.
+//! Measures the cost of constraints: a pendulum on a rod against a free body, and the growth of the time of a step with the links of a
+//! chain.
 
 #![allow(
     clippy::unwrap_used,
@@ -26,7 +27,8 @@ fn main() {
     }
 }
 
-/// Balls beside each other, each on a rod to the one before it; the first hangs from a point.
+/// Returns a horizontal row of balls. If `is_held` is true, a rod holds each ball to the previous one, and the first ball to a fixed
+/// point.
 fn chain(method: &'static Method, links: u32, is_held: bool) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -43,7 +45,7 @@ fn chain(method: &'static Method, links: u32, is_held: bool) -> World {
     world
 }
 
-/// The fastest of five runs.
+/// Returns the time of a step in the fastest of five runs, µs.
 fn time(mut world: World, steps: u32) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..5 {

@@ -1,7 +1,8 @@
-//! A planet on an orbit of eccentricity 0.9, a hundred times around: how far off the energy and the place are then, and how long it takes.
+//! Measures a planet on an orbit of eccentricity 0.9 for a hundred orbits: the errors of its energy and its position at the end, and the
+//! time that the run takes.
 //!
-//! One run says little, since its error is rounding: so there are twenty, each turned in another way, and the root mean square counts.
-//! `benches/peers/kepler.py` does the same with another program.
+//! The errors of a single run come from rounding, so they are random. So there are twenty runs, each with a differently rotated orbit, and
+//! the root mean square of their errors counts. `benches/peers/kepler.py` does the same with another program.
 //!
 //! `cargo bench --bench kepler [METHOD TOLERANCE]`
 
@@ -19,7 +20,7 @@ use jabuka::dynamics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBod
 const ECCENTRICITY: f64 = 0.9;
 const ORBITS: f64 = 100.0;
 const COPIES: u32 = 20;
-/// Each is run so often, and the quickest run counts.
+/// The number of repetitions of each run. The fastest one counts.
 const REPEATS: u32 = 5;
 
 fn main() {
@@ -61,13 +62,13 @@ fn measure(name: &str, tolerance: f64) {
     println!("{name:12} {tolerance:5.0e}  {energy:.2e}  {place:.2e}  {:7.2}  {steps}", time / copies * 1e3);
 }
 
-/// How a copy is turned.
+/// Returns the rotation of the orbit in run `copy`.
 fn turn(copy: u32) -> DQuat {
     let part = |root: f64| (f64::from(copy + 1) * root.sqrt()).fract() - 0.5;
     DQuat::from_xyzw(part(2.0), part(3.0), part(5.0), part(7.0)).normalize()
 }
 
-/// The planet at its perihelion, with next to no mass, and where it is.
+/// Prepares a run with the planet at its perihelion, and returns its location (m) as well. The mass of the planet is negligible.
 fn begin(method: &'static Method, tolerance: f64, turn: DQuat) -> (DVec3, Box<dyn Dynamics>) {
     let mut world = World::new();
     world.set_integrator(method);

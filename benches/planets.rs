@@ -1,7 +1,8 @@
-//! The Sun and ten planets for a thousand years: how far off the energy and Mercury are then, and how much processor time it takes.
+//! Measures the Sun and ten planets for a thousand years: the errors of the energy and of Mercury's position at the end, and the processor
+//! time of the run.
 //!
-//! The reference for the place of Mercury is `gauss-radau` with a hundredth of its tolerance. `benches/peers/planets.py` does the same with
-//! another program.
+//! The reference for the position of Mercury is `gauss-radau` with a hundredth of its tolerance. `benches/peers/planets.py` does the same
+//! with another program.
 
 #![allow(
     clippy::unwrap_used,
@@ -16,7 +17,7 @@ use jabuka::dynamics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBod
 
 const YEARS: f64 = 1000.0;
 const STEP: f64 = 0.01;
-/// Half the great axis, AU; the eccentricity; the mass in those of the Sun.
+/// The semi-major axis of each planet's orbit, AU; its eccentricity; the planet's mass in solar masses.
 const PLANETS: [[f64; 3]; 10] = [
     [0.387_098, 0.205_63, 1.66e-7],
     [0.723_332, 0.006_77, 2.448e-6],
@@ -52,7 +53,8 @@ fn run(name: &str, tolerance: f64) -> (Snapshot, f64, u64) {
     (run.snapshot().unwrap(), took, run.steps())
 }
 
-/// All at their perihelia, which lie all around; inclined by up to a few degrees.
+/// Prepares a run with all planets at their perihelia. The perihelia lie in different directions, and the orbits are inclined by up to a
+/// few degrees.
 fn begin(method: &'static Method, tolerance: f64) -> Box<dyn Dynamics> {
     let mut world = World::new();
     world.set_integrator(method);
@@ -68,7 +70,7 @@ fn begin(method: &'static Method, tolerance: f64) -> Box<dyn Dynamics> {
         let velocity = speed * DVec3::new(-sin, cos * upright, cos * tilt);
         bodies.push(RigidBody::new(&shape, mass).with_location(at).with_velocity(velocity));
     }
-    // The centre of mass rests.
+    // The common centre of mass is brought to rest.
     let mass: f64 = bodies.iter().map(|body| body.mass).sum();
     let at = bodies.iter().map(|body| body.mass * body.location).sum::<DVec3>() / mass;
     let motion = bodies.iter().map(|body| body.mass * body.velocity).sum::<DVec3>() / mass;

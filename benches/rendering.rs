@@ -1,7 +1,7 @@
-//! `jabuka render` against its bound, against one POV-Ray after another, and against POV-Ray's own animation loop.
+//! Compares `jabuka render` with its lower bound, with one POV-Ray process after another, and with POV-Ray's own animation loop.
 //!
-//! Prints, for 24 frames of some scenes, the wall time and its ratio to what POV-Ray's CPU time for them takes on all
-//! processors. Needs POV-Ray. `cargo bench --bench rendering`
+//! Prints the wall time for 24 frames of some scenes, and its ratio to the lower bound: POV-Ray's CPU time for these frames, divided among
+//! all processors. Needs POV-Ray. `cargo bench --bench rendering`
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 const FRAMES: usize = 24;
 
-/// A ball on paper: nothing is cheaper.
+/// A scene that is as cheap to render as possible: a single ball in plain surroundings.
 const FLAT: &str = "
     environment = 'paper'
     [body.ball]
@@ -75,7 +75,7 @@ fn main() {
     }
 }
 
-/// The wall time and the CPU time of a command and all that it starts, s.
+/// Runs a command. Returns its wall time, and the CPU time of the command and of all processes that it starts, s.
 fn measured(command: &mut Command) -> (f64, f64) {
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let (start, before) = (Instant::now(), children());
@@ -83,10 +83,10 @@ fn measured(command: &mut Command) -> (f64, f64) {
     (start.elapsed().as_secs_f64(), children() - before)
 }
 
-/// The CPU time of all processes that this one has waited for, s.
+/// Returns the CPU time of all child processes that have ended so far, s.
 fn children() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap();
     let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
-    // Fields 16 and 17 of proc(5), in hundredths of a second.
+    // Fields 16 and 17 of proc(5) are the user and system times of child processes, in hundredths of a second.
     fields[13..15].iter().map(|ticks| ticks.parse::<f64>().unwrap() / 100.0).sum()
 }

@@ -1,11 +1,11 @@
-//! Prints a scene that shows every material of the library with its name; `docs/materials.sh` makes a picture of it.
+//! Prints a scene that shows every material of the library with its name. `docs/materials.sh` renders this scene.
 #![allow(clippy::print_stdout, reason = "it prints a scene")]
 
 use jabuka::scene::MATERIALS;
 
 const COLUMNS: usize = 9;
 
-/// The surroundings, and a macro that lays a name on the ground.
+/// The beginning of the scene: its surroundings, and an SDL macro that writes a name on the ground.
 const HEAD: &str = r#"title = "The materials that every scene knows by name"
 
 [simulation]

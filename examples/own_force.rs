@@ -1,11 +1,11 @@
-//! A scene with a force and a method of integration of your own:
+//! Runs a scene with a force and an integration method that are written in Rust:
 //!
 //!     cargo run --example own_force
 //!
-//! This writes a script for each frame into `out/rosette`. `povray +Iout/rosette/frame_0250.pov` draws the last one.
+//! This writes a script for each frame into `out/rosette`. `povray +Iout/rosette/frame_0250.pov` renders the last frame.
 //!
 //! The force is Newton's example of a revolving orbit (*Principia*, book I, propositions 43 to 45). A spring to the origin leads a
-//! ball around an ellipse. An added force in proportion to 1/r³ turns that ellipse: at each moment, the ball is as far from the
+//! ball around an ellipse. An added force in proportion to 1/r³ rotates that ellipse: at each moment, the ball is as far from the
 //! origin as on the ellipse, but its angle is `TURNS` times as large. Its trail is a rosette.
 
 use std::f64::consts::TAU;
@@ -16,14 +16,14 @@ use jabuka::emit::frame_name;
 use jabuka::simulate::{Recorded, world};
 use jabuka::{Run, Scene};
 
-/// The stiffness of the spring, N/m. The ball has 1 kg, so that it swings with 1 rad/s.
+/// The stiffness of the spring, N/m. The mass of the ball is 1 kg, so the ball oscillates at 1 rad/s.
 const STIFFNESS: f64 = 1.0;
-/// The half axes of the ellipse, m.
+/// The lengths of the semi-axes of the ellipse, m.
 const HALF_AXES: [f64; 2] = [3.0, 1.0];
-/// The angle about the origin, by that on the ellipse.
+/// The angle of the ball about the origin, divided by its angle on the ellipse.
 const TURNS: f64 = 1.2;
 
-/// After five turns on the ellipse, the rosette is closed. The method below takes 100 steps of each second.
+/// Returns the scene with a number of steps per second. Its duration is five turns on the ellipse, after which the rosette is closed.
 fn scene(steps: f64) -> Result<Scene, jabuka::diagnostic::Report> {
     let ([x, y], duration) = (HALF_AXES, 5.0 * TAU);
     Scene::parse(&format!(
@@ -47,11 +47,11 @@ fn scene(steps: f64) -> Result<Scene, jabuka::diagnostic::Report> {
     ))
 }
 
-/// A spring to the origin, and the force that turns the orbit: F = (−k + c/r⁴) r.
+/// A spring to the origin, and the force that rotates the orbit: F = (−k + c/r⁴) r.
 struct Revolving {
-    /// The number of the body in the scene.
+    /// The index of the body in the scene.
     body: usize,
-    /// The stiffness k, N/m.
+    /// The stiffness k of the spring, N/m.
     spring: f64,
     /// The strength c of the added force, N m³. Negative values attract.
     added: f64,
@@ -64,14 +64,15 @@ impl Force for Revolving {
         loads.force[self.body] += (-self.spring + self.added / (square * square)) * place;
     }
 
-    /// With the potential, the report of energies knows how right the run is.
+    /// Returns the potential energy, J. With it, the drift of the total energy shows the error of the run.
     fn potential(&self, moment: &Moment) -> f64 {
         let square = moment.state.location[self.body].length_squared();
         0.5 * (self.spring * square + self.added / square)
     }
 }
 
-/// Position Verlet: half a drift, a kick, half a drift. It is of second order and symplectic. This one does not turn bodies.
+/// The position Verlet method: half a drift, a kick, half a drift. It is symplectic and of second order. This implementation does not
+/// rotate bodies.
 static POSITION_VERLET: Method = Method {
     name: "position-verlet",
     order: 2,
@@ -85,7 +86,7 @@ static POSITION_VERLET: Method = Method {
 
 #[derive(Clone, Default)]
 struct PositionVerlet {
-    /// The forces in the middle of the step, kept to save room.
+    /// Working memory for the forces in the middle of the step. It is kept, so that steps allocate no memory.
     loads: Loads,
 }
 
@@ -113,7 +114,7 @@ fn drift(state: &mut State, dt: f64) {
     }
 }
 
-/// The run of the scene, by the force and the method above.
+/// Runs the scene with the force and the method above.
 fn run(scene: &Scene) -> Result<Run<'_>, jabuka::RunError> {
     let [x, y] = HALF_AXES;
     // The angular momentum on the ellipse is √k a b for a mass of 1 kg.
@@ -124,7 +125,7 @@ fn run(scene: &Scene) -> Result<Run<'_>, jabuka::RunError> {
     Run::of(Recorded::of(scene, Box::new(world))?)
 }
 
-/// Writes the scripts of all frames into a folder.
+/// Writes the scripts of all frames into a folder. Returns their number.
 fn write(run: &Run<'_>, folder: &Path) -> Result<usize, Box<dyn std::error::Error>> {
     std::fs::create_dir_all(folder)?;
     let frames = run.scene().simulation.frames();
@@ -152,17 +153,18 @@ mod tests {
 
     use super::*;
 
-    /// Where the ball is at a time, s: on the ellipse, but at `TURNS` times its angle.
+    /// Returns the exact position of the ball at time `t`, s: its distance is that on the ellipse, and its angle is `TURNS` times as
+    /// large.
     fn exact(t: f64) -> DVec3 {
         let [x, y] = HALF_AXES;
         let (sin, cos) = (libm::sin(t), libm::cos(t));
-        // The angle on the ellipse is the phase but for the last term, which stays within a quarter of a turn.
+        // The angle on the ellipse differs from the phase by the last term, which stays within a quarter of a turn.
         let angle = t - libm::atan((x - y) * sin * cos / (x * cos * cos + y * sin * sin));
         let (sin, cos) = (libm::sin(TURNS * angle), libm::cos(TURNS * angle));
         libm::hypot(x * libm::cos(t), y * libm::sin(t)) * DVec3::new(cos, sin, 0.0)
     }
 
-    /// The largest distance from the closed form in all frames, m.
+    /// Returns the largest distance between the ball and the closed form in all frames, m.
     fn error(run: &Run<'_>) -> f64 {
         let off = |frame: jabuka::simulate::Frame| (frame.bodies[0].location - exact(frame.time)).length();
         run.frames().map(|frame| off(frame.unwrap())).fold(0.0, f64::max)

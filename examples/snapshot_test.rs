@@ -1,9 +1,9 @@
-//! A snapshot test of a scene, as you would write it in a project of your own:
+//! A snapshot test of a scene, to copy into your own project:
 //!
 //!     cargo test --example snapshot_test
 //!
-//! A script is the same on every run and machine. If it changes, the test shows how, and `cargo insta review` accepts
-//! what was meant.
+//! A script is the same on every run and machine. If the script changes, the test shows the difference, and
+//! `cargo insta review` accepts an intended change.
 
 use jabuka::{Run, Scene};
 
@@ -30,7 +30,7 @@ const SCENE: &str = r##"
     point.location = [0, 5, 5]
 "##;
 
-/// The script of a frame of the scene.
+/// Returns the script of one frame of the scene.
 fn script(frame: usize) -> Result<String, Box<dyn std::error::Error>> {
     let scene = Scene::parse(SCENE)?;
     let run = Run::new(&scene)?;

@@ -1,4 +1,4 @@
-//! All pairs, against a plain double loop in C.
+//! Compares the sum of gravitation over all pairs of stars with a plain double loop in C.
 
 use std::path::Path;
 use std::process::Command;
@@ -40,9 +40,9 @@ pub(super) fn measure() {
         let said = Command::new(&program).arg(STARS.to_string()).output().unwrap();
         let said = String::from_utf8(said.stdout).unwrap();
         let (seconds, theirs) = said.trim().split_once(' ').unwrap();
-        // Sums of 10,000 terms in another order.
+        // The two programs sum up 10,000 terms in different orders, so the results differ by rounding.
         assert!((ours / theirs.parse::<f64>().unwrap() - 1.0).abs() < 1e-9, "{ours} {theirs}");
-        // The first round warms up.
+        // The first round only warms up the machine and does not count.
         if round > 0 {
             forces.push(force);
             potentials.push(energy);
@@ -56,7 +56,7 @@ pub(super) fn measure() {
     println!("potential  {potential:7.4} s   {:.2} × plain C", potential / plain);
 }
 
-/// A star at a place that needs all digits.
+/// Returns the `i`-th star, at a location that needs all digits of a number.
 fn star(i: usize) -> RigidBody {
     let part = |k: f64| (i as f64 * k).fract();
     RigidBody::new(&Shape::Sphere { radius: 0.001 }, 1.0 + part(0.236_067_977)).with_location(DVec3::new(

@@ -1,4 +1,4 @@
-//! By the tree, against REBOUND's.
+//! Compares gravitation by the tree with gravitation by REBOUND's tree.
 
 use std::path::Path;
 use std::process::Command;
@@ -13,7 +13,7 @@ const STARS: usize = 100_000;
 const SOFTENING: f64 = 0.01;
 const ANGLE: f64 = 0.5;
 const STEPS: usize = 5;
-/// Errors are measured on one star of so many.
+/// The errors of the forces are measured on every n-th star, with this n.
 const EVERY: usize = 199;
 
 pub(super) fn measure(python: Option<&str>) {
@@ -70,7 +70,7 @@ fn ours(places: &[DVec3]) -> (f64, f64, Vec<DVec3>) {
     (median(processor), median(clock), found)
 }
 
-/// The processor time of all threads so far, s.
+/// Returns the processor time of all threads of this process so far, s.
 fn processor_time() -> f64 {
     let tasks = std::fs::read_dir("/proc/self/task").unwrap();
     let spent = tasks.map(|task| {
@@ -80,7 +80,7 @@ fn processor_time() -> f64 {
     1e-9 * spent.sum::<f64>()
 }
 
-/// REBOUND's version, its seconds, and its accelerations.
+/// Runs REBOUND. Returns its version, its processor time (s), and the accelerations of all stars.
 fn rebound(python: &str, places: &[DVec3]) -> (String, f64, Vec<DVec3>) {
     let folder = tempfile::tempdir().unwrap();
     let (stars, out) = (folder.path().join("stars"), folder.path().join("out"));
@@ -107,7 +107,7 @@ fn rebound(python: &str, places: &[DVec3]) -> (String, f64, Vec<DVec3>) {
     (version.to_owned(), seconds.parse().unwrap(), found)
 }
 
-/// The acceleration of one star by all others, one by one.
+/// Returns the exact acceleration of one star, as a sum over all other stars.
 fn acceleration(places: &[DVec3], i: usize) -> DVec3 {
     let pull = |place: &DVec3| {
         let d = *place - places[i];
@@ -117,7 +117,7 @@ fn acceleration(places: &[DVec3], i: usize) -> DVec3 {
     places.iter().map(pull).sum()
 }
 
-/// A number from 0 to 1 that needs all digits.
+/// Returns a number from 0 to 1 that needs all digits.
 fn part(i: usize, k: f64) -> f64 {
     (i as f64 * k).fract()
 }
@@ -126,7 +126,8 @@ fn cube(i: usize) -> DVec3 {
     DVec3::new(part(i, 0.618_033_988_7), part(i, 0.414_213_562_4), part(i, 0.732_050_807_6))
 }
 
-/// Plummer's model, but for the 2 % that are outermost. Source: S. J. Aarseth, M. Hénon and R. Wielen, Astron. Astrophys. 37 (1974) 183.
+/// Returns the location of the `i`-th star in Plummer's model, without the outermost 2 % of the mass. Source: S. J. Aarseth, M. Hénon and
+/// R. Wielen, Astron. Astrophys. 37 (1974) 183.
 fn plummer(i: usize) -> DVec3 {
     let at = cube(i);
     let radius = 1.0 / (libm::pow(0.98 * at.x + 1e-9, -2.0 / 3.0) - 1.0).sqrt();

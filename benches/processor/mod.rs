@@ -1,6 +1,6 @@
-//! How long the processor has worked.
+//! The clock of the processor time.
 
-/// The processor time of this thread so far, s, as Linux says it; elsewhere, the time of the day.
+/// Returns the processor time of this thread so far, s. On systems other than Linux, returns the wall-clock time.
 pub(crate) fn seconds() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     let spent = text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());

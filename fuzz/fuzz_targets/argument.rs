@@ -1,4 +1,4 @@
-//! Texts of the command line.
+//! Fuzzes the parsers of command-line arguments.
 #![no_main]
 
 use jabuka_fuzz::targets::argument;

@@ -1,4 +1,4 @@
-//! A table of motions as CSV.
+//! Fuzzes the reader of CSV tables with motions of bodies.
 #![no_main]
 
 use jabuka_fuzz::folder;

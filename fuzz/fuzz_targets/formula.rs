@@ -1,4 +1,4 @@
-//! A formula, wherever one may stand.
+//! Fuzzes formulas at each place of a scene where a formula may be written.
 #![no_main]
 
 use jabuka_fuzz::targets::formula;

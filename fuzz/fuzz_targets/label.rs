@@ -1,4 +1,4 @@
-//! The text of a label.
+//! Fuzzes the texts of labels.
 #![no_main]
 
 use jabuka_fuzz::targets::label;

@@ -1,4 +1,4 @@
-//! The manifest of a folder of scripts.
+//! Fuzzes the reader of the manifest in a folder of scripts.
 #![no_main]
 
 use jabuka_fuzz::folder;

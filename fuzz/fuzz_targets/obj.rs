@@ -1,4 +1,4 @@
-//! A mesh as OBJ.
+//! Fuzzes the reader of OBJ meshes.
 #![no_main]
 
 use jabuka_fuzz::folder;

@@ -1,4 +1,4 @@
-//! A heightfield as PNG.
+//! Fuzzes the reader of PNG heightfields.
 #![no_main]
 
 use jabuka_fuzz::folder;

@@ -1,4 +1,4 @@
-//! The record of an image.
+//! Fuzzes the reader of records that belong to rendered images.
 #![no_main]
 
 use jabuka_fuzz::folder;

@@ -1,4 +1,4 @@
-//! The text of a scene.
+//! Fuzzes the parser and the checks of scenes.
 #![no_main]
 
 use jabuka_fuzz::targets::scene;

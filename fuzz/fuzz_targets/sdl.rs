@@ -1,4 +1,4 @@
-//! POV-Ray's own words, which the filter of untrusted scenes looks through.
+//! Fuzzes the filter of POV-Ray SDL in untrusted scenes.
 #![no_main]
 
 use jabuka_fuzz::targets::sdl;

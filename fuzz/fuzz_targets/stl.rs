@@ -1,4 +1,4 @@
-//! A mesh as STL.
+//! Fuzzes the reader of STL meshes.
 #![no_main]
 
 use jabuka_fuzz::folder;

@@ -1,4 +1,4 @@
-//! What the targets share: the functions that `tests/fuzz` tries by inputs of its own.
+//! Functions that all fuzz targets share. `tests/fuzz` calls the same functions with inputs of its own.
 //!
 //! With a nightly toolchain and `cargo install cargo-fuzz`, from the folder of the repository:
 //!
@@ -16,7 +16,7 @@ pub mod targets;
 use std::path::Path;
 use std::sync::OnceLock;
 
-/// A folder for the files of the inputs, for as long as the program runs.
+/// Returns a temporary folder for input files, which exists as long as the program runs.
 pub fn folder() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
     FOLDER.get_or_init(|| tempfile::tempdir().expect("there is room for small files")).path()

@@ -1,10 +1,11 @@
-//! A chain that is let go, here and in rapier's multibody joints: the processor time of a step, measured in one run.
+//! Compares a swinging chain in jabuka with the same chain in rapier's multibody joints: the processor time of a step, measured in one
+//! run.
 //!
-//! Both simulate balls of 1 kg, 1 m apart, under the same gravity. Each ball is held at its distance from the one before it.
+//! Both simulate balls of 1 kg, 1 m apart, under the same gravity. Each ball is held at its distance from the previous ball.
 //!
-//! - Here, by a rod, or by a ball joint at the centre of the ball before.
-//! - In rapier, by a hinge, so that the chain swings in a plane and has the fewest coordinates. The chain of 100 also runs with
-//!   spherical joints; with them, a chain of 1,000 would take too long.
+//! - In jabuka, by a rod, or by a ball joint at the centre of the previous ball.
+//! - In rapier, by a hinge, so that the chain swings in a plane and has the fewest coordinates. The chain of 100 also runs with spherical
+//!   joints; with these, a chain of 1,000 would take too long.
 //!
 //! The default damping of rapier's joints is switched off. There are no contacts, and rapier runs on one thread.
 //!
@@ -22,11 +23,11 @@ const STEP: f64 = 1e-3;
 const RADIUS: f64 = 0.1;
 const GRAVITY: f64 = 9.81;
 
-/// So many steps are timed, if they take less than this, s.
+/// The number of timed steps, and the time after which no further step begins, s.
 const STEPS: u32 = 20;
 const PATIENCE: f64 = 10.0;
 
-/// How the links are joined here.
+/// The kind of joint between the links of jabuka's chain.
 #[derive(Clone, Copy)]
 enum Link {
     Rod,
@@ -115,8 +116,8 @@ fn report(name: &str, (time, steps): (f64, u32), at: [f64; 2]) {
     println!("  {name:32} {time:10.3}   ({:.6}, {:.6}) after {steps} steps", at[0], at[1]);
 }
 
-/// The fastest of [`STEPS`] steps, or of those made within [`PATIENCE`], ms; and how many these are. A step that has begun is
-/// finished, so every time is one that was measured.
+/// Returns the time of the fastest step, ms, and the number of timed steps: [`STEPS`], or as many as begin within [`PATIENCE`]. A step
+/// that has begun is always completed.
 fn time(mut step: impl FnMut()) -> (f64, u32) {
     let now = || {
         let now = clock_gettime(ClockId::ThreadCPUTime);

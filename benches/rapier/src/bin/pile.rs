@@ -1,7 +1,8 @@
-//! Spheres that fall into a box, here and in a bare program of rapier: the processor time of a step, measured in one run.
+//! Compares spheres that fall into a box in jabuka with the same spheres in two bare programs of rapier: the processor time of a step,
+//! measured in one run.
 //!
-//! Two bare programs: one with jabuka's parameters, and one with rapier's own, apart from the timestep. Both have thick walls. Here, the
-//! walls are five planes.
+//! One bare program uses jabuka's parameters, the other one rapier's own parameters, except for the timestep. Both have thick walls. In
+//! jabuka, the walls are five planes.
 //!
 //! `cargo run --release --manifest-path benches/rapier/Cargo.toml --bin pile [SPHERES [STEPS]]`
 
@@ -18,7 +19,7 @@ use rustix::time::{ClockId, clock_gettime};
 const STEP: f64 = 1.0 / 240.0;
 const RADIUS: f64 = 0.1;
 const GRAVITY: f64 = 9.81;
-/// Half of the inner edge of the box, m.
+/// Half of the length of an inner edge of the box, m.
 const HALF: f64 = 1.2;
 
 fn main() {
@@ -30,7 +31,7 @@ fn main() {
     let mut bare = [parameters(), IntegrationParameters { dt: STEP, ..IntegrationParameters::default() }]
         .map(|parameters| theirs(&places, parameters));
     let (mut of_here, mut of_bare) = (0.0, [0.0; 2]);
-    // In turns, so that both meet the same machine.
+    // The programs take turns, so that changes in the machine's speed affect them equally.
     for _ in 0..steps {
         let begin = now();
         let t = here.time() + STEP;
@@ -50,7 +51,8 @@ fn main() {
     }
 }
 
-/// In layers above the box, each a little beside the one below.
+/// Returns the initial location of a sphere, m. The spheres are in layers above the box, and each layer is slightly displaced from the one
+/// below.
 fn place(i: usize) -> DVec3 {
     let across = 10;
     let (layer, rest) = (i / (across * across), i % (across * across));
@@ -59,7 +61,7 @@ fn place(i: usize) -> DVec3 {
     DVec3::new(at(rest % across), 0.2 + 0.21 * layer as f64, at(rest / across))
 }
 
-/// The ground and the four walls: a point and the normal of each.
+/// Returns a point and the unit normal of the ground and of each of the four walls.
 fn walls() -> [(DVec3, DVec3); 5] {
     let wall = |normal: DVec3| (-HALF * normal, normal);
     [(DVec3::ZERO, DVec3::Y), wall(DVec3::X), wall(-DVec3::X), wall(DVec3::Z), wall(-DVec3::Z)]
@@ -109,7 +111,7 @@ fn theirs(places: &[DVec3], parameters: IntegrationParameters) -> PhysicsWorld {
     world
 }
 
-/// What jabuka tells rapier, see `src/dynamics/stepping/mod.rs`.
+/// Returns the parameters that jabuka sets in rapier; see `src/dynamics/stepping/mod.rs`.
 fn parameters() -> IntegrationParameters {
     let length: f64 = 2.0 * RADIUS;
     let softness = SpringCoefficients { natural_frequency: 0.25 / STEP, damping_ratio: 10.0 };
@@ -129,7 +131,7 @@ fn parameters() -> IntegrationParameters {
     }
 }
 
-/// The time of the processor, ms.
+/// Returns the processor time of this thread so far, ms.
 fn now() -> f64 {
     let now = clock_gettime(ClockId::ThreadCPUTime);
     now.tv_sec as f64 * 1e3 + now.tv_nsec as f64 * 1e-6
