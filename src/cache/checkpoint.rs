@@ -1,16 +1,16 @@
-//! The checkpoint of a run that is being simulated, in a file beside that of its pages.
+//! Saves checkpoints of a run that is being simulated, in a file beside the file of the run's recorded pages.
 //!
-//! A killed run leaves both, and the next process that needs the run goes on from there. New pages are only added after those
-//! of the checkpoint, and a checkpoint appears whole or not at all.
+//! A killed process leaves both files, and the next process that needs the run continues from the checkpoint. New pages are only added
+//! after those of the checkpoint. A checkpoint is written under a temporary name and renamed when it is complete.
 //!
-//! | what | bytes |
+//! | contents | bytes |
 //! | --- | --- |
 //! | the name of the format, and the key of the run | 8 + 32 |
-//! | the number of pages, the size of the description | 8 + 8 |
-//! | of each page: its offset, its size, its digest | 8 + 8 + 32 |
-//! | the description of the recording | |
-//! | the state of the run | |
-//! | the digest of all before | 32 |
+//! | the number of pages, the size of the recording's index | 8 + 8 |
+//! | for each page: its offset, its size, its digest | 8 + 8 + 32 |
+//! | the index of the recording | |
+//! | the state of the simulation | |
+//! | the digest of all bytes before | 32 |
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -25,15 +25,15 @@ use super::{PART, SAVING, STOPPED, files};
 use crate::simulate::Checkpoint;
 
 const FORMAT: &[u8; 8] = b"jabuka c";
-/// The bytes before the table of pages.
+/// The number of bytes before the table of pages.
 const HEAD: usize = 56;
 
-/// The path of the checkpoint for a run whose pages are in a file.
+/// Returns the path of the checkpoint that belongs to a file of pages.
 pub(super) fn beside(part: &Path) -> PathBuf {
     part.with_extension(STOPPED)
 }
 
-/// Replaces the previous checkpoint.
+/// Writes a checkpoint, which replaces the previous one of the same run.
 pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint) -> io::Result<()> {
     let Checkpoint { index, simulation } = checkpoint;
     let mut bytes = [&FORMAT[..], &key].concat();
@@ -46,12 +46,12 @@ pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint
     bytes.extend(digest);
     let temporary = part.with_extension(SAVING);
     fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, beside(part))).inspect_err(|_| {
-        // The next run removes a file that stays.
+        // If the file cannot be removed, the next process removes it.
         let _: io::Result<()> = fs::remove_file(&temporary);
     })
 }
 
-/// The pages of a run up to its checkpoint, and the checkpoint.
+/// Reads a checkpoint. Returns the positions of the pages up to the checkpoint, and the state of the simulation.
 fn read(part: &Path, key: Key) -> io::Result<(Vec<At>, Checkpoint)> {
     let bytes = fs::read(beside(part))?;
     let (covered, digest) = bytes.split_last_chunk::<32>().ok_or_else(damaged)?;
@@ -68,7 +68,8 @@ fn read(part: &Path, key: Key) -> io::Result<(Vec<At>, Checkpoint)> {
     Ok((pages, Checkpoint { index: index.to_owned(), simulation: simulation.to_owned() }))
 }
 
-/// A stopped run: its file of pages, which this process has locked, and its checkpoint.
+/// An interrupted run: the path of its file of pages, the open file (locked by this process), the positions of the pages, and the
+/// checkpoint.
 pub(super) struct Stopped {
     pub(super) part: PathBuf,
     pub(super) file: File,
@@ -76,8 +77,8 @@ pub(super) struct Stopped {
     pub(super) checkpoint: Checkpoint,
 }
 
-/// Finds, among the stopped runs of a key, the one that got farthest. Runs that another process continues do not count. Damaged
-/// ones are removed.
+/// Finds the interrupted run with this key that has progressed farthest. Runs that another process continues are skipped. Damaged ones are
+/// removed.
 pub(super) fn find(folder: &Path, key: Key) -> Option<Stopped> {
     let name = super::file::name(key);
     let stem = Path::new(&name).file_stem()?.to_str()?;
@@ -103,16 +104,16 @@ pub(super) fn find(folder: &Path, key: Key) -> Option<Stopped> {
     farthest
 }
 
-/// Opens the pages of a stopped run; none if another process has them, or they are gone.
+/// Opens and locks the file of pages of an interrupted run. `None` if another process has locked the file, or if it has disappeared.
 pub(super) fn lock(part: &Path) -> Option<File> {
     let file = OpenOptions::new().read(true).write(true).open(part).ok()?;
     file.try_lock().ok()?;
-    // The previous owner of the lock may have removed or renamed the file since it was opened.
+    // The previous owner of the lock may have removed or renamed the file after it was opened.
     let is_same = fs::metadata(part).ok()?.ino() == file.metadata().ok()?.ino();
     is_same.then_some(file)
 }
 
-/// Removes the pages of a run and its checkpoint. The next run removes leftovers.
+/// Removes the pages of a run and its checkpoint. If this fails, the next process removes them.
 pub(super) fn remove(part: &Path) {
     let _: io::Result<()> = fs::remove_file(beside(part));
     let _: io::Result<()> = fs::remove_file(part);

@@ -1,4 +1,4 @@
-//! A digest of everything that moves bodies.
+//! Computes the digest that identifies a run: it covers everything that affects the motion of bodies.
 
 use std::fmt::{self, Write};
 
@@ -7,20 +7,20 @@ use sha2::{Digest, Sha256};
 use crate::scene::{ForceKind, Scene};
 use crate::simulate::Moments;
 
-/// The digest that identifies a run.
+/// The SHA-256 that identifies a run.
 pub(super) type Key = [u8; 32];
 
-/// The digest of everything on which the recording of a run depends: the causes of motion, the recorded moments, and the
-/// program itself. Looks, cameras, labels and names are not included.
+/// Returns the digest of everything that affects the recording of a run: the causes of motion, the recorded moments, and the program
+/// itself. Looks, cameras, labels and names do not affect it.
 pub(super) fn of(scene: &Scene, moments: &Moments) -> Key {
     let mut text = Text(Sha256::new());
-    // It cannot fail: a digest accepts all bytes.
+    // Writing cannot fail, since a digest accepts all bytes.
     let _: fmt::Result = write_all(&mut text, scene, moments);
     text.0.finalize().into()
 }
 
 fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Result {
-    // Different numbers have different texts.
+    // Numbers are written by `Debug`, since different numbers then have different texts.
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
     let simulation = &scene.simulation;
     let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
@@ -32,13 +32,13 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     for body in &scene.bodies {
         writeln!(text, "{:?} {:?} {:?}", body.start, body.presence, body.motion)?;
         if contacts.is_some() {
-            // Shapes affect the motion only where bodies touch.
+            // Shapes affect the motion only if bodies can touch.
             writeln!(text, "{:?} {:?}", body.shape, body.collider)?;
         }
     }
     for force in &scene.forces {
         match &force.kind {
-            // The look of a spring does not affect the motion, so the digest leaves `look` out.
+            // The look of a spring does not affect the motion, so it is left out.
             ForceKind::Spring { links, look: _ } => {
                 writeln!(text, "{links:?}")?;
             }
@@ -51,12 +51,12 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     Ok(())
 }
 
-/// Whether a run is worth keeping. Given motion alone is evaluated faster than it is read.
+/// Returns true if forces move a body. Otherwise, all motion is prescribed, and computing it is faster than reading it from the cache.
 pub(super) fn is_worth_keeping(scene: &Scene) -> bool {
     scene.bodies.iter().any(|body| !body.start.fixed && body.motion.is_none())
 }
 
-/// A text of which only the digest is kept.
+/// A writer that computes the digest of a text and does not store the text.
 struct Text(Sha256);
 
 impl Write for Text {
@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// An address would differ between processes.
+    /// The digest must not contain memory addresses, since they differ between processes.
     #[test]
     fn no_address_is_in_what_is_digested() {
         let scene = Scene::parse(

@@ -1,12 +1,12 @@
-//! The file of a kept run.
+//! Reads and writes the file of a cached run.
 //!
-//! | what | bytes |
+//! | contents | bytes |
 //! | --- | --- |
 //! | the name of the format, and the key of the run | 8 + 32 |
-//! | the pages, in any order | |
-//! | of each page: its offset, its size, its digest | 8 + 8 + 32 |
-//! | the description of the recording | |
-//! | the number of pages; where the table of pages begins; the digest of all from there to here | 8 + 8 + 32 |
+//! | the pages of the recording, in any order | |
+//! | for each page: its offset, its size, its digest | 8 + 8 + 32 |
+//! | the index of the recording | |
+//! | the number of pages; the offset of the table of pages; the digest of all bytes from there to here | 8 + 8 + 32 |
 
 use std::fs::File;
 use std::io;
@@ -22,14 +22,14 @@ use super::digest::Key;
 use crate::simulate::{Counts, Recording, Store};
 
 const FORMAT: &[u8; 8] = b"jabuka 1";
-/// The bytes of the entry of a page.
+/// The size of a page's entry in the table of pages, bytes.
 pub(super) const ENTRY: usize = 48;
-/// The bytes at the end.
+/// The size of the data at the end of the file, bytes.
 const TAIL: usize = 48;
-/// The largest page, bytes. A page has a single moment of all bodies, or about 1 MB.
+/// The size of the largest possible page, bytes. A page holds about 1 MB, or a single moment of all bodies if that is larger.
 const LARGEST: u64 = 4 << 30;
 
-/// The place of a page in a file.
+/// The position of a page in a file: offset and size in bytes, and the digest of the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct At {
     pub(super) offset: u64,
@@ -38,7 +38,7 @@ pub(super) struct At {
 }
 
 impl At {
-    /// The page, if its bytes are those that were written.
+    /// Reads the page. Fails if its bytes do not have the digest.
     pub(super) fn read(&self, file: &File) -> io::Result<Arc<[u8]>> {
         let size = usize::try_from(self.bytes.min(LARGEST)).map_err(|_| damaged())?;
         let mut bytes = vec![0; size];
@@ -61,18 +61,18 @@ impl At {
     }
 }
 
-/// The name of the file of a run.
+/// Returns the file name of a cached run.
 pub(super) fn name(key: Key) -> String {
     let hex: String = key.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
     format!("{hex}.{KEPT}")
 }
 
-/// The bytes in front of the pages.
+/// Returns the bytes of the file before the pages.
 pub(super) fn begin(key: Key) -> Vec<u8> {
     [&FORMAT[..], &key].concat()
 }
 
-/// The bytes behind the pages, which end at an offset.
+/// Returns the bytes of the file after the pages. `offset` is the end of the last page.
 pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
     let mut bytes: Vec<u8> = pages.iter().flat_map(|at| at.to_bytes()).collect();
     bytes.extend_from_slice(index);
@@ -83,7 +83,7 @@ pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
     bytes
 }
 
-/// Opens the run of a key, and records that it is used now.
+/// Opens the cached run with this key, and sets the file's modification time, which counts as the time of its last use.
 pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recording> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
@@ -108,12 +108,12 @@ pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recordin
     let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
     let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
     let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
-    // If the time cannot be set, the run counts as older than it is.
+    // If the time cannot be set, the run counts as unused for longer than it was.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
     Recording::with_index(counts, index, Box::new(Kept { file, pages }))
 }
 
-/// The pages of a file.
+/// The pages of a cached run, which are read from its file on demand.
 struct Kept {
     file: File,
     pages: Vec<At>,

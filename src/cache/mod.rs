@@ -1,14 +1,14 @@
-//! Keeps runs between commands, so that a change of a color or a camera needs no new simulation.
+//! Keeps recorded runs between commands, so that a change of a color or a camera needs no new simulation.
 //!
-//! A kept run is a file in the user's cache folder, named by the digest of everything that moves bodies. No result depends on
-//! it: a file that is damaged, missing or of another version is made again.
+//! A cached run is a file in the user's cache folder. The file's name contains the digest of everything that affects the motion of bodies.
+//! No result depends on the cache: a file that is damaged, missing or of another version is made again.
 //!
 //! | what | where |
 //! | --- | --- |
-//! | the name of a file | `digest` |
-//! | the contents of a file | `file` |
-//! | the pages of a run while it is simulated | `spill` |
-//! | the point at which a stopped run resumes | `checkpoint` |
+//! | the digest that identifies a run | `digest` |
+//! | the file of a cached run | `file` |
+//! | the recorded pages of a run while it is simulated | `spill` |
+//! | the state from which an interrupted run continues | `checkpoint` |
 
 mod checkpoint;
 mod digest;
@@ -26,75 +26,76 @@ use crate::simulate::{Counts, Frame, Moments, Recorded, Recorder, Recording, Sim
 
 pub use spill::Spill;
 
-/// Runs that were simulated faster than this are not kept.
+/// The simulation time below which a run is not kept, since repeating it is fast.
 const QUICK: Duration = Duration::from_millis(200);
-/// The default limit of the cache, bytes.
+/// The default size limit of the cache, bytes.
 const USUAL_LIMIT: u64 = 2_000_000_000;
-/// The ending of the names of kept runs.
+/// The file extension of cached runs.
 const KEPT: &str = "run";
-/// The ending of their names while they are being written.
+/// The file extension of runs that are being simulated.
 const PART: &str = "part";
-/// The ending of the names of checkpoints, which are beside the pages.
+/// The file extension of checkpoints, which are beside the files of pages.
 const STOPPED: &str = "checkpoint";
-/// The ending of the names of checkpoints while they are being written.
+/// The file extension of checkpoints that are being written.
 const SAVING: &str = "saving";
-/// The default interval at which a long run is saved.
+/// The default interval between two checkpoints of a long run.
 const USUAL_INTERVAL: Duration = Duration::from_secs(30);
 
-/// A folder that keeps runs, with its limits.
+/// The cache of recorded runs: a folder, and its limits.
 #[derive(Clone, Debug)]
 pub struct Cache {
-    /// None: nothing is kept.
+    /// The cache folder. `None` if caching is off.
     folder: Option<PathBuf>,
-    /// The largest size of all kept runs, bytes.
+    /// The largest total size of all cached runs, bytes.
     limit: u64,
-    /// Runs that took less time than this are not kept.
+    /// The simulation time below which a run is not kept.
     quick: Duration,
-    /// The interval at which a long run is saved.
+    /// The interval between two checkpoints of a long run.
     interval: Duration,
 }
 
-/// The contents of a cache.
+/// The number and size of the runs in a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Holding {
-    /// The number of runs.
+    /// The number of complete runs.
     pub runs: usize,
-    /// The number of stopped runs that can go on.
+    /// The number of interrupted runs that can be continued.
     pub stopped: usize,
-    /// Their size, bytes.
+    /// The total size of complete and interrupted runs, bytes.
     pub bytes: u64,
 }
 
 impl Cache {
-    /// A cache that keeps nothing.
+    /// Makes a cache that keeps nothing.
     #[must_use]
     pub fn none() -> Cache {
         Cache { folder: None, limit: 0, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
-    /// A cache that keeps at most this many bytes in a folder. The folder is made when it is needed.
+    /// Makes a cache that keeps at most `limit` bytes in a folder. The folder is created when the first run is kept.
     #[must_use]
     pub fn new(folder: PathBuf, limit: u64) -> Cache {
         Cache { folder: Some(folder), limit, quick: QUICK, interval: USUAL_INTERVAL }
     }
 
-    /// The same cache, but it keeps runs however fast they were simulated.
+    /// Makes the cache keep every run, however short its simulation was.
     #[must_use]
     pub fn keeping_all(self) -> Cache {
         Cache { quick: Duration::ZERO, ..self }
     }
 
-    /// The same cache, but with this interval between saves of a long run. A stopped run goes on from its last save.
+    /// Sets the interval between two checkpoints of a long run. An interrupted run continues from its last checkpoint.
     #[must_use]
     pub fn saving_every(self, interval: Duration) -> Cache {
         Cache { interval, ..self }
     }
 
-    /// The user's: in `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`; at most `JABUKA_CACHE_SIZE` MB,
-    /// or 2 GB. With `JABUKA_CACHE_ALL=1`, runs are kept however fast they were simulated.
+    /// Returns the user's cache. Its folder is `JABUKA_CACHE_DIR`, or `jabuka` below `XDG_CACHE_HOME` or `~/.cache`. Its limit is
+    /// `JABUKA_CACHE_SIZE` MB, or 2 GB. With `JABUKA_CACHE_ALL=1`, every run is kept, however short its simulation was.
+    /// `JABUKA_CHECKPOINT_SECONDS` sets the interval between two checkpoints.
     ///
     /// # Errors
-    /// If `JABUKA_CACHE_SIZE` or `JABUKA_CHECKPOINT_SECONDS` is not a number; the message says so.
+    /// If `JABUKA_CACHE_SIZE` or `JABUKA_CHECKPOINT_SECONDS` is not a number. The error is a message for the user.
     pub fn of_user() -> Result<Cache, String> {
         let limit = match env::var("JABUKA_CACHE_SIZE") {
             Err(env::VarError::NotPresent) => USUAL_LIMIT,
@@ -109,7 +110,7 @@ impl Cache {
             )?,
         };
         let variable = |name: &str| env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-        // The rules of XDG: a path that is not absolute does not count.
+        // The XDG specification demands that relative paths in this variable are ignored.
         let of_xdg = variable("XDG_CACHE_HOME").filter(|path| path.is_absolute());
         let caches = of_xdg.or_else(|| variable("HOME").map(|home| home.join(".cache")));
         let folder = variable("JABUKA_CACHE_DIR").or_else(|| caches.map(|caches| caches.join("jabuka")));
@@ -122,17 +123,17 @@ impl Cache {
         })
     }
 
-    /// The cache folder. `None` if caching is off.
+    /// Returns the cache folder. `None` if caching is off.
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 
-    /// A run of a scene: the kept one, or else a new one. Counts the interactions of pairs meanwhile, and calls `seen` for
-    /// every frame.
+    /// Returns the run of a scene from the cache, or simulates the run. Meanwhile, `effort` counts the pair interactions, and `seen` is
+    /// called for every frame.
     ///
     /// # Errors
-    /// If the run becomes non-finite, or there is no room for its recording.
+    /// If a value of the run becomes non-finite, or the disk has no space for the recording.
     pub fn run<'a>(
         &self,
         scene: &'a Scene,
@@ -145,11 +146,11 @@ impl Cache {
         Ok(recorded)
     }
 
-    /// Like [`run`](Self::run), but if the run breaks down, it gives the frames before: see [`Recorded::breakdown`]. Such a run
-    /// is not kept.
+    /// Returns the run of a scene like [`run`](Self::run). If the run breaks down, returns the frames before the breakdown; see
+    /// [`Recorded::breakdown`]. Such a run is not kept.
     ///
     /// # Errors
-    /// If there is no frame before the breakdown, or there is no room for the recording.
+    /// If the run breaks down before its first frame, or the disk has no space for the recording.
     pub fn run_to_breakdown<'a>(
         &self,
         scene: &'a Scene,
@@ -180,7 +181,7 @@ impl Cache {
                 Err(breakdown) => return recorder.finish_early(breakdown),
             }
             if spill.has_name() && saved.elapsed() >= self.interval {
-                // A run that cannot be saved goes on unsaved.
+                // If a checkpoint cannot be written, the simulation continues without it.
                 let _: io::Result<bool> = save(&spill, &mut recorder);
                 saved = Instant::now();
             }
@@ -190,7 +191,8 @@ impl Cache {
         Ok(recorded)
     }
 
-    /// A stopped run of the scene, at its last checkpoint. Calls `seen` for every frame up to there.
+    /// Continues an interrupted run of the scene from its last checkpoint. Calls `seen` for every frame up to the checkpoint. `None` if
+    /// there is no such run.
     fn resume<'a>(
         &self,
         scene: &'a Scene,
@@ -205,7 +207,8 @@ impl Cache {
         Some((spill, recorder))
     }
 
-    /// The kept run of a scene, if there is one. Damage may only show when it is read.
+    /// Opens the cached run of a scene. `None` if there is none, or its file is damaged. Damage of single pages is noticed only when they
+    /// are read.
     #[must_use]
     pub fn find(&self, scene: &Scene, moments: &Moments) -> Option<Recording> {
         let path = self.path(scene, moments)?;
@@ -218,15 +221,15 @@ impl Cache {
         opened.ok()
     }
 
-    /// Removes the damaged run of a scene.
+    /// Removes the damaged cached run of a scene.
     pub fn forget(&self, scene: &Scene, moments: &Moments) {
         if let Some(path) = self.path(scene, moments) {
-            // Another process may have removed it.
+            // Another process may have removed the file.
             let _: io::Result<()> = fs::remove_file(path);
         }
     }
 
-    /// The store for the pages of a new run.
+    /// Makes the store for the recorded pages of a new run.
     #[must_use]
     pub fn spill(&self, scene: &Scene, moments: &Moments) -> Spill {
         match &self.folder {
@@ -237,22 +240,22 @@ impl Cache {
         }
     }
 
-    /// Keeps a run that took this long to simulate, if it is worth keeping. Then removes the least recently used runs, until
-    /// the rest is within the limit. Failing to keep a run is no error.
+    /// Keeps a run whose simulation took the time `took`, if it is worth keeping. Then removes the least recently used runs, until the
+    /// cache is within its limit. A failure to keep a run is ignored.
     pub fn keep(&self, spill: &Spill, recording: &Recording, took: Duration) {
         let Some(folder) = &self.folder else { return };
         let kept = took >= self.quick
             && recording.index().and_then(|index| spill.keep(&index)).is_ok_and(|kept| kept);
         if kept {
-            // The next run tries again.
+            // If old runs cannot be removed, the next command tries again.
             let _: io::Result<()> = self.tidy(folder);
         }
     }
 
-    /// The contents of the cache.
+    /// Returns the number and size of the runs in the cache.
     ///
     /// # Errors
-    /// If the folder cannot be read.
+    /// If the cache folder cannot be read.
     pub fn holding(&self) -> io::Result<Holding> {
         let Some(folder) = &self.folder else { return Ok(Holding::default()) };
         let (kept, stopped) = (files(folder, KEPT)?, stopped(folder)?);
@@ -260,7 +263,7 @@ impl Cache {
         Ok(Holding { runs: kept.len(), stopped: stopped.len(), bytes })
     }
 
-    /// Removes all kept runs, and returns their number and size.
+    /// Removes all runs from the cache, and returns their number and size.
     ///
     /// # Errors
     /// If a file cannot be removed.
@@ -297,12 +300,12 @@ impl Cache {
 /// Simulates a scene without keeping the run. The part of the recording beyond a megabyte goes to a nameless file.
 ///
 /// # Errors
-/// If the run becomes non-finite, or there is no room for its recording.
+/// If a value of the run becomes non-finite, or the disk has no space for the recording.
 pub fn simulate(scene: &Scene) -> Result<Recorded<'_>, SimulateError> {
     Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})
 }
 
-/// A file of the cache.
+/// A file in the cache folder, with its size in bytes and the time of its last use.
 struct Kept {
     path: PathBuf,
     bytes: u64,
@@ -312,7 +315,7 @@ struct Kept {
 impl Kept {
     fn remove(&self) -> io::Result<()> {
         if self.path.extension().is_some_and(|extension| extension == PART) {
-            // Only under the lock, since a process may be continuing this run.
+            // The file is only removed under its lock, since another process may be continuing this run.
             let locked = checkpoint::lock(&self.path);
             locked.iter().for_each(|_| checkpoint::remove(&self.path));
             return Ok(());
@@ -321,13 +324,14 @@ impl Kept {
     }
 }
 
-/// Saves a run in case it is stopped. Returns whether that was possible.
+/// Writes a checkpoint of a run. Returns false if the simulation has no checkpoints, or the folder has no space.
 fn save(spill: &Spill, recorder: &mut Recorder<'_>) -> io::Result<bool> {
     let Some(checkpoint) = recorder.checkpoint()? else { return Ok(false) };
     spill.save(&checkpoint)
 }
 
-/// The stopped runs of a folder that can go on: the files of their pages. The file of a run that is being simulated is locked.
+/// Returns the files of pages of all interrupted runs that can be continued. The file of a run that is being simulated is locked, and does
+/// not count.
 fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
     let of_checkpoint = |found: Kept| {
         let path = found.path.with_extension(PART);
@@ -338,7 +342,7 @@ fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
     Ok(files(folder, STOPPED)?.into_iter().filter_map(of_checkpoint).collect())
 }
 
-/// The files of a folder whose names have this ending; none if there is no folder.
+/// Returns the files of a folder with this file extension. The list is empty if the folder does not exist.
 fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
     let entries = match fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
@@ -350,7 +354,7 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
         if path.extension().is_none_or(|extension| extension != ending) {
             continue;
         }
-        // Another process may remove it meanwhile.
+        // Another process may have removed the file meanwhile.
         let Ok(about) = fs::symlink_metadata(&path) else { continue };
         if about.is_file() {
             let used = about.modified().unwrap_or(SystemTime::UNIX_EPOCH);
@@ -360,7 +364,7 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
     Ok(files)
 }
 
-/// Removes the files of killed runs that cannot go on. Nobody has locked these files.
+/// Removes the files of killed processes from which no run can be continued. No process has locked these files.
 fn sweep(folder: &Path) -> io::Result<()> {
     for part in files(folder, PART)? {
         let is_left = fs::File::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());

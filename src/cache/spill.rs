@@ -1,4 +1,4 @@
-//! The pages of a run while it is simulated: in memory while they are few, then in a file.
+//! Stores the recorded pages of a run while it is simulated: a few in memory, and more in a file.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -15,17 +15,17 @@ use super::file::{self, At};
 use super::{PART, SAVING};
 use crate::simulate::{Checkpoint, Store};
 
-/// A run stays in memory up to this size, bytes.
+/// The size up to which the pages of a run stay in memory, bytes.
 const IN_MEMORY: usize = 1 << 20;
-/// A disk with no more free room than this counts as full, bytes. Filling it completely would hurt other programs.
+/// The disk space that is left free for other programs, bytes. A disk with less free space counts as full.
 const RESERVE: u64 = 32 << 20;
 
-/// Keeps the pages of one run. A clone is the same store.
+/// Stores the recorded pages of one run. All clones share the same pages.
 #[derive(Clone)]
 pub struct Spill(Arc<Shared>);
 
 struct Shared {
-    /// The folder and the key under which the run will be kept.
+    /// The cache folder and the key of a run that may be kept in the cache. `None` for a run that is never kept.
     to_keep: Option<(PathBuf, Key)>,
     inner: Mutex<Inner>,
 }
@@ -34,26 +34,26 @@ struct Shared {
 struct Inner {
     pages: Vec<Page>,
     in_memory: usize,
-    /// The files; pages go to the last one. If a file has no more room, another one follows.
+    /// The files that pages are written to. New pages go to the last file. If its disk is full, another file follows.
     files: Vec<Part>,
 }
 
 enum Page {
     InMemory(Arc<[u8]>),
-    /// In the file with this number.
+    /// The page is in a file: the index of the file, and the position of the page.
     InFile(usize, At),
 }
 
 /// A file that pages are written to.
 struct Part {
     file: File,
-    /// Its path, if it has a name.
+    /// The path of the file. `None` for a nameless temporary file.
     path: Option<PathBuf>,
     end: u64,
 }
 
 impl Spill {
-    /// Pages in a nameless file, which disappears with the process, however that ends.
+    /// Makes a store whose pages go to a nameless file. The file disappears with the process, however the process ends.
     #[must_use]
     pub fn unnamed() -> Spill {
         Spill(Arc::new(Shared { to_keep: None, inner: Mutex::default() }))
@@ -63,7 +63,7 @@ impl Spill {
         Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner: Mutex::default() }))
     }
 
-    /// The pages of a stopped run, and the point at which it goes on.
+    /// Opens the pages of an interrupted run, with the checkpoint to continue from. `None` if there is no interrupted run.
     pub(super) fn resume(folder: PathBuf, key: Key) -> Option<(Spill, Checkpoint)> {
         let Stopped { part: path, file, pages, checkpoint } = checkpoint::find(&folder, key)?;
         let end = pages.iter().map(|at| at.offset + at.bytes).max().unwrap_or(0);
@@ -73,12 +73,12 @@ impl Spill {
         Some((Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner })), checkpoint))
     }
 
-    /// Whether the run may be kept or saved.
+    /// Returns true if the run may be kept in the cache, so that checkpoints can be saved.
     pub(super) fn has_name(&self) -> bool {
         self.0.to_keep.is_some()
     }
 
-    /// Saves a run in case it is stopped. False if the folder has no room for it.
+    /// Saves a checkpoint of the run. Returns false if the run is never kept, or not all of its pages are in a file of the cache folder.
     pub(super) fn save(&self, checkpoint: &Checkpoint) -> io::Result<bool> {
         let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
         let inner = &mut *self.inner();
@@ -88,8 +88,8 @@ impl Spill {
         Ok(true)
     }
 
-    /// Turns the pages into a file of the cache, with their index. Returns false if they are not to be kept, or the folder has no
-    /// room.
+    /// Turns the pages into a file of a cached run, with their index. Returns false if the run is never kept, or not all of its pages are
+    /// in a file of the cache folder.
     pub(super) fn keep(&self, index: &[u8]) -> io::Result<bool> {
         let Some((folder, key)) = &self.0.to_keep else { return Ok(false) };
         let inner = &mut *self.inner();
@@ -97,11 +97,11 @@ impl Spill {
         let part = &mut inner.files[0];
         let end = file::end(&pages, index, part.end);
         part.file.write_all_at(&end, part.end)?;
-        // A stopped run may have written pages after its checkpoint, which make the file longer.
+        // An interrupted process may have written pages after its checkpoint. The file is longer then, and is cut off here.
         part.file.set_len(part.end + end.len() as u64)?;
         fs::rename(&path, folder.join(file::name(*key)))?;
         part.path = None;
-        // If it stays, the next run removes it.
+        // If the checkpoint cannot be removed, the next process removes it.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         Ok(true)
     }
@@ -110,7 +110,8 @@ impl Spill {
         self.0.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Opens the next file to write to: in the cache folder, or nameless if that has no more room.
+    /// Opens the next file to write to: a file in the cache folder first, and then a nameless one. `files` is the number of files so far.
+    /// `None` if no other file would help.
     fn open_next(&self, files: usize) -> Option<io::Result<Part>> {
         match (&self.0.to_keep, files) {
             (Some((folder, key)), 0) => Some(Part::named(folder, *key).or_else(|_| Part::unnamed())),
@@ -121,8 +122,8 @@ impl Spill {
 }
 
 impl Inner {
-    /// Puts all pages into the named file. Returns its path and the positions of the pages. None if there is no such file, or
-    /// the pages are in several files.
+    /// Moves all pages into the named file. Returns its path and the positions of the pages. `None` if there is no named file, or the
+    /// pages are in several files.
     fn settle(&mut self, folder: &Path, key: Key) -> io::Result<Option<(PathBuf, Vec<At>)>> {
         if self.files.is_empty() {
             self.files.push(Part::named(folder, key)?);
@@ -176,7 +177,7 @@ impl Store for Spill {
 }
 
 impl Part {
-    /// A file in the folder of the cache, locked for as long as it is open.
+    /// Creates a file in the cache folder. The file is locked as long as it is open.
     fn named(folder: &Path, key: Key) -> io::Result<Part> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         fs::create_dir_all(folder)?;
@@ -185,7 +186,7 @@ impl Part {
             folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
         file.try_lock().map_err(io::Error::from)?;
-        // A checkpoint left by a killed run is of no use now.
+        // A killed process may have left a checkpoint, which does not belong to this new run.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));
         file.set_len(0)?;
         let begin = file::begin(key);
@@ -193,7 +194,7 @@ impl Part {
         Ok(Part { file, path: Some(path), end: begin.len() as u64 })
     }
 
-    /// A nameless file.
+    /// Creates a nameless temporary file.
     fn unnamed() -> io::Result<Part> {
         Ok(Part { file: tempfile::tempfile_in(temporary_folder())?, path: None, end: 0 })
     }
@@ -216,7 +217,7 @@ impl Part {
 impl Drop for Part {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
-            // It is no longer needed.
+            // The pages were not kept, so their file and the checkpoint are removed.
             let _: io::Result<()> = fs::remove_file(path.with_extension(SAVING));
             checkpoint::remove(path);
         }
@@ -230,7 +231,7 @@ fn full() -> io::Error {
     )
 }
 
-/// The folder for large files. On some systems, the usual temporary folder is in memory.
+/// Returns the folder for large temporary files. On some systems, the usual temporary folder is in memory.
 fn temporary_folder() -> PathBuf {
     let large = PathBuf::from("/var/tmp");
     match std::env::var_os("TMPDIR") {
