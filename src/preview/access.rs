@@ -1,30 +1,30 @@
-//! Access control: only the page that the user has opened can send requests.
+//! Access control: only the page that the user has opened can send requests to the server.
 //!
-//! The server listens only on the loopback address, but other web pages run on the same machine. Any of them can send
-//! requests to the server. If the host name of a page resolves to 127.0.0.1, the page can even read the answers. So a
-//! request must meet three conditions: its host is a name of this machine; its origin, if the browser sends one, is
-//! this host; and it carries the token. Each start makes a new token. Only the empty page needs no token.
+//! The server listens only on the loopback address, but other web pages run on the same machine. Any of them can send requests to the
+//! server. If the host name of a page resolves to 127.0.0.1, the page can even read the answers. So a request must meet three conditions:
+//! its host is a name of this machine; its origin, if the browser sends one, is this host; and it contains the token. Each start of the
+//! server makes a new token. Only the files of the page itself, which contain nothing of the scene, need no token.
 
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
 
-/// The secret token of a request.
+/// The secret token that requests must contain.
 #[derive(Clone)]
 pub(super) struct Token(String);
 
 /// The reason why a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
-    /// The host is not a name of this machine.
+    /// The host in the request is not a name of this machine.
     Host,
-    /// The request comes from another page.
+    /// The request comes from another web page.
     Origin,
     /// The token is missing or wrong.
     Token,
 }
 
 impl Refused {
-    /// A message with the reason, in one line.
+    /// Returns the reason as a message of one line.
     pub(super) fn message(self) -> &'static str {
         match self {
             Refused::Host => "this server answers to 127.0.0.1 and localhost only\n",
@@ -44,7 +44,7 @@ impl Token {
         Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
     }
 
-    /// The token as in the page's address.
+    /// Returns the token as it appears in the address of the page.
     pub(super) fn as_str(&self) -> &str {
         &self.0
     }
@@ -53,13 +53,13 @@ impl Token {
     pub(super) fn admits(&self, uri: &Uri) -> Result<(), Refused> {
         let query = uri.query().unwrap_or_default();
         let given = query.split('&').find_map(|pair| pair.strip_prefix("token=")).unwrap_or_default();
-        // Compare in constant time, so that the time does not reveal how much of the token is right.
+        // The comparison takes constant time, so that the time does not reveal how much of a guessed token is right.
         let differs = given.bytes().zip(self.0.bytes()).fold(0, |differs, (a, b)| differs | (a ^ b));
         if given.len() == self.0.len() && differs == 0 { Ok(()) } else { Err(Refused::Token) }
     }
 }
 
-/// Checks that a request comes from this machine's page, or from no page. The port can differ, since it may be
+/// Checks that a request comes from a page of this server, or from no page. The port is not checked against the server's, since it may be
 /// forwarded.
 pub(super) fn is_own(headers: &HeaderMap) -> Result<(), Refused> {
     let text = |name| headers.get(name).map(|value| value.to_str().unwrap_or_default());
@@ -73,7 +73,7 @@ pub(super) fn is_own(headers: &HeaderMap) -> Result<(), Refused> {
     }
 }
 
-/// Whether a host, with or without a port, is a loopback name or address. Nobody else can own such a name.
+/// Returns true if a host, with or without a port, is a loopback name or address. No other machine can have such a name.
 fn is_loopback(host: &str) -> bool {
     let is_port = |port: &str| port.parse::<u16>().is_ok();
     ["127.0.0.1", "localhost", "[::1]"].into_iter().any(|own| match host.strip_prefix(own) {

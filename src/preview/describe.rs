@@ -1,4 +1,4 @@
-//! The description of a run for the page: all values that are constant during the run.
+//! Describes a run for the page: all values that are constant during the run.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
 
-/// A run, without its frames. Unless noted otherwise, lengths are in metres, angles in degrees, and colors in linear
+/// The description of a run, without its frames. Unless noted otherwise, lengths are in meters, angles in degrees, and colors in linear
 /// light.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -27,7 +27,7 @@ pub(super) struct Description<'a> {
     methods: Vec<Method>,
     size: [u32; 2],
     preset: &'static str,
-    /// The color of a plain sky in sRGB.
+    /// The color of a plain sky in sRGB. `None` for a gradient.
     sky: Option<Color3>,
     dark: bool,
     bodies: Vec<BodyText<'a>>,
@@ -36,11 +36,11 @@ pub(super) struct Description<'a> {
     tiles: Surface,
     views: Vec<&'a str>,
     bounds: Option<[[f64; 3]; 2]>,
-    /// Whether frames contain more to draw than the poses of bodies.
+    /// True if frames contain more to draw than the poses of bodies.
     shows: bool,
-    /// Whether the scene has emitters.
+    /// True if the scene has particle emitters.
     particles: bool,
-    /// The stage. `None` until the run is finished.
+    /// The surroundings of the bodies: camera, lights, ground. `None` until the run is finished.
     stage: Option<Stage>,
 }
 
@@ -56,40 +56,40 @@ struct Method {
 struct BodyText<'a> {
     name: &'a str,
     mass: f64,
-    /// The kind of the motion: `free`, `fixed`, or `driven` for a prescribed motion.
+    /// The kind of the body's motion: `free`, `fixed`, or `driven` for a prescribed motion.
     kind: &'static str,
-    /// The index of the material.
+    /// The index of the body's material.
     material: Option<usize>,
     ghosts: bool,
     trail: Option<TrailText>,
-    /// The length of the arms, m, for a triad of axes.
+    /// The length of the arms, m, if the body is drawn as a triad of axes.
     axes: Option<f64>,
 }
 
 #[derive(Serialize)]
 struct TrailText {
-    /// The time that the trail covers, s.
+    /// The time that the trail covers, s. `None` for the whole motion.
     duration: Option<f64>,
-    /// The point of the body that draws the trail, m, in the body's axes.
+    /// The point of the body that draws the trail, m, in body axes.
     at: [f64; 3],
 }
 
-/// A piece of a drawn body: a form with a scale.
+/// A piece of a drawn body: a base shape (a shape in a standard size), with its scale and its pose in body axes.
 #[derive(Serialize)]
 struct PieceText {
     body: usize,
-    /// The index of the form.
+    /// The index of the base shape.
     form: usize,
     scale: [f64; 3],
     location: [f64; 3],
     turn: [f64; 4],
-    /// The color in sRGB. `None` for the material of the body.
+    /// The color of the piece in sRGB. `None` for the material of the body.
     color: Option<Color3>,
-    /// Whether the piece is an infinite plane.
+    /// True if the piece is an infinite plane.
     plane: bool,
-    /// Whether the piece is a ball.
+    /// True if the piece is a ball.
     ball: bool,
-    /// The radius of a ball of the body's volume. The size of patterns depends on it.
+    /// The radius of a ball with the body's volume, m. The size of patterns depends on it.
     radius: f64,
 }
 
@@ -101,7 +101,7 @@ struct Surface {
     emissive: bool,
     motif: &'static str,
     second: Option<Color3>,
-    /// The color of ghosts, linear.
+    /// The color of ghosts (earlier poses) of bodies with this material, linear.
     pale: Color3,
 }
 
@@ -119,11 +119,11 @@ struct Stage {
     timestep: f64,
     steps_per_frame: u32,
     drift: f64,
-    /// The trails by the indices of their bodies, with colors in sRGB.
+    /// The trails, with the indices of their bodies. Colors are in sRGB.
     trails: Vec<Trail>,
-    /// The grid in the view of each camera that does not move.
+    /// The lines of the grid for each camera. The list is empty for a camera that moves.
     grids: Vec<Vec<super::shown::Line>>,
-    /// The place of each camera at the start.
+    /// The initial position and direction of each camera.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
 }
@@ -139,7 +139,7 @@ struct Ground {
 #[derive(Serialize)]
 struct Trail {
     body: usize,
-    /// The radius of the trail, m. `None` if the scene sets no width: the trail then has the stroke width of the frame.
+    /// The radius of the trail, m. `None` if the scene sets no width: the trail then has the line width of the frame.
     radius: Option<f64>,
     color: Color3,
     tapers: bool,
@@ -182,8 +182,8 @@ pub(super) fn describe(run: &Simulation) -> Description<'_> {
     }
 }
 
-/// The triangles of all forms in sequence. Each form has its number of vertices and of indices, then positions, normals
-/// and indices, as little-endian 32-bit numbers.
+/// Encodes the triangles of all base shapes, one shape after another. Each shape has its number of vertices and of indices, then
+/// positions, normals and indices, as little-endian 32-bit numbers.
 pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
     let detail = detail(scene);
     let mut bytes = Vec::new();
@@ -199,13 +199,14 @@ pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
     bytes
 }
 
-/// If there are many bodies, they are small in the picture, and coarse forms suffice.
+/// Chooses how finely curved surfaces are divided. If a scene has many bodies, they are small in the picture, and coarse triangles
+/// suffice.
 fn detail(scene: &Scene) -> Detail {
     const MANY: usize = 1_000;
     if scene.bodies.len() > MANY { Detail::Coarse } else { Detail::Fine }
 }
 
-/// The forms of a scene, each once, in the order of the bodies.
+/// Returns the base shapes of a scene, each once, in the order of the bodies.
 fn forms(scene: &Scene) -> Vec<Form> {
     let mut known = HashMap::new();
     let mut forms = Vec::new();

@@ -1,4 +1,4 @@
-//! The reasons why a request fails.
+//! The reasons why a request to the server fails.
 
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
@@ -8,11 +8,11 @@ use crate::diagnostic::Report;
 use crate::output::OutputError;
 use crate::render::RenderError;
 
-/// The reason why a request fails.
+/// The reason why a request to the server fails.
 pub(super) enum Failed {
     /// The run has been removed, or has no such frame or body.
     Gone,
-    /// A report, as the terminal would show it.
+    /// The error report of a run, a scene or POV-Ray, as the terminal would show it.
     Report(Report),
     /// An error of the operating system.
     Io(std::io::Error),

@@ -2,12 +2,14 @@
 //!
 //! | what | where |
 //! | --- | --- |
-//! | what is previewed: the last good run, what is wrong now | `session`, which reads again what `watch` sees change |
-//! | a run in the background, its frames on disk | `run` |
-//! | a panic in either, as an error on the page | `panicked` |
-//! | what the page is told of it | `describe`, `shown`, `swarms`, `samples` |
-//! | the server, who may ask it, and why there is no answer | `routes`, `access`, `failed` |
-//! | a frame by POV-Ray | `render` |
+//! | the last run without errors, and the current errors of the scene | `session` |
+//! | the detection of changes in the scene's files | `watch` |
+//! | a run that is simulated in the background | `run` |
+//! | a panic of a thread, as an error on the page | `panicked` |
+//! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
+//! | the encoding of frames as bytes | `numbers` |
+//! | the server, its access control, and its errors | `routes`, `access`, `failed` |
+//! | a frame rendered by POV-Ray | `render` |
 //! | the page itself | `page`, and the files in the folder of that name |
 
 mod access;
@@ -47,23 +49,23 @@ use crate::scene::Options;
 /// The scene to preview, and the settings of the preview.
 #[derive(Clone, Debug)]
 pub struct Preview {
-    /// The file of the scene.
+    /// The path of the scene's file.
     pub scene: PathBuf,
     /// The options for reading the scene.
     pub options: Options,
-    /// The cache that keeps runs.
+    /// The cache that keeps runs between commands.
     pub cache: Cache,
     /// The port of the server. `None` for any free port.
     pub port: Option<u16>,
-    /// The POV-Ray program. `None` for the one in the `PATH`.
+    /// The path of the POV-Ray program. `None` for `povray` in the `PATH`.
     pub povray: Option<PathBuf>,
-    /// The launcher that confines POV-Ray. `None`: POV-Ray is not confined.
+    /// The launcher that confines POV-Ray to its files. With `None`, POV-Ray is not confined.
     pub launcher: Option<Launcher>,
 }
 
 impl Preview {
-    /// Serves the page on the loopback address until the user stops the program. `listening` gets the address of the
-    /// page. `said` gets the report on the scene whenever the report changes.
+    /// Serves the page on the loopback address until `stop` is set. `listening` receives the address of the page. `said` receives the
+    /// report on the scene whenever the report changes.
     ///
     /// # Errors
     /// If the port is in use, or the system refuses to open it.
@@ -85,7 +87,7 @@ impl Preview {
         let renderer = Arc::new(Renderer::new(self.povray, confinement));
         let server = Server { session: Arc::clone(&session), renderer: Arc::clone(&renderer), token };
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
-        // The thread ends with the process, so a scene that takes long to read does not delay the end.
+        // This thread ends with the process, so a scene that takes long to read does not delay the end.
         thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
         let served = runtime.block_on(async {
             tokio::select! {

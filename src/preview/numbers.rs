@@ -1,28 +1,28 @@
-//! Encodes frames for the page: little-endian 64-bit numbers.
+//! Encodes frames for the page as little-endian 64-bit numbers.
 
 use std::io;
 
 use crate::dynamics::Balance;
 use crate::simulate::Reader;
 
-/// The count of numbers in the balance of a frame, over all bodies.
+/// The count of numbers in the energy and momentum balance of a frame.
 #[cfg(test)]
 pub(super) const HEAD: usize = 13;
-/// The count of numbers in a sample of one body.
+/// The count of numbers in a sample of one body at one frame.
 #[cfg(test)]
 pub(super) const BODY: usize = 15;
-/// The count of numbers in a pose.
+/// The count of numbers in a pose: a location and an orientation.
 const POSE: usize = 7;
 /// The size of a number, bytes.
 const NUMBER: usize = 8;
 
-/// The size of the poses of a frame, bytes.
+/// Returns the size of the poses of all bodies in one frame, bytes.
 pub(super) fn pose_bytes(bodies: usize) -> usize {
     POSE * bodies * NUMBER
 }
 
-/// The poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). An
-/// absent body has NaNs.
+/// Encodes the poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). The numbers of
+/// an absent body are NaN.
 pub(super) fn poses(
     reader: &mut Reader,
     bodies: usize,
@@ -42,8 +42,8 @@ pub(super) fn poses(
     Ok(bytes)
 }
 
-/// Appends the balance of a frame: the time; kinetic, potential and total energy; the sum of the accounts; drift;
-/// linear momentum; angular momentum; the number of impacts, which is NaN without contacts.
+/// Appends the energy and momentum balance of a frame: the time; kinetic, potential and total energy; the energy brought in by everything
+/// without a potential; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without contacts.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
     let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
     put(bytes, &[time, *kinetic, *potential, *total]);

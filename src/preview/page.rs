@@ -4,7 +4,7 @@ const HTML: &str = "text/html; charset=utf-8";
 const STYLE: &str = "text/css; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
-/// The files: path, content type and text of each.
+/// The files of the page: path, content type and text of each.
 pub(super) const FILES: &[(&str, &str, &str)] = &[
     ("/", HTML, include_str!("page/index.html")),
     ("/style.css", STYLE, include_str!("page/style.css")),
@@ -35,7 +35,7 @@ pub(super) const FILES: &[(&str, &str, &str)] = &[
 mod tests {
     use super::*;
 
-    /// The page contains nothing that its own policy would forbid.
+    /// The page must contain nothing that its own content security policy would forbid.
     #[test]
     fn nothing_comes_from_elsewhere() {
         for (path, _, text) in FILES {

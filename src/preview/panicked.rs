@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 
-/// Runs work that may panic. If it panics, the panic becomes a report, and the thread continues.
+/// Runs work that may panic. A panic becomes an error report, and the thread continues. `doing` names the work in the report.
 ///
 /// After a panic, the caller must not use data that the work left half done.
 pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -> Result<T, Report> {
@@ -18,7 +18,7 @@ pub(super) fn caught<T>(doing: &str, work: impl FnOnce() -> Result<T, Report>) -
     })
 }
 
-/// The message of a panic.
+/// Returns the message of a panic.
 fn message_of(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason is known")

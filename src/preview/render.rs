@@ -21,28 +21,28 @@ pub(super) struct Renderer {
     povray: Option<PathBuf>,
     confinement: Confinement,
     one_at_a_time: Mutex<()>,
-    /// All requests for images, also those whose clients have left.
+    /// The stop flags of all requests for images. The flag of a finished request no longer exists.
     wishes: Mutex<Vec<Weak<AtomicBool>>>,
 }
 
-/// A request for an image by POV-Ray.
+/// The parameters of a request for an image by POV-Ray.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Wanted {
     run: String,
     frame: usize,
-    /// The index of the camera: 0 for the main camera, then the views.
+    /// The index of the camera: 0 for the main camera, then the views in their order.
     #[serde(default)]
     view: usize,
-    /// Whether the image has the best quality, instead of a quick one.
+    /// True for an image of the best quality, false for a quick one.
     #[serde(default)]
     fine: bool,
 }
 
-/// A client's request for an image. When the client leaves, the request is dropped, and the rendering stops.
+/// The stop flag of a client's request for an image. When the client closes the connection, this is dropped, which stops the rendering.
 pub(super) struct Wish(Arc<AtomicBool>);
 
 impl Wish {
-    /// A flag that becomes `true` when the client has left.
+    /// Returns the flag that becomes `true` when the client has closed the connection.
     pub(super) fn stop(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
@@ -55,25 +55,25 @@ impl Drop for Wish {
 }
 
 impl Wanted {
-    /// The id of the run.
+    /// Returns the id of the requested run.
     pub(super) fn run(&self) -> RunId {
         self.run.parse().unwrap_or_default()
     }
 }
 
 impl Renderer {
-    /// Creates a renderer with the given POV-Ray program, or the one in the `PATH`. `confinement` confines POV-Ray.
+    /// Makes a renderer. `povray` is the path of POV-Ray, `None` for `povray` in the `PATH`.
     pub(super) fn new(povray: Option<PathBuf>, confinement: Confinement) -> Renderer {
         Renderer { povray, confinement, one_at_a_time: Mutex::new(()), wishes: Mutex::default() }
     }
 
-    /// Stops the current rendering, since the server stops.
+    /// Stops all renderings, since the server stops.
     pub(super) fn end(&self) {
         let wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
         wishes.iter().filter_map(Weak::upgrade).for_each(|stop| stop.store(true, Ordering::Relaxed));
     }
 
-    /// Registers a request for an image.
+    /// Registers a request for an image, and returns its stop flag.
     pub(super) fn wish(&self) -> Wish {
         let stop = Arc::default();
         let mut wishes = self.wishes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -82,7 +82,7 @@ impl Renderer {
         Wish(stop)
     }
 
-    /// Renders the image of a frame as a PNG.
+    /// Renders the image of a frame, and returns the bytes of a PNG.
     pub(super) fn render(
         &self,
         run: &Simulation,
@@ -103,7 +103,7 @@ impl Renderer {
         let view = wanted.view.checked_sub(1).and_then(|view| scene.views.get(view));
         let seen = view.map(|view| whole.seen_by(view)).transpose();
         let seen = seen?.unwrap_or(whole);
-        // A hidden folder keeps these files apart from the scripts that the user writes.
+        // A hidden folder keeps these files apart from the scripts of other commands.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
         let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
         output::write_moment(&seen, &folder, time)?;

@@ -1,16 +1,18 @@
 //! The routes of the server.
 //!
-//! | path | what |
+//! | path | answer |
 //! | --- | --- |
-//! | `/` and the files beside it | the page, which knows nothing of the scene |
+//! | `/` and the files beside it | the page, which contains nothing of the scene |
 //! | `/api/events` | the [`State`](super::session::State), whenever it changes |
-//! | `/api/runs/N` | what stays the same in a run |
-//! | `/api/runs/N/forms` | the triangles of its forms |
-//! | `/api/runs/N/poses?from=A&to=B` | where its bodies are in some frames, as they are simulated |
-//! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, how a body moves |
-//! | `/api/runs/N/shown?from=A&to=B` | what is seen in some frames beside the bodies |
-//! | `/api/variants` | begins a run by another method |
-//! | `/api/render` | a frame by POV-Ray |
+//! | `/api/runs/N` | the constant data of a run |
+//! | `/api/runs/N/forms` | the triangles of its base shapes |
+//! | `/api/runs/N/ghosts` | the earlier poses that the run shows as ghosts |
+//! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames, as they are simulated |
+//! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, the motion of a body |
+//! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
+//! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |
+//! | `/api/variants` | starts a run with another integration method |
+//! | `/api/render` | a frame rendered by POV-Ray |
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -37,7 +39,7 @@ use super::run::{RunId, Simulation};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
 
-/// The state from which the server makes its answers.
+/// The data that the server answers requests from.
 #[derive(Clone)]
 pub(super) struct Server {
     pub(super) session: Arc<Session>,
@@ -58,7 +60,7 @@ const HEADERS: [(HeaderName, &str); 6] = [
     (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
 ];
 
-/// The routes of the server.
+/// Makes the router, which calls a function for each path.
 pub(super) fn router(server: Server) -> Router {
     let api = Router::new()
         .route("/api/events", get(events))
@@ -79,7 +81,7 @@ pub(super) fn router(server: Server) -> Router {
     api.merge(page).layer(middleware::from_fn(guarded)).with_state(server)
 }
 
-/// Refuses requests from other pages, and adds the content security policy to each answer.
+/// Refuses requests from other pages, and adds the security headers to each answer.
 async fn guarded(request: Request, next: Next) -> Response {
     let mut response = match access::is_own(request.headers()) {
         Ok(()) => next.run(request).await,
@@ -110,13 +112,13 @@ impl Server {
     }
 }
 
-/// A request for some frames of a run. Depending on the route, the answer waits for frames that are not simulated yet,
+/// The parameters of a request for some frames of a run. Depending on the route, the answer waits for frames that are not simulated yet,
 /// or omits them.
 #[derive(Deserialize)]
 struct Frames {
     #[serde(default)]
     from: usize,
-    /// The end of the range, exclusive.
+    /// The end of the range of frames, exclusive. `None` for the end of the run.
     to: Option<usize>,
     /// The stride: only every n-th frame is included.
     #[serde(default = "one")]
@@ -124,7 +126,7 @@ struct Frames {
     /// The index of the body, for requests about one body.
     #[serde(default)]
     body: usize,
-    /// The index of the camera: 0 for the main camera, then the views.
+    /// The index of the camera: 0 for the main camera, then the views in their order.
     #[serde(default)]
     view: usize,
 }
@@ -138,7 +140,7 @@ impl Frames {
         self.to.unwrap_or(usize::MAX).min(run.scene.simulation.frames())
     }
 
-    /// The requested frames that have been simulated.
+    /// Yields the numbers of the requested frames that have been simulated.
     fn recorded(&self, run: &Simulation) -> impl Iterator<Item = usize> + use<> {
         (self.from..self.end(run).min(run.recorded())).step_by(self.every.max(1))
     }
@@ -195,14 +197,13 @@ async fn poses(
 ) -> Result<Response, Failed> {
     /// The size up to which small frames are sent together, bytes.
     const TOGETHER: usize = 1 << 16;
-    /// The interval between checks for new frames.
+    /// The interval between two checks for new frames.
     const LOOK: Duration = Duration::from_millis(4);
     let run = server.run(id)?;
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
     tokio::spawn(async move {
         let (mut frame, end, bodies) = (frames.from, frames.end(&run), run.scene.bodies.len());
-        // Use one reader for all frames: it continues from its place, whereas a new reader starts at the beginning of a
-        // page.
+        // One reader serves all frames: it continues from its position, whereas a new reader starts at the beginning of a page.
         let mut reader = None;
         while frame < end && !sender.is_closed() {
             let (is_over, recorded) = (run.outcome().is_some(), run.recorded().min(end));
@@ -286,7 +287,7 @@ async fn variant(State(server): State<Server>, Json(variant): Json<Variant>) -> 
 
 async fn render(State(server): State<Server>, Json(wanted): Json<Wanted>) -> Result<Response, Failed> {
     let run = server.run(wanted.run())?;
-    // When the client leaves, the request is dropped too.
+    // When the client closes the connection, this future and its `wish` are dropped, which stops the rendering.
     let wish = server.renderer.wish();
     let stop = wish.stop();
     let image = blocking(move || server.renderer.render(&run, &wanted, &stop)).await?;

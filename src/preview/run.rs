@@ -1,4 +1,4 @@
-//! A run of a scene in the background, which the page shows while it is simulated.
+//! Simulates a run of a scene in the background, while the page already shows it.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,7 +22,7 @@ use crate::{Run, Scene};
 /// The id of a run, unique within a server, so that the page never mixes data of two runs.
 pub(super) type RunId = u64;
 
-/// A run, from its start on.
+/// A run that is being simulated or has been simulated.
 pub(super) struct Simulation {
     pub(super) id: RunId,
     pub(super) scene: Arc<Scene>,
@@ -36,19 +36,19 @@ pub(super) struct Simulation {
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
-/// The earlier states of a run that later frames show.
+/// The earlier states of a run that later frames show: ghosts, and the positions of lagging cameras. Also the box around the motion.
 #[derive(Default)]
 struct PastOfRun {
     ghosts: Vec<Arc<Ghost>>,
-    /// The lagging cameras of each frame. Empty if there are none.
+    /// The positions of the lagging cameras in each frame. Empty if no camera lags behind its body.
     lagging: Vec<Vec<Lagging>>,
     bounds: Option<Bounds>,
 }
 
-/// The results after the last frame.
+/// The results of a run that are known after its last frame.
 pub(super) struct Outcome {
     pub(super) survey: Survey,
-    /// The plan of the main camera, then the plan of each view.
+    /// The contents of the pictures: the plan of the main camera, then the plan of each view.
     pub(super) plans: Vec<Plan>,
     /// The warnings about the run.
     pub(super) warnings: Report,
@@ -61,20 +61,20 @@ pub(super) struct Progress {
     id: String,
     /// The number of frames of the whole run.
     frames: usize,
-    /// The number of frames so far.
+    /// The number of frames that have been simulated.
     recorded: usize,
-    /// Whether the run has ended, so that all results are known.
+    /// True if the run has ended, so that all results are known.
     settled: bool,
-    /// The reason why the run ended early.
+    /// The error that ended the run early, as text.
     pub(super) problem: Option<String>,
     warnings: Option<String>,
 }
 
-/// The interval between two notices of new frames.
+/// The smallest interval between two notifications about new frames.
 const PULSE: Duration = Duration::from_millis(40);
 
 impl Simulation {
-    /// Starts a run in another thread. The thread calls `pulse` whenever there is news of the run.
+    /// Starts a run in another thread. The thread calls `pulse` after new frames and at the end.
     pub(super) fn begin(
         id: RunId,
         scene: Arc<Scene>,
@@ -97,34 +97,34 @@ impl Simulation {
         let own = Arc::clone(&run);
         thread::Builder::new().name("run".to_owned()).spawn(move || {
             let outcome = caught("simulating", || own.simulate(&pulse));
-            // Only this thread sets the outcome.
+            // Only this thread sets the outcome, so setting it cannot fail.
             let _ = own.outcome.set(outcome);
             pulse();
         })?;
         Ok(run)
     }
 
-    /// The frames that have been simulated so far.
+    /// Returns the frames that have been simulated so far.
     pub(super) fn recording(&self) -> Arc<Recording> {
         Arc::clone(&self.recording.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// The number of frames so far.
+    /// Returns the number of frames that have been simulated so far.
     pub(super) fn recorded(&self) -> usize {
         self.recording().frames()
     }
 
-    /// Cancels the run, since no page shows it.
+    /// Cancels the run, since no page shows it any more.
     pub(super) fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// The results after the last frame, or the reason why the run ended early. `None` while the run is going on.
+    /// Returns the results after the last frame, or the errors that ended the run early. `None` while the run is being simulated.
     pub(super) fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
         self.outcome.get().map(Result::as_ref)
     }
 
-    /// The progress of the run.
+    /// Returns the progress of the run.
     pub(super) fn progress(&self) -> Progress {
         let outcome = self.outcome();
         let warnings = outcome.and_then(Result::ok).map(|outcome| outcome.warnings.to_text(false));
@@ -138,7 +138,7 @@ impl Simulation {
         }
     }
 
-    /// Reads a recorded frame, with the part of its past that the preview shows.
+    /// Reads a recorded frame, with the ghosts and lagging cameras that it shows.
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
         let mut frame = self.recording().read().seen(index)?;
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
@@ -149,12 +149,12 @@ impl Simulation {
         Ok(frame)
     }
 
-    /// The ghosts so far.
+    /// Returns the ghosts (earlier poses of bodies) that are known so far.
     pub(super) fn ghosts(&self) -> Vec<Arc<Ghost>> {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).ghosts.clone()
     }
 
-    /// The box around the motion so far.
+    /// Returns the box around the motion so far. `None` before the first frame.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds
     }
@@ -181,7 +181,7 @@ impl Simulation {
         Ok(Outcome { survey, plans, warnings })
     }
 
-    /// The recording of the run in the cache, if an earlier command has saved it.
+    /// Returns the cached recording of the run. `None` if the cache does not contain this run, or its file is damaged.
     fn kept(&self) -> Option<Recorded<'_>> {
         let recording = Arc::new(self.cache.find(&self.scene, &self.moments)?);
         match Recorded::read(&self.scene, Arc::clone(&recording), |_| {}) {

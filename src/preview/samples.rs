@@ -1,4 +1,4 @@
-//! Encodes data for the plots: little-endian 64-bit numbers.
+//! Encodes data for the plots as little-endian 64-bit numbers.
 
 use std::io;
 
@@ -8,12 +8,12 @@ use super::numbers::{put, put_balance};
 use super::run::Simulation;
 use crate::dynamics::{BodySnapshot, RigidBody};
 
-/// The balance of each frame over all bodies, as written by [`put_balance`].
+/// Encodes the energy and momentum balance of each frame, in the layout of [`put_balance`].
 pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
     for frame in frames {
-        // Reading one body is faster than reading all.
+        // Reading one body is faster than reading all of them.
         let (moment, _) = reader.body(frame, 0)?;
         let impacts =
             if run.scene.simulation.contacts.is_some() { moment.impacts.of_run() } else { f64::NAN };
@@ -22,9 +22,9 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
     Ok(all)
 }
 
-/// The sample of a body in each frame: the time; location, velocity, angular velocity and net force, with 3 numbers
-/// each; the kinetic energy; the number of impacts. While the body is absent, all numbers except the time are NaN.
-/// Without contacts, the number of impacts is NaN.
+/// Encodes the motion of a body in each frame: the time; location, velocity, angular velocity and net force, with 3 numbers each; the
+/// kinetic energy; the number of impacts. While the body is absent, all numbers except the time are NaN. Without contacts, the number of
+/// impacts is NaN.
 pub(super) fn of_body(
     run: &Simulation,
     body: usize,
@@ -50,7 +50,7 @@ pub(super) fn of_body(
     Ok(all)
 }
 
-/// The kinetic energy of a body, translational and rotational, J.
+/// Returns the kinetic energy of a body, translational and rotational, J.
 fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
     if body.fixed || body.mass <= 0.0 {
         return 0.0;
@@ -69,7 +69,7 @@ mod tests {
     use crate::Scene;
     use crate::cache::Cache;
 
-    /// One that is not there has a time and no numbers, so that each frame has its place in the list.
+    /// An absent body has a time and no other numbers. So each frame keeps its position in the list.
     #[test]
     fn a_body_that_is_not_there_has_no_numbers() {
         let text = "simulation.duration = 0.4\n[body.a]\nshape.sphere.radius = 1\nstart = 0.2\nvelocity = [1, 0, 0]\n";
@@ -88,7 +88,7 @@ mod tests {
         }
     }
 
-    /// The ball meets the ground once in 0.4 s: it falls 0.2 m in 0.202 s.
+    /// The ball hits the ground once within 0.4 s: it falls 0.2 m in 0.202 s.
     #[test]
     fn impacts_are_counted_where_there_are_contacts() {
         let text = "simulation = { duration = 0.4, gravity = [0, -9.81, 0], contacts = 'event-driven', integrator = 'rk4' }
@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(last(of_body(&run, 1, 0..11).unwrap(), BODY), [0.0; 11]);
     }
 
-    /// The energies of all bodies together are that of the run.
+    /// The sum of the kinetic energies of all bodies equals the kinetic energy of the run.
     #[test]
     fn the_energy_of_a_body_is_its_share_of_the_whole() {
         let scene = Scene::parse(

@@ -1,4 +1,4 @@
-//! A session: the last run of the scene without errors, the current errors of the scene, and runs by other methods.
+//! A session: the last run of the scene without errors, the current errors of the scene, and runs with other integration methods.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::io;
@@ -19,10 +19,10 @@ use crate::cache::Cache;
 use crate::diagnostic::Report;
 use crate::scene::{Options, Override};
 
-/// Reads a scene from its file.
+/// A function that reads a scene from its file.
 type Reader = dyn Fn(&Path, &Options) -> Result<Scene, Report> + Send + Sync;
 
-/// The state of a preview. All open pages show the same state.
+/// The data of a preview. All open pages show the same data.
 pub(super) struct Session {
     path: PathBuf,
     pub(super) options: Options,
@@ -30,23 +30,23 @@ pub(super) struct Session {
     reader: Box<Reader>,
     inner: Mutex<Inner>,
     next: AtomicU64,
-    /// A counter that increases with each change of the state.
+    /// A counter that increases with each change of the session. Its receivers are notified of each change.
     pulse: watch::Sender<u64>,
     said: Box<dyn Fn(&Report) + Send + Sync>,
 }
 
 #[derive(Default)]
 struct Inner {
-    /// The number of scenes so far: each change of the scene increases it.
+    /// The number of versions of the scene so far. Each change of the scene increases it.
     generation: u64,
     current: Option<Arc<Simulation>>,
-    /// Runs of the same scene by other methods, each with its method and step, oldest first.
+    /// The runs of the same scene with other methods, each with its method and timestep, oldest first.
     variants: VecDeque<(Variant, Arc<Simulation>)>,
     problem: Option<String>,
     warnings: Option<String>,
 }
 
-/// A method and a step that replace those of the scene.
+/// An integration method and a timestep that replace those of the scene.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 pub(super) struct Variant {
     /// The name of the method.
@@ -60,20 +60,20 @@ pub(super) struct Variant {
 pub(super) struct State {
     /// The id of the scene's last run without errors.
     current: Option<String>,
-    /// The method that the scene sets.
+    /// The integration method that the scene sets.
     integrator: Option<&'static str>,
     /// The current errors of the scene, as the terminal shows them.
     problem: Option<String>,
     /// The warnings of the scene.
     warnings: Option<String>,
-    /// The progress of all runs that the page can request.
+    /// The progress of all runs that the page can request, by id.
     runs: BTreeMap<String, Progress>,
 }
 
-/// The largest number of runs by other methods.
+/// The largest number of runs with other methods.
 const VARIANTS: usize = 8;
 
-/// A new run is shown unfinished if it takes longer than this.
+/// The time that a new run has to finish before the page shows it unfinished.
 const QUICK: Duration = Duration::from_millis(150);
 
 impl Inner {
@@ -84,7 +84,7 @@ impl Inner {
 }
 
 impl Session {
-    /// Creates a session. It has not read the scene yet. `said` gets the reports for the terminal.
+    /// Makes a session, without reading the scene yet. `said` receives the reports for the terminal.
     pub(super) fn new(
         path: PathBuf,
         options: Options,
@@ -94,7 +94,7 @@ impl Session {
         Session::with_reader(path, options, cache, said, |path, options| Scene::from_path_with(path, options))
     }
 
-    /// Creates a session that reads its scene with the given function.
+    /// Makes a session that reads its scene with the given function.
     fn with_reader(
         path: PathBuf,
         options: Options,
@@ -129,12 +129,12 @@ impl Session {
         }
     }
 
-    /// A receiver for the counter, which increases with each change.
+    /// Returns a receiver of the counter, which is notified of each change.
     pub(super) fn pulse(&self) -> watch::Receiver<u64> {
         self.pulse.subscribe()
     }
 
-    /// The current state, for the page.
+    /// Returns the current state, for the page.
     pub(super) fn state(&self) -> State {
         let inner = self.lock();
         let runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
@@ -147,17 +147,17 @@ impl Session {
         }
     }
 
-    /// The run with this id. `None` if the run has been removed.
+    /// Returns the run with this id. `None` if the run has been removed.
     pub(super) fn run(&self, id: RunId) -> Option<Arc<Simulation>> {
         let inner = self.lock();
         let mut runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
         runs.find(|run| run.id == id).cloned()
     }
 
-    /// Starts a run of the scene by another method. Equal requests share one run.
+    /// Starts a run of the scene with another method. Equal requests share one run.
     ///
     /// # Errors
-    /// If the scene, the method or the step is wrong.
+    /// If the scene, the method or the timestep is invalid.
     pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<Simulation>, Report> {
         loop {
             let begun_with = {
@@ -171,7 +171,7 @@ impl Session {
             let run = self.begin(scene).map_err(|error| no_room(&error))?;
             let mut inner = self.lock();
             let other = inner.variant(&variant);
-            // Meanwhile, the scene may have changed, and another page may have made the same request.
+            // Meanwhile, the scene may have changed, or another page may have made the same request.
             if inner.generation != begun_with || other.is_some() {
                 run.cancel();
                 continue;
@@ -186,7 +186,7 @@ impl Session {
         }
     }
 
-    /// The options for reading the scene with another method. An empty method or step keeps that of the scene.
+    /// Returns the options for reading the scene with another method. An empty method or timestep keeps that of the scene.
     fn options_of(&self, variant: &Variant) -> Options {
         let mut options = self.options.clone();
         for (key, value) in [("integrator", &variant.integrator), ("step", &variant.step)] {
@@ -197,12 +197,13 @@ impl Session {
         options
     }
 
-    /// Reads the scene's current files. A panic becomes an error report, so that the session can read the next version.
+    /// Reads the current files of the scene. A panic becomes an error report, so that the session can read the next version.
     fn scene(&self, options: &Options) -> Result<Scene, Report> {
         caught("reading the scene", || (self.reader)(&self.path, options))
     }
 
-    /// Reads the scene. Returns whether to read it once more, since a file may have changed during the reading.
+    /// Reads the scene, and updates the session. Returns true if the scene should be read once more, since a file may have changed during
+    /// the reading.
     fn read(self: &Arc<Session>, watched: &mut Watched) -> bool {
         *watched = Watched::new(&watched.files());
         let read = self.scene(&self.options);
@@ -216,7 +217,7 @@ impl Session {
         watched.are_young()
     }
 
-    /// Starts the run of a changed scene. Does nothing if the scene is the same as before.
+    /// Starts the run of a changed scene. If the scene has not changed, only removes the error message.
     fn replace(self: &Arc<Session>, scene: Scene) {
         let is_same = |run: &Arc<Simulation>| run.scene.digest == scene.digest;
         if self.lock().current.as_ref().is_some_and(is_same) {
@@ -229,7 +230,7 @@ impl Session {
             Ok(run) => run,
             Err(error) => return self.complain(&no_room(&error)),
         };
-        // A run that finishes at once is not shown unfinished.
+        // A run that finishes almost at once is not shown unfinished.
         let begun = Instant::now();
         while run.outcome().is_none() && begun.elapsed() < QUICK {
             thread::sleep(Duration::from_millis(2));
@@ -275,7 +276,7 @@ mod tests {
     use super::*;
     use crate::scene::Follow;
 
-    /// A session whose reading panics at the word `panic`, and whose run panics at the word `lost`.
+    /// Makes a session for tests. Reading a scene with the title `panic` panics, and running a scene with the title `lost` panics.
     fn fragile(path: PathBuf) -> Arc<Session> {
         let read = |path: &Path, options: &Options| {
             let mut scene = Scene::from_path_with(path, options)?;

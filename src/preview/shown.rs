@@ -1,4 +1,4 @@
-//! The things drawn with the bodies in a frame, for the page. Lengths are in metres, colors in sRGB.
+//! Describes the objects that are drawn beside the bodies in a frame, for the page. Lengths are in meters, colors in sRGB.
 
 use std::io;
 
@@ -12,15 +12,15 @@ use crate::simulate::Frame;
 
 type Vector = [f64; 3];
 
-/// The things drawn with the bodies in a frame.
+/// The objects that are drawn beside the bodies in a frame.
 #[derive(Serialize)]
 pub(super) struct Shown {
     camera: Camera,
-    /// The lights. `None` if they do not move.
+    /// The lights of the frame. `None` if lights do not move.
     lights: Option<Vec<Light>>,
-    /// The width of trails whose width the scene does not set, m.
+    /// The line width of trails whose width the scene does not set, m.
     stroke: f64,
-    /// The grid. `None` if the camera does not move.
+    /// The lines of the grid. `None` if the camera does not move.
     grid: Option<Vec<Line>>,
     arrows: Vec<Arrow>,
     axes: Vec<Axes>,
@@ -34,7 +34,7 @@ pub(super) struct Shown {
 pub(super) struct Camera {
     location: Vector,
     look_at: Vector,
-    /// The horizontal field of view of a perspective camera, degrees.
+    /// The horizontal angle of view of a perspective camera, degrees.
     angle: Option<f64>,
     /// The width of the view of an orthographic camera, m.
     width: Option<f64>,
@@ -44,10 +44,10 @@ pub(super) struct Camera {
 #[derive(Serialize)]
 pub(super) struct Light {
     location: Vector,
-    /// The linear color, multiplied by the intensity.
+    /// The linear color of the light, multiplied by its intensity.
     color: Vector,
     shadows: bool,
-    /// Whether the light is parallel. `location` is then a far point in the direction from which the light comes.
+    /// True for parallel light. `location` is then a far point in the direction from which the light comes.
     sun: bool,
 }
 
@@ -96,16 +96,16 @@ enum LinkForm {
 struct Text {
     name: String,
     says: String,
-    /// The place in the image plane: x goes from -1 to 1, and y has the same scale, with 0 in the middle.
+    /// The position of the text in the image plane: x goes from −1 to 1, and y has the same scale, with 0 in the middle.
     x: f64,
     y: f64,
     height: f64,
     align: f64,
     color: Vector,
-    /// The index of the body at which the text stands, and the side of the body. `None` for a text in a corner.
+    /// The index of the body that the text belongs to, and the side of the body where the text stands. `None` for a text in a corner of
+    /// the picture.
     beside: Option<(usize, &'static str)>,
-    /// Whether the text is right only in the view of the scene's camera, as are the numbers of the grid and the scale
-    /// bar.
+    /// True if the text is right only in the view of the scene's camera, as are the numbers of the grid and the scale bar.
     in_world: bool,
 }
 
@@ -118,7 +118,7 @@ struct Bar {
     color: Vector,
 }
 
-/// A ghost: a body at an earlier time.
+/// A ghost: the pose of a body at an earlier time.
 #[derive(Serialize)]
 pub(super) struct Ghost {
     time: f64,
@@ -145,7 +145,8 @@ impl Light {
     }
 }
 
-/// The things drawn in some frames, for one camera. `None` if the run is not finished: its cameras have no place yet.
+/// Returns the objects drawn beside the bodies in some frames, as one camera sees them. The list is empty until the run is finished, since
+/// the positions of cameras are unknown before.
 pub(super) fn frames(
     run: &Simulation,
     view: usize,
@@ -156,7 +157,7 @@ pub(super) fn frames(
     frames.map(|frame| Ok(shown(&run.scene, plan, &run.frame(frame)?))).collect()
 }
 
-/// The ghosts so far, in order of time.
+/// Returns the ghosts that are known so far, in order of time.
 pub(super) fn ghosts(run: &Simulation) -> Vec<Ghost> {
     let ghost = |ghost: &crate::simulate::Ghost| Ghost {
         time: ghost.time,
@@ -229,7 +230,7 @@ fn link(link: picture::Link<'_>) -> Link {
     Link { form, color: link.color.0 }
 }
 
-/// The lines of a grid.
+/// Returns the lines of a grid.
 pub(super) fn lines(grid: &picture::Grid) -> Vec<Line> {
     let line = |line: &picture::Line| Line {
         from: line.from.to_array(),
@@ -240,7 +241,8 @@ pub(super) fn lines(grid: &picture::Grid) -> Vec<Line> {
     grid.lines.iter().map(line).collect()
 }
 
-/// The body and side of the label with this name. `None` if the label is not at a body.
+/// Returns the body that the label with this name belongs to, and the side of the body where the label stands. `None` for a label in a
+/// corner of the picture.
 fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
     let label = scene.labels.iter().find(|label| label.name == name)?;
     match label.place {

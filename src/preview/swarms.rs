@@ -1,4 +1,4 @@
-//! Encodes the particles of frames for the page: little-endian 64-bit numbers.
+//! Encodes the particles of frames for the page as little-endian 64-bit numbers.
 
 use std::io;
 use std::sync::{Mutex, PoisonError};
@@ -16,22 +16,22 @@ const MOST: f64 = 10_000.0;
 #[derive(Default)]
 pub(super) struct Kept(Mutex<Option<Swarms>>);
 
-/// The limit of drawn particles per emitter.
+/// Returns the largest number of drawn particles per emitter.
 #[allow(clippy::cast_precision_loss, reason = "emitters are few")]
 fn most_of_each(scene: &Scene) -> f64 {
     MOST / scene.emitters.len().max(1) as f64
 }
 
-/// The emitters with too many particles: name, and n if only every n-th particle is drawn.
+/// Returns the name of each emitter with too many particles, and the number n if only every n-th particle is drawn.
 pub(super) fn thinned(run: &Simulation) -> Vec<(String, u64)> {
     let swarms = Swarms::thinned(&run.scene, run.recording(), most_of_each(&run.scene));
     let names = run.scene.emitters.iter().map(|emitter| emitter.name.to_string());
     names.zip(swarms.strides().iter().copied()).filter(|(_, stride)| *stride > 1).collect()
 }
 
-/// The particles of some frames. A frame has the number of its particles, then for each particle: its place and the end
-/// of its streak, m; its radius, m; its color, sRGB; whether it gives light. Without a streak, the end of the streak is
-/// the place.
+/// Encodes the particles of some frames. A frame has the number of its particles, and then for each particle: its location and the end of
+/// its streak, m; its radius, m; its color, sRGB; 1 if it emits light, otherwise 0. Without a streak, the end of the streak is the
+/// location.
 pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let mut kept = run.swarms.0.lock().unwrap_or_else(PoisonError::into_inner);
     let recording = run.recording();
@@ -56,7 +56,7 @@ pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> i
     Ok(bytes)
 }
 
-/// The numbers of a particle at `time`, s: its two ends, its radius and color, and whether it gives light.
+/// Yields the numbers of a particle at `time` (s): its location, the end of its streak, its radius and color, and 1 if it emits light.
 fn seen(emitter: &Emitter, particle: &Particle, time: f64) -> impl Iterator<Item = f64> {
     let age = if particle.dies.is_finite() { particle.age(time) } else { 0.0 };
     let past = emitter.streak.min(time - particle.born).max(0.0);
@@ -75,7 +75,7 @@ mod tests {
     use crate::Scene;
     use crate::cache::Cache;
 
-    /// Any order of frames gives the same particles, and a run with many shows every n-th.
+    /// A frame contains the same particles, whatever frames were computed before. A run with many particles shows every n-th.
     #[test]
     fn particles_are_where_they_are_in_any_order() {
         let text = "simulation = { duration = 1, frame_rate = 10 }
@@ -94,10 +94,10 @@ mod tests {
         };
         let (late, early) = (numbers(9), numbers(2));
         assert_eq!((&numbers(9), &numbers(2)), (&late, &early));
-        // Four drops; and of 90,000 others, or one more, every twentieth.
+        // Four drops are alive, and every twentieth of about 90,000 other particles is shown.
         assert!((4504.0..=4506.0).contains(&late[0]), "{}", late[0]);
         assert_eq!(late[0], f64::from(u32::try_from(late.len() / 11).unwrap()));
-        // Born at 0.6 s, it is 0.3 s old of 0.35 s at 0.9 s; the last one is born just then.
+        // The oldest drop was born at 0.6 s. At 0.9 s, its age is 0.3 s of its lifetime of 0.35 s.
         let old = &late[1..12];
         let part = 0.3 / 0.35;
         let expected = [0.0, 0.6, 0.0, 0.0, 0.58, 0.0, 0.1 * (1.0 - part), 1.0 - part, 0.0, part, 1.0];

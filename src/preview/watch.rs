@@ -1,7 +1,7 @@
 //! Detects changes in the files of a scene.
 //!
-//! The files are checked at regular intervals, without notifications from the system. So changes are also found in
-//! files on a network, in files that an editor replaces, and in files that do not exist yet.
+//! The files are checked at regular intervals, without notifications from the system. So changes are also found in files on a network, in
+//! files that an editor replaces, and in files that do not exist yet.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,36 +10,36 @@ use std::time::{Duration, SystemTime};
 /// The interval between two checks of the files.
 pub(super) const INTERVAL: Duration = Duration::from_millis(60);
 
-/// The size, inode and time of a file, which show whether it has changed. `None` if the file does not exist.
+/// The size, inode and modification time of a file, which show whether it has changed. `None` if the file does not exist.
 type Mark = Option<(u64, u64, SystemTime)>;
 
-/// The files of a scene, with their marks.
+/// The files of a scene, each with its size, inode and modification time when it was last read.
 pub(super) struct Watched(Vec<(PathBuf, Mark)>);
 
 impl Watched {
-    /// Records the current marks of the files. Call it before the files are read, so that no change is missed.
+    /// Records the current sizes, inodes and times of the files. It must be called before the files are read, so that no change is missed.
     pub(super) fn new(files: &[PathBuf]) -> Watched {
         Watched(files.iter().map(|file| (file.clone(), mark(file))).collect())
     }
 
-    /// Adds files, with their current marks.
+    /// Adds files that are not watched yet, with their current sizes, inodes and times.
     pub(super) fn add(&mut self, files: &[PathBuf]) {
         let new = files.iter().filter(|file| !self.0.iter().any(|(known, _)| known == *file));
         let new: Vec<_> = new.map(|file| (file.clone(), mark(file))).collect();
         self.0.extend(new);
     }
 
-    /// The paths of the files.
+    /// Returns the paths of the watched files.
     pub(super) fn files(&self) -> Vec<PathBuf> {
         self.0.iter().map(|(file, _)| file.clone()).collect()
     }
 
-    /// Whether a file has changed since its mark was recorded.
+    /// Returns true if a file has changed since it was recorded.
     pub(super) fn have_changed(&self) -> bool {
         self.0.iter().any(|(file, before)| mark(file) != *before)
     }
 
-    /// Waits until the files stop changing and none is empty: an editor may empty a file before it writes the new text.
+    /// Waits until the files stop changing and none is empty, for at most 0.3 s. An editor may empty a file before it writes the new text.
     pub(super) fn settle(&self) {
         const QUIET: Duration = Duration::from_millis(20);
         const MOST: u32 = 15;
@@ -56,7 +56,7 @@ impl Watched {
         }
     }
 
-    /// Whether a file changed so recently that a further change might leave the same mark.
+    /// Returns true if a file was changed so recently that a further change might leave the same size and time.
     pub(super) fn are_young(&self) -> bool {
         const YOUNG: Duration = Duration::from_millis(50);
         let is_young = |mark: &Mark| {
