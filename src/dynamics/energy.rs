@@ -52,8 +52,8 @@ impl EnergyLedger {
         }
     }
 
-    /// Includes the present kinetic energy in the largest one. Must be called before constraints remove velocities that violate them: the
-    /// initial motion sets the scale of the drift, even if nothing of it remains.
+    /// Raises the largest kinetic energy so far to the present one, if that is larger. Must be called before constraints remove velocities
+    /// that violate them: the initial motion sets the scale of the drift, even if nothing of it remains.
     pub fn see_given(&mut self, model: &Model, state: &State) {
         self.largest_kinetic = self.largest_kinetic.max(kinetic(model, state));
     }

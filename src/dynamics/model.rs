@@ -396,10 +396,11 @@ impl Model {
         })
     }
 
-    /// Sets the loads on bodies that no load moves to zero, because a support or a guide bears them.
+    /// Sets the loads to zero on bodies that no load moves: the support of a fixed body, or the guide of a body with a given motion, bears
+    /// them.
     pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
-            // The guide of a body exerts the opposite forces, so its work has the opposite sign.
+            // The guide of a body makes it follow its given motion. It exerts the opposite loads, so its work has the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
             loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }

@@ -218,7 +218,7 @@ impl World {
         }
     }
 
-    /// Prepares the world for a change that does not affect bodies held at rest, so these stay held.
+    /// Prepares the world for a change that does not affect bodies held at rest. These stay held.
     fn about_to_change_some(&mut self) {
         self.ledger.open(&self.model, self.time, &self.state);
         self.integrator.discontinuity();

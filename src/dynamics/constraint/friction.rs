@@ -53,8 +53,8 @@ pub(super) struct Grip {
     /// True if the contact has switched between sticking and sliding too often in this step. It then sticks until the end of the step,
     /// with any friction force that this needs.
     pub(super) is_restless: bool,
-    /// The strongest coupling of this pair with all friction rows: for each of the pair's rows, the absolute values of its friction
-    /// entries of A = J M⁻¹ Jᵀ are added; the larger sum counts.
+    /// The strongest coupling of this pair with all friction rows. Each row of the pair has a sum: that of the absolute values of its
+    /// entries for friction rows in A = J M⁻¹ Jᵀ. The larger of the two sums counts.
     pub(super) stiffness: f64,
     /// The largest acceleration of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
     pub(super) strength: f64,

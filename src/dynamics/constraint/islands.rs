@@ -12,7 +12,7 @@ use super::anderson::Anderson;
 use super::solver::Solver;
 use super::sweep::SWEEPS;
 
-/// A constraint row of a contact (normal or tangent) in the form that sweeps need.
+/// A constraint row of a contact (normal or tangent) in the form that Gauss–Seidel sweeps need.
 struct Line {
     /// The index of the contact row in the solver.
     row: usize,
@@ -20,7 +20,7 @@ struct Line {
     terms: Range<usize>,
     /// The change of the contact row's rate c' by a unit impulse along it.
     weight: f64,
-    /// The part of the contact row's rate c' that the sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
+    /// The part of the contact row's rate c' that the Gauss–Seidel sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
     bias: f64,
     goal: f64,
     /// The smallest impulse that the contact row may have.
@@ -117,7 +117,7 @@ impl Island {
         self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
     }
 
-    /// Sweeps with Anderson acceleration until no sweep changes a rate by more than `tolerance`.
+    /// Repeats Gauss–Seidel sweeps with Anderson acceleration until no sweep changes a rate by more than `tolerance`.
     fn settle(&mut self, tolerance: f64, velocities: &mut [DVec3]) {
         let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
         let mut anderson = Anderson::from(&self.impulses, &weights);
@@ -137,9 +137,9 @@ impl Island {
 }
 
 impl Solver {
-    /// Finds the contact impulses by sweeps over each island, and applies them to the velocities of the members. `unknown` holds the
-    /// initial impulses before the call and the result after it. The rates of contacts may fall to `goals`. Friction is included if
-    /// `with_friction` is true.
+    /// Finds the contact impulses by Gauss–Seidel sweeps over each island, and applies them to the velocities of the members. `unknown`
+    /// holds the initial impulses before the call and the result after it. The rates of contacts may fall to `goals`. Friction is included
+    /// if `with_friction` is true.
     pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, tolerance: f64) {
         let mut velocities: Vec<DVec3> =
             self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();

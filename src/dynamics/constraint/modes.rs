@@ -221,7 +221,7 @@ impl Solver {
         let Solver { structure: Some(structure), jacobian, unknown, rows, .. } = self else { return size };
         jacobian::push(structure, jacobian, unknown, model, state);
         jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
-        // The impulses do the work ½ Λ (c' before + c' after). It includes the work of guides and motors.
+        // The impulses do the work ½ Λ (c' before + c' after), which includes the work of motors and of the guides of given motions.
         let mut taken = 0.0;
         let mut at_contacts = 0.0;
         for i in 0..n {

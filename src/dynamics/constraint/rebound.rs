@@ -1,11 +1,11 @@
-//! Impacts in the time-stepping of crowds: all impacts within one part of a step are solved together.
+//! Impacts in the time-stepping of crowds: all impacts within one substep are solved together.
 //!
 //! Poisson's law has two phases. In the first phase, bodies stop each other. In the second, each contact repeats its impulse, times its
 //! coefficient of restitution. For two bodies, this equals Newton's law. For many bodies it never gains energy, while Newton's law can.
 //! Source: C. Glocker & F. Pfeiffer, *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471.
 //!
-//! A contact that closes within the part gets its impulse at the start of the part, which is too early. The positions of its bodies are
-//! corrected afterwards, as if they had kept their old velocities until they touched.
+//! A contact that closes within the substep gets its impulse at the start of the substep, which is too early. The positions of its bodies
+//! are corrected afterwards, as if they had kept their old velocities until they touched.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use super::solver::Solver;
 use super::structure::Place;
 use super::sweep::Purpose;
 
-/// The impacts within one part of a step, and the corrections of positions that they cause.
+/// The impacts within one substep, and the corrections of positions that they cause.
 #[derive(Default)]
 pub(in crate::dynamics) struct Struck {
     /// The impacts, in order of time.
@@ -26,20 +26,20 @@ pub(in crate::dynamics) struct Struck {
     pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
 }
 
-/// A contact at which two bodies rebound in this part of the step.
+/// A contact at which two bodies rebound in this substep.
 struct Rebound {
     contact: usize,
     /// The index of the contact's normal row, which is its first row. `rows` is its number of rows.
     row: usize,
     rows: usize,
-    /// The time from the start of the part until the bodies touch, s.
+    /// The time from the start of the substep until the bodies touch, s.
     time: f64,
 }
 
 impl Solver {
     /// Applies the impulses of all contacts that close within `part` seconds after `time`. [`prepare_sweeps`](Self::prepare_sweeps) must
     /// have run before. The rates of stops may fall to `goals`. For a contact that rebounds, this function sets the goal to 0, so its
-    /// bodies approach no further in this part.
+    /// bodies approach no further in this substep.
     pub(in crate::dynamics) fn strike_all(
         &mut self,
         model: &Model,
@@ -132,7 +132,7 @@ impl Solver {
         before.iter().map(early).collect()
     }
 
-    /// Describes the impact of one rebound in the part of a step that starts at `time`, s. `velocities` are those of the bodies before the
+    /// Describes the impact of one rebound in the substep that starts at `time`, s. `velocities` are those of the bodies before the
     /// impact. `before` and `after` are the rates of all constraint rows before and after it.
     fn impact(
         &self,

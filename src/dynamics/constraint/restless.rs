@@ -21,7 +21,7 @@ impl Solver {
         self.grips.iter_mut().for_each(|grip| grip.is_restless = false);
     }
 
-    /// Counts a mode change of a contact's row. Rows of joints are not counted.
+    /// Counts a mode change of a contact's constraint row. Rows of joints are not counted.
     pub(in crate::dynamics) fn note_change(&mut self, model: &Model, row: usize) {
         let Some(structure) = self.structure.take() else { return };
         let place = structure.place_of_row(row);

@@ -10,7 +10,7 @@ use super::{Law, Row};
 /// Overlaps below this fraction of the smallest body's size are ignored.
 const SHALLOW: f64 = 1e-9;
 
-/// The sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
+/// The Gauss–Seidel sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
 const APART: f64 = 1e-5;
 
 impl Solver {

@@ -9,7 +9,8 @@ use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The number of times that sweeps solve for the forces between resting bodies. Each time starts with the forces of the time before.
+/// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time starts with the forces found the
+/// time before.
 const ROUNDS: usize = 10;
 
 impl Solver {
@@ -40,7 +41,7 @@ impl Solver {
         solver.contact_snapshots(model)
     }
 
-    /// Returns the contact forces that the sweeps of the last part of a step have found.
+    /// Returns the contact forces that the Gauss–Seidel sweeps of the last substep of time-stepping have found.
     pub(in crate::dynamics) fn last_forces(
         &self,
         contacts: Vec<Arc<Closed>>,

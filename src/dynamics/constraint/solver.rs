@@ -76,13 +76,13 @@ pub(in crate::dynamics) struct Solver {
     pub(super) unknown: Vec<f64>,
     /// The smallest impulse of each constraint row, for inequalities (stops) that rebound. Empty if all are 0.
     pub(super) least: Vec<f64>,
-    /// The velocity changes by a unit impulse along each constraint row, which sweeps use.
+    /// The velocity changes by a unit impulse along each constraint row, which Gauss–Seidel sweeps use.
     pub(super) columns: Columns,
-    /// The contact forces that the last sweeps found, from which the next sweeps start.
+    /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
     pub(super) warm: Warm,
-    /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last part of a step.
+    /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of time-stepping.
     pub(super) forced: f64,
-    /// True if sweeps find all forces, because there are no joints. No matrix is then factorized.
+    /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.
     pub(super) is_loose: bool,
     /// A constraint row for which the last decision of modes found no consistent mode.
     pub(super) undecided: Option<usize>,

@@ -14,31 +14,31 @@ use super::{Direction, Law, Row};
 /// The largest number of Gauss–Seidel sweeps for one set of impulses.
 pub(super) const SWEEPS: usize = 100;
 
-/// For forces, the sweeps end when they change rates by less than this fraction of the largest rate.
+/// For forces, the Gauss–Seidel sweeps end when they change rates by less than this fraction of the largest rate.
 const SETTLED: f64 = 1e-7;
 
-/// For impacts, the sweeps end when they change rates by less than this fraction of the largest rate. The forces computed afterwards
-/// correct the remaining error.
+/// For impacts, the Gauss–Seidel sweeps end when they change rates by less than this fraction of the largest rate. The forces computed
+/// afterwards correct the remaining error.
 const STRUCK: f64 = 1e-5;
 
-/// What the impulses of a set of sweeps stand for: an impact, or forces during a time.
+/// What the impulses of a set of Gauss–Seidel sweeps stand for: an impact, or forces during a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Purpose {
     /// An impact: approaching bodies stop. The work of the impulses is booked as lost at impacts.
     Impact,
-    /// Forces that act during this time, s: the first half of a part of a step. The resulting velocities are those in the middle of the
-    /// part, and the booked work is that of the whole part.
+    /// Forces that act during this time, s: the first half of a substep. The resulting velocities are those in the middle of the substep,
+    /// and the booked work is that of the whole substep.
     Forces(f64),
 }
 
 impl Solver {
-    /// Lets sweeps find all forces from now on, if the model has no joints.
+    /// Lets Gauss–Seidel sweeps find all forces from now on, if the model has no joints.
     pub(in crate::dynamics) fn find_by_sweeps(&mut self, model: &Model) {
         self.is_loose = model.constraints().is_empty();
     }
 
-    /// Evaluates all equations at a state, removes velocities that violate the joints, and computes the effects of unit impulses. Sweeps
-    /// need all three.
+    /// Evaluates all equations at a state, removes velocities that violate the joints, and computes the effects of unit impulses.
+    /// Gauss–Seidel sweeps need all three.
     pub(in crate::dynamics) fn prepare_sweeps(&mut self, model: &Model, t: f64, state: &mut State) {
         self.hold_joints(model, t, state);
         self.settle_velocities(model, state);
@@ -152,7 +152,7 @@ impl Solver {
         if purpose != Purpose::Impact {
             self.forced = fastest;
         }
-        // Rates need no accuracy far below their change by forces in a part of a step.
+        // Rates need no accuracy far below their change by forces in a substep.
         let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
         let tolerance = part * fastest.max(self.forced);
         if self.joints() == 0 {
@@ -171,8 +171,8 @@ impl Solver {
         }
     }
 
-    /// Repeats sweeps with Anderson acceleration until no rate changes by more than `tolerance`. `sweep` returns the largest change of a
-    /// rate.
+    /// Repeats Gauss–Seidel sweeps with Anderson acceleration until no rate changes by more than `tolerance`. `sweep` returns the largest
+    /// change of a rate.
     pub(super) fn sweep_until(&mut self, tolerance: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
         for left in (0..SWEEPS).rev() {
@@ -187,7 +187,7 @@ impl Solver {
     }
 
     /// Initializes the impulses from the last forces at the same contacts, which act for `time` seconds. Bodies at rest then need no more
-    /// sweeps.
+    /// Gauss–Seidel sweeps.
     pub(super) fn start_warm(&mut self, time: f64) {
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
@@ -217,7 +217,7 @@ impl Solver {
         self.first_row.len() - self.contacts.len()
     }
 
-    /// Makes one sweep over limits, motors and the normal rows of contacts. Returns the largest change of a rate.
+    /// Makes one Gauss–Seidel sweep over limits, motors and the normal rows of contacts. Returns the largest change of a rate.
     pub(super) fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
         let mut change = 0.0_f64;
         for (row, &goal) in goals.iter().enumerate() {
@@ -241,7 +241,7 @@ impl Solver {
         change
     }
 
-    /// Makes one sweep over a pair of friction rows. Returns the change of its slip velocity.
+    /// Makes one Gauss–Seidel sweep over a pair of friction rows. Returns the change of its slip velocity.
     fn sweep_grip(&mut self, grip: usize, goals: &[f64]) -> f64 {
         let Grip { row, normal, coefficient, .. } = self.grips[grip];
         let before = DVec2::new(self.unknown[row], self.unknown[row + 1]);

@@ -1,4 +1,4 @@
-//! Closest points of a small ball, such as a particle, and the parts of a solid.
+//! Closest points of a small ball, such as a particle, and the convex parts of a solid.
 
 use glam::{DQuat, DVec3};
 
@@ -95,29 +95,29 @@ impl Solid {
         self.parts().len()
     }
 
-    /// Returns true if this part is a half-space.
+    /// Returns true if this convex part is a half-space.
     pub(in crate::dynamics) fn is_endless(&self, part: usize) -> bool {
         self.parts()[part].is_ground()
     }
 
-    /// Returns true if the solid has a tree of bounding boxes for its parts, as meshes have.
+    /// Returns true if the solid has a tree of bounding boxes for its convex parts, as meshes have.
     pub(in crate::dynamics) fn has_tree(&self) -> bool {
         self.tree().is_some()
     }
 
-    /// Returns the bounding box of a part along the world axes: its lowest and its highest corner, m.
+    /// Returns the bounding box of a convex part along the world axes: its lowest and its highest corner, m.
     pub(in crate::dynamics) fn box_of(&self, part: usize, pose: &Pose) -> [DVec3; 2] {
         self.parts()[part].box_in(pose, &Pose::IDENTITY)
     }
 
-    /// Returns an upper bound of the distance of a part's points from the origin of the body, m.
+    /// Returns an upper bound of the distance of a convex part's points from the origin of the body, m.
     pub(in crate::dynamics) fn reach_of(&self, part: usize) -> f64 {
         let part = &self.parts()[part];
         part.centre.length() + part.bound
     }
 
-    /// Returns the indices of the parts that may be within a distance of a point, m. The point is given in body axes. Without a tree of
-    /// boxes, these are all parts.
+    /// Returns the indices of the convex parts that may be within a distance of a point, m. The point is given in body axes. Without a
+    /// tree of boxes, these are all parts.
     pub(in crate::dynamics) fn parts_near(&self, place: DVec3, within: f64) -> Vec<usize> {
         match self.tree() {
             Some(tree) => tree.near([place; 2], within, self.parts().len()),

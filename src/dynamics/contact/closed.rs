@@ -58,8 +58,8 @@ impl Closed {
         is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
     }
 
-    /// Returns how far the normal is from the limit at which the tangents become invalid, as a difference of cosines. If negative, they
-    /// must be chosen again.
+    /// Returns how far the contact normal is from the limit at which the tangents become invalid, as a difference of cosines. If the
+    /// result is negative, the tangents must be chosen again.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
         TURNED[0] - self.heading.dot(self.meet(poses).normal).abs()
     }

@@ -36,7 +36,7 @@ pub(in crate::dynamics) struct Crowd {
     pushing: BTreeSet<[usize; 2]>,
     /// For each body that joined the crowd (the bodies under time-stepping) recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
-    /// The bodies that have been under time-stepping (in the crowd) as part of a heap.
+    /// The bodies that time-stepping has advanced as part of a heap, that is, of many touching bodies.
     heaps: BTreeSet<usize>,
 }
 

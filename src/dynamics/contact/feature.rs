@@ -16,7 +16,7 @@ pub(super) struct Feature {
     pub(super) is_seam: bool,
 }
 
-/// The part of its patch that a feature covers: the borders of the feature.
+/// The part of its patch (the extended surface) that a feature covers, within the borders of the feature.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
     /// The feature covers its whole patch, which has no borders.
@@ -45,7 +45,7 @@ pub(super) enum Normals {
 }
 
 impl Feature {
-    /// Creates a feature that can make contacts (not a seam of a mesh).
+    /// Creates a feature that can make contacts, unlike a seam: a flat or concave edge between triangles.
     pub(super) fn new(patch: Patch, outline: Outline, normals: Normals) -> Feature {
         Feature { patch, outline, normals, is_seam: false }
     }
@@ -75,7 +75,8 @@ impl Feature {
         }
     }
 
-    /// Returns true if a point of the part's core lies below the feature by the rounding `radius` of the part, within `tolerance`, m.
+    /// Returns true if a point of the convex part's core lies below the feature by the rounding `radius` of the part, within `tolerance`,
+    /// m.
     pub(super) fn is_near(&self, place: DVec3, radius: f64, tolerance: f64) -> bool {
         let point = Patch::Point { at: place, radius: 0.0 };
         let found = meet_placed(&point, &self.patch);
@@ -97,8 +98,8 @@ impl Feature {
             Patch::Circle { centre, axis, radius } => {
                 centre.dot(direction) + radius * axis.cross(direction).length()
             }
-            // The bound assumes that a face is as large as its part. For a face turned away from the direction, corners and rims extend
-            // farther.
+            // The bound assumes that a face is as large as its convex part. For a face turned away from the direction, corners and rims
+            // extend farther.
             Patch::Plane { at, normal } => {
                 let tilt = normal.cross(direction).length();
                 if normal.dot(direction) > 0.0 {

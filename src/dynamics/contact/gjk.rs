@@ -8,7 +8,7 @@ use parry3d_f64::shape::SupportMap;
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// The core of a part as parry sees it: moved to the origin and scaled to a size of about 1, since parry's tolerances are absolute.
+/// The core of a convex part as parry sees it: moved to the origin and scaled to a size of about 1, since parry's tolerances are absolute.
 struct Placed<'a> {
     part: &'a Part,
     pose: Pose,
@@ -23,7 +23,7 @@ impl SupportMap for Placed<'_> {
     }
 }
 
-/// Computes the closest points of the cores of two parts by GJK. `None` if the algorithm fails or a part is infinite.
+/// Computes the closest points of the cores of two convex parts by GJK. `None` if the algorithm fails or a part is infinite.
 pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     let origin = pa.point(a.centre);
     let unit = a.bound.max(b.bound);

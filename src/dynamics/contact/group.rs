@@ -150,7 +150,7 @@ impl Collider {
         self.focus = Some(Focus { bodies, taken, others });
     }
 
-    /// Records how far the bodies of the group have moved in a piece of `duration` seconds.
+    /// Records how far the bodies of the group have moved in a piece of the step that took `duration` seconds.
     pub(in crate::dynamics) fn note_ways(
         &mut self,
         model: &Model,

@@ -7,18 +7,18 @@ use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A feature is near a guessed point if their distance is below this fraction of the part's size. GJK's guesses are better than this,
-/// except for overlapping round parts.
+/// A feature is near a guessed point if their distance is below this fraction of the convex part's size. GJK's guesses are better than
+/// this, except for overlapping round parts.
 const NEAR: f64 = 1e-3;
-/// A point outside a feature by up to this fraction of the part's size counts as on the feature. The gap changes only by the square of
-/// this.
+/// A point outside a feature by up to this fraction of the convex part's size counts as on the feature. The gap changes only by the square
+/// of this.
 pub(super) const EDGE: f64 = 1e-9;
 /// A point outside a triangle by up to this fraction of its size counts as on the triangle, if the other body is round. Adjacent triangles
 /// at a slight angle would otherwise leave a crack.
 const SEAM: f64 = 1e-7;
 /// The search among the triangles of a mesh begins within this fraction of the smaller body's size.
 const START: f64 = 0.25;
-/// Two parts with at most this many pairs of features are compared without a guess by GJK.
+/// Two convex parts with at most this many pairs of features are compared without a guess by GJK.
 const FEW: usize = 16;
 
 /// The closest points of two solids, with their gap and normal. For overlapping solids, the points of the smallest separating motion.
@@ -46,7 +46,7 @@ impl Nearest {
 
 /// Computes the closest points of two solids. `None` if their gap exceeds `beyond`, m.
 ///
-/// A small gap is exact to rounding errors. No returned gap is larger than the true one.
+/// A small gap is exact to within rounding errors. No returned gap is larger than the true one.
 pub(in crate::dynamics) fn nearest(
     a: &Solid,
     pa: &Pose,
@@ -74,7 +74,7 @@ pub(in crate::dynamics) fn nearest(
     }
 }
 
-/// Calls `look` with the indices of all pairs of parts whose gap may be below `within`, m, in ascending order.
+/// Calls `look` with the indices of all pairs of convex parts whose gap may be below `within`, m, in ascending order.
 pub(super) fn for_pairs(
     a: &Solid,
     pa: &Pose,
@@ -107,7 +107,7 @@ pub(super) fn for_pairs(
     }
 }
 
-/// Returns a lower bound of the gap of two parts, m: the gap of their bounding balls.
+/// Returns a lower bound of the gap of two convex parts, m: the gap of their bounding balls.
 pub(super) fn apart(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> f64 {
     match (&a.core, &b.core) {
         (Core::Ground { .. }, Core::Ground { .. }) => f64::INFINITY,
@@ -135,7 +135,7 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
     }
 }
 
-/// Computes the closest points of the ground, which comes first, and a part.
+/// Computes the closest points of the ground, which comes first, and a convex part.
 fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
     let normal = ground.orientation * normal;
     // Coordinates are relative to the ground, to keep precision far from the origin.
@@ -155,7 +155,7 @@ pub(super) fn edge(part: &Part, round: bool) -> f64 {
 /// Computes the closest points of a ball and a convex part, and the index of the part's feature at its closest point.
 pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
     let patch = &ball.features[0].patch;
-    // The ball is moved into the body axes of the part, so the features of the part need no rotation.
+    // The ball is moved into the body axes of the convex part, so the features of the part need no rotation.
     let centre = at.local(pose.point(ball.centre));
     let local = Patch::Point { at: centre, radius: ball.radius };
     // Adjacent triangles can meet at a slight angle, which leaves a crack for a ball.
@@ -261,7 +261,7 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     Some(Nearest { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
 }
 
-/// The search for the normal along which two parts have the largest separation.
+/// The search for the normal along which two convex parts have the largest separation.
 struct Search<'a> {
     a: &'a Part,
     pa: &'a Pose,
@@ -286,9 +286,9 @@ impl Search<'_> {
         }
     }
 
-    /// Returns true if the parts are nearest at a corner and another corner, an edge or a rim: the points and the normal belong to the two
-    /// features. The gap is then exact. The normal is less accurate: its rounding error grows as the gap shrinks, so the separation along
-    /// it would be too small.
+    /// Returns true if the convex parts are nearest at a corner and another corner, an edge or a rim: the points and the normal belong to
+    /// the two features. The gap is then exact. The normal is less accurate: its rounding error grows as the gap shrinks, so the
+    /// separation along it would be too small.
     fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
         let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
@@ -316,7 +316,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the best candidate if it is certain: its points are on the parts, and its gap is the separation along its normal.
+    /// Returns the best candidate if it is certain: its points are on the convex parts, and its gap is the separation along its normal.
     fn answer(&self) -> Option<Nearest> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
@@ -324,19 +324,20 @@ impl Search<'_> {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
         };
-        // The closest points of overlapping parts may lie outside of the features.
+        // The closest points of overlapping convex parts may lie outside of the features.
         let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
         (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
     }
 
-    /// Returns a bound of the rounding error of a distance between the parts, m.
+    /// Returns a bound of the rounding error of a distance between the convex parts, m.
     fn digits(&self) -> f64 {
         1e-14 * (self.a.bound + self.b.bound + (self.pb.location - self.pa.location).length())
     }
 }
 
-/// Computes the separation of two parts along a unit vector from the first to the second, m. It is negative if their projections overlap.
+/// Computes the separation of two convex parts along a unit vector from the first to the second, m. It is negative if their projections
+/// overlap.
 fn separation(a: &Part, pa: &Pose, b: &Part, pb: &Pose, normal: DVec3) -> f64 {
     let (local_a, local_b) = (pa.orientation.conjugate() * normal, -(pb.orientation.conjugate() * normal));
     let (high_a, high_b) = (a.core.support(local_a).dot(local_a), b.core.support(local_b).dot(local_b));

@@ -4,7 +4,7 @@
 use super::nearest::Nearest;
 use super::solid::{Part, Pose};
 
-/// Always returns `None`: without GJK, there is no first guess for the closest points of two parts.
+/// Always returns `None`: without GJK, there is no first guess for the closest points of two convex parts.
 pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<Nearest> {
     None
 }

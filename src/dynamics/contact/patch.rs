@@ -80,7 +80,7 @@ struct Spine {
 }
 
 impl Patch {
-    /// Returns the patch in the axes into which a pose transforms body axes.
+    /// Transforms the patch by a pose: from body axes to the axes in which the pose is given.
     pub(super) fn placed(&self, at_pose: &Pose) -> Patch {
         let (point, turn) = (|p: DVec3| at_pose.point(p), at_pose.orientation);
         match *self {

@@ -27,7 +27,7 @@ pub(in crate::dynamics) struct Solid {
     reach: f64,
     size: f64,
     parts: Arc<[Part]>,
-    /// The tree of the parts' bounding boxes; `None` for all but meshes.
+    /// The tree of the convex parts' bounding boxes; `None` for all but meshes.
     tree: Option<Arc<Tree>>,
     is_surface: bool,
 }
@@ -39,17 +39,17 @@ pub(super) struct Part {
     pub(super) radius: f64,
     /// For a box parallel to the body axes, its half extents, m. `None` for all other parts.
     pub(super) half: Option<DVec3>,
-    /// The center of a bounding ball of the part, body axes, m.
+    /// The center of a bounding ball of the convex part, body axes, m.
     pub(super) centre: DVec3,
     /// The radius of the bounding ball, m; infinite for the ground.
     pub(super) bound: f64,
-    /// The corners, edges, faces and rims of the part.
+    /// The corners, edges, faces and rims of the convex part.
     pub(super) features: Vec<Feature>,
     /// For a triangle of a mesh, the size of the whole mesh, m. `None` for a solid part.
     pub(super) surface: Option<f64>,
 }
 
-/// The geometry of a part without its rounding.
+/// The geometry of a convex part without its rounding.
 #[derive(Debug)]
 pub(super) enum Core {
     /// The convex hull of points. A single point becomes a ball by rounding, two points a capsule.
@@ -92,7 +92,7 @@ impl Solid {
         self.reach
     }
 
-    /// Returns a typical size of the body, m: the smallest thickness of its parts. 1 for a plane.
+    /// Returns a typical size of the body, m: the smallest thickness of its convex parts. 1 for a plane.
     pub(in crate::dynamics) fn size(&self) -> f64 {
         self.size
     }
@@ -110,7 +110,7 @@ impl Solid {
         bounds
     }
 
-    /// Returns the tree of the parts' bounding boxes. `None` for all but meshes.
+    /// Returns the tree of the convex parts' bounding boxes. `None` for all but meshes.
     pub(super) fn tree(&self) -> Option<&Tree> {
         self.tree.as_deref()
     }
@@ -146,13 +146,13 @@ impl Part {
         Part { core, radius, half: None, centre, bound: bound + radius, features, surface: None }
     }
 
-    /// Returns the point of the part that is farthest along a vector of any length, body axes, m.
+    /// Returns the point of the convex part that is farthest along a vector of any length, body axes, m.
     pub(super) fn support(&self, direction: DVec3) -> DVec3 {
         let core = self.core.support(direction);
         if self.radius > 0.0 { core + self.radius * direction.normalize_or_zero() } else { core }
     }
 
-    /// Returns the bounding box of the part along the axes of another body: its lowest and its highest corner, m.
+    /// Returns the bounding box of the convex part along the axes of another body: its lowest and its highest corner, m.
     pub(super) fn box_in(&self, pose: &Pose, other: &Pose) -> [DVec3; 2] {
         if self.is_ground() {
             return [DVec3::NEG_INFINITY, DVec3::INFINITY];

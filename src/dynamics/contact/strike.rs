@@ -23,7 +23,7 @@ const REST: f64 = 1e-8;
 /// Contact points that separate at less than this fraction of the largest closing speed may stay closed.
 const STILL: f64 = 1e-9;
 
-/// If two bodies hit each other this many times more within a step than their restitution explains, slow impacts count as rest. Bodies
+/// If two bodies have more impacts in a step than their restitution explains, by more than this number, slow impacts count as rest. Bodies
 /// pressed together by others would otherwise bounce endlessly.
 const OFTEN: f64 = 10.0;
 

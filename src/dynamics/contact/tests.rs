@@ -412,7 +412,7 @@ fn a_mesh_touches_as_the_solid_does_that_it_encloses() {
 #[test]
 fn nothing_catches_at_the_seams_of_a_flat_surface() {
     let (surface, place) = (flat(), at(0.0, 0.0, 0.0));
-    // The ball is placed across seams, along seams, and over corners of triangles.
+    // The ball is placed across the seams between triangles, along these seams, and over corners of triangles.
     for i in 0..100 {
         let x = f64::from(i) * 0.037 - 1.85;
         for z in [0.0, 0.25, x, -x, 1.0] {

@@ -11,7 +11,7 @@ use super::solid::{Core, Part, Pose, Solid};
 const FLAT: f64 = 1e-7;
 /// Two contact points closer than this fraction of the body's size are the same.
 const SAME: f64 = 1e-6;
-/// The largest number of contact points kept for a pair of parts. They are enough to hold one part on the other.
+/// The largest number of contact points kept for a pair of convex parts. They are enough to hold one part on the other.
 const MOST: usize = 8;
 
 /// A contact point of two solids that touch or nearly touch.
@@ -21,8 +21,8 @@ pub(in crate::dynamics) struct Touch {
     pub patches: [Patch; 2],
     /// The closest points of the two patches, with their gap and normal.
     pub meeting: Nearest,
-    /// For each solid, the index of its part and the index of the feature in this part. `None` for a single point of a rim, which is no
-    /// feature.
+    /// For each solid, the index of its convex part and the index of the feature in this part. `None` for a single point of a rim, which
+    /// is no feature.
     features: [(usize, Option<usize>); 2],
 }
 
@@ -97,7 +97,7 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
-    /// A limit for overlaps, m. Points that overlap by more than twice this are on the far side of a part.
+    /// A limit for overlaps, m. Points that overlap by more than twice this are on the far side of a convex part.
     depth: f64,
     found: Vec<Touch>,
 }
@@ -127,7 +127,7 @@ impl Pair<'_> {
         all.append(&mut self.found);
     }
 
-    /// Adds the corners and rims of a part that are near the ground.
+    /// Adds the corners and rims of a convex part that are near the ground.
     fn on_ground(&mut self) {
         let ground_first = self.a.is_ground();
         let part = if ground_first { self.b } else { self.a };
@@ -238,7 +238,7 @@ impl Pair<'_> {
         places.into_iter().map(|at| Patch::Point { at, radius: 0.0 }).collect()
     }
 
-    /// Returns true if two patches touch at their closest points, and not on the far sides of the parts.
+    /// Returns true if two patches touch at their closest points, and not on the far sides of the convex parts.
     fn is_within_reach(&self, meeting: &Nearest) -> bool {
         (-2.0 * self.depth..=self.within).contains(&meeting.gap)
     }
@@ -249,7 +249,7 @@ impl Pair<'_> {
         self.keep(patches, features, meeting);
     }
 
-    /// Adds the contact of two patches, whose closest points are `meeting`, if the parts touch there and the contact is new.
+    /// Adds the contact of two patches, whose closest points are `meeting`, if the convex parts touch there and the contact is new.
     fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: Nearest) {
         if !self.is_within_reach(&meeting) {
             return;
@@ -332,13 +332,14 @@ fn is_needed(a: &Patch, b: &Patch) -> bool {
     }
 }
 
-/// Transforms the patches of some features of a part to world axes, relative to an origin. Returns them with the indices of the features.
+/// Transforms the patches of some features of a convex part to world axes, relative to an origin. Returns them with the indices of the
+/// features.
 fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<(usize, Patch)> {
     let pose = Pose { location: pose.location - origin, orientation: pose.orientation };
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
-/// Returns the indices of the features of a part that extend along `normal` at least as far as the point `at`, less `depth`, m.
+/// Returns the indices of the features of a convex part that extend along `normal` at least as far as the point `at`, less `depth`, m.
 fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
     let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
     let lowest = at.dot(normal) - depth;

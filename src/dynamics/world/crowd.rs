@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     /// A ball under time-stepping approaches a wall at 1 m/s and hits it within a part of the step. It rebounds at that moment, with the
-    /// speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed form to rounding errors.
+    /// speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed form to within rounding errors.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {

@@ -1,5 +1,5 @@
 //! The closest points of the rim of a cylinder or cone and an edge or another rim. There is no closed form: Newton's method finds the
-//! angle on the rim, to rounding errors.
+//! angle on the rim, to within rounding errors.
 
 use std::f64::consts::TAU;
 
@@ -128,8 +128,8 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     Nearest { gap, normal, on: [p, q - radius * normal] }
 }
 
-/// Returns the angle of the smallest minimum of a periodic function, rad, to rounding errors. `derivatives` returns its first and second
-/// derivative.
+/// Returns the angle of the smallest minimum of a periodic function, rad, to within rounding errors. `derivatives` returns its first and
+/// second derivative.
 ///
 /// The search is Newton's method within an interval. A step that would leave the interval is replaced by a halving.
 fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
