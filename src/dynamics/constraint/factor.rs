@@ -251,7 +251,7 @@ impl Factor {
         sizes
     }
 
-    /// Returns true if this constraint row is soft (see [`SOFT`]).
+    /// Returns true if this constraint row is soft: its diagonal entry is slightly enlarged (see [`SOFT`]).
     pub(super) fn is_row_soft(&self, row: usize) -> bool {
         self.soft.get(row).is_some_and(Option::is_some)
     }

@@ -92,7 +92,7 @@ pub(in crate::dynamics) struct Solver {
     /// True if the present factors are accurate enough for the projection of the step. `factorised` is the time of these factors, s.
     pub(super) is_factorised: bool,
     pub(super) factorised: f64,
-    /// The time of the last measurement of rows and Jacobian, s. NaN if they must be measured again.
+    /// The time at which the constraint rows and the Jacobian were last evaluated, s. NaN if they must be evaluated again.
     pub(super) measured: f64,
     pub(super) failure: Option<Breakdown>,
 }

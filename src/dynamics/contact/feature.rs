@@ -23,7 +23,8 @@ pub(super) enum Outline {
     All,
     /// A line segment: points at most `half` from the middle `at`, measured along the unit vector `along`.
     Length { at: DVec3, along: DVec3, half: f64 },
-    /// A polygon: points inside all of these edges. Each edge is a point on it and the unit vector from there into the face.
+    /// A polygon: the points inside all of its edges. Each edge is given by a point on the edge and the unit vector from the edge into the
+    /// face.
     Edges(Vec<[DVec3; 2]>),
     /// A disc: points within `radius` of `centre`.
     Disc { centre: DVec3, radius: f64 },

@@ -260,7 +260,7 @@ impl World {
             weights[usize::from(!is_late)] *= halved;
             was_late = Some(is_late);
         }
-        // An event at the start of the step makes a piece of length 0.
+        // An event at the start of the step ends a piece of length 0.
         let length = if late <= INSTANT * end.0 { 0.0 } else { late };
         self.try_piece(t, length);
         (length, row)
