@@ -186,7 +186,7 @@ fn mistakes_and_includes(folder: &Path, fastest: &mut f64) {
     row("bodies in included files", time, LINEAR, fastest);
 }
 
-/// Creates a temporary folder in memory, if the system has one there. File systems on disks are slow after files have been removed.
+/// Creates a temporary folder, in memory if the system supports this. File systems on disks are slow after files have been removed.
 fn in_memory() -> TempDir {
     tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir()).unwrap()
 }

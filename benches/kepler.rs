@@ -1,8 +1,8 @@
 //! Measures a planet on an orbit of eccentricity 0.9 for a hundred orbits: the errors of its energy and its position at the end, and the
 //! time that the run takes.
 //!
-//! The errors of a single run come from rounding, so they are random. So there are twenty runs, each with a differently rotated orbit, and
-//! the root mean square of their errors counts. `benches/peers/kepler.py` does the same with another program.
+//! The errors of a single run come from rounding, so they are random. Therefore the benchmark makes twenty runs, each with a differently
+//! rotated orbit, and prints the root mean square of their errors. `benches/peers/kepler.py` does the same with another program.
 //!
 //! `cargo bench --bench kepler [METHOD TOLERANCE]`
 

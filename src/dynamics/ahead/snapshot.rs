@@ -1,4 +1,4 @@
-//! Makes snapshots of a moment in runs with adaptive methods.
+//! Makes snapshots of runs with adaptive methods: the bodies and their energy at one moment.
 
 use super::super::{Balance, BodySnapshot, Snapshot};
 use super::Ahead;

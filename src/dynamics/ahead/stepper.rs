@@ -7,7 +7,7 @@ use super::time::Time;
 /// An integration method that keeps the bodies in its own representation, and advances them in steps that it chooses. A clone continues
 /// exactly as the original would.
 pub(super) trait Stepper: Clone + Send {
-    /// Takes over the bodies of the field's current stage at time `now`, and starts again.
+    /// Reads the bodies from the current stage at time `now`, and starts again without data from earlier steps.
     fn begin(&mut self, field: &mut Field<'_>, now: Time);
 
     /// Returns the length of the next step that the method proposes, s.

@@ -4,8 +4,8 @@ use super::super::BodyId;
 use super::pairs::{self, Pairs};
 use super::{Force, Loads, Moment};
 
-/// Coulomb's force between each two of some bodies: they repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if their
-/// charges have different signs. The potential is k q₁ q₂ / √(r² + ε²).
+/// Coulomb's force between any two of the listed bodies: they repel each other with k q₁ q₂ r / (r² + ε²)^(3/2), or attract each other if
+/// their charges have different signs. The potential is k q₁ q₂ / √(r² + ε²).
 ///
 /// Fixed bodies act on other bodies as well. Moving charges exert no magnetic forces: this law holds for velocities far below that of
 /// light. Source: J. D. Jackson, *Classical Electrodynamics*, 1.1.

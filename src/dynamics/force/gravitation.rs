@@ -5,8 +5,8 @@ use super::pairs::{self, Pairs};
 use super::tree::ByTree;
 use super::{Force, Loads, Moment};
 
-/// Newton's gravitation: each two of some bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ / √(r² +
-/// ε²).
+/// Newton's gravitation: any two of the listed bodies attract each other with G m₁ m₂ r / (r² + ε²)^(3/2). The potential is −G m₁ m₂ /
+/// √(r² + ε²).
 ///
 /// Fixed bodies attract other bodies as well. Source: I. Newton, *Principia* III, prop. 7; for the softening ε, H. C. Plummer, Mon. Not.
 /// R. Astron. Soc. 71 (1911) 460.

@@ -9,8 +9,8 @@ use super::super::BodyId;
 use super::cells::Cells;
 use super::{Force, Loads, Moment};
 
-/// The Lennard-Jones force between bodies. Each two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c)
-/// with u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
+/// The Lennard-Jones force between bodies. Any two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
+/// u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
 ///
 /// The cutoff makes the time linear in the number of bodies. The shift −u(r_c) makes the potential continuous at the cutoff, so that the
 /// energy balances. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. With `smooth`, the force is shifted as well, U(r) =
@@ -76,7 +76,7 @@ impl LennardJones {
     }
 
     /// Returns the constant u(r_c) that is subtracted from the potential, and the force −u′(r_c) that is subtracted from the force. The
-    /// latter is 0 unless `smooth` is set.
+    /// subtracted force is 0 unless `smooth` is set.
     fn shifts(&self) -> (f64, f64) {
         let (potential, push) = self.pure(self.cutoff * self.cutoff);
         (potential, if self.smooth { push * self.cutoff } else { 0.0 })

@@ -75,7 +75,7 @@ impl Bouncer {
         &mut self.spare
     }
 
-    /// Returns the place (m) and the velocity (m/s) of a particle at the end of a step among obstacles. `leap` is the same step without
+    /// Returns the position (m) and the velocity (m/s) of a particle at the end of a step among obstacles. `leap` is the same step without
     /// obstacles.
     pub(super) fn step(&mut self, leap: &Leap, scenery: &Scenery) -> (DVec3, DVec3) {
         let whole = leap.span();
@@ -119,7 +119,7 @@ impl Bouncer {
         (leap.places[0] + leap.span() * velocity, velocity)
     }
 
-    /// Computes the end of a step again without obstacles, after the time, the place or the velocity at its beginning has changed.
+    /// Computes the end of a step again without obstacles, after the time, the position or the velocity at its beginning has changed.
     fn again(&mut self, leap: &mut Leap) {
         (leap.places[1], leap.velocities[1]) =
             self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);

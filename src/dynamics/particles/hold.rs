@@ -47,7 +47,7 @@ impl Frame {
         Frame { standing, span: leap.span(), place, velocity, acceleration }
     }
 
-    /// Converts a place and a velocity at the end of the step from the obstacle's axes to world axes.
+    /// Converts a position and a velocity at the end of the step from the obstacle's axes to world axes.
     fn end(&self, place: DVec3, velocity: DVec3) -> (DVec3, DVec3) {
         let Standing { pose, .. } = self.standing[1];
         let place = pose.point(place);
@@ -59,8 +59,8 @@ impl Frame {
     }
 }
 
-/// Returns the place (m) and the velocity (m/s) at the end of a step, world axes, for a particle that stays in contact with the parts in
-/// `held`.
+/// Returns the position (m) and the velocity (m/s) at the end of a step, world axes, for a particle that stays in contact with the parts
+/// in `held`.
 pub(super) fn hold(ball: &Ball, leap: &Leap, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let frame = Frame::new(leap, &held[0], scenery);
     if let [contact] = held {
@@ -129,7 +129,7 @@ fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
     (0.5 * stop * span * begin, DVec3::ZERO)
 }
 
-/// Returns the place and the velocity at the end of a step for a particle in contact with several parts. An iteration over the contacts
+/// Returns the position and the velocity at the end of a step for a particle in contact with several parts. An iteration over the contacts
 /// finds the impulses.
 fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let span = frame.span;

@@ -12,7 +12,7 @@ use crate::random::Stream;
 pub enum Origin {
     /// A single point, m.
     Point(DVec3),
-    /// A flat disc.
+    /// A flat circular disc.
     Disc {
         /// The centre of the disc, m.
         centre: DVec3,
@@ -58,7 +58,7 @@ impl Spot {
 }
 
 impl Origin {
-    /// Draws a random place in the region. Returns the place (m) and the unit normal at this place.
+    /// Draws a random position in the region. Returns the position (m) and the unit normal at this position.
     #[must_use]
     pub fn place(&self, random: &mut Stream) -> (DVec3, DVec3) {
         match self {

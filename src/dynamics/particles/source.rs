@@ -44,11 +44,11 @@ pub struct ParticleSource {
     pub mass: f64,
     /// The charge of a particle, C.
     pub charge: f64,
-    /// The random numbers of the source. Each particle has its own branches of this stream.
+    /// The random numbers of the source. Each particle derives its own independent streams from this stream.
     pub random: Stream,
 }
 
-/// The number of branches of the random stream that are reserved for each particle.
+/// The number of independent streams of random numbers that are reserved for each particle.
 const BRANCHES: u64 = 4;
 
 impl ParticleSource {
@@ -58,8 +58,8 @@ impl ParticleSource {
         self.lifetime.draw(t, &mut self.branch(number, 0)).min(self.longest_life)
     }
 
-    /// Returns the initial place (m) and velocity (m/s), world axes, of a particle that is born at time `t`, s. `carrier` is the pose and
-    /// motion of the body that carries the source.
+    /// Returns the initial position (m) and velocity (m/s), world axes, of a particle that is born at time `t`, s. `carrier` is the pose
+    /// and motion of the body that carries the source.
     #[must_use]
     pub fn begin(&self, number: u64, t: f64, carrier: Option<&Spot>) -> (DVec3, DVec3) {
         let mut random = self.branch(number, 1);

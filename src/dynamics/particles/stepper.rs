@@ -79,7 +79,7 @@ pub(super) struct Stepper {
     integrator: Box<dyn Integrator>,
     /// The bodies that cause forces. In the state, their entries come after those of the particles.
     sources: Vec<BodyId>,
-    /// The place (m) and the velocity (m/s) of each particle at the beginning of a step. Empty if no caller needs them.
+    /// The position (m) and the velocity (m/s) of each particle at the beginning of a step. Empty if no caller needs them.
     before: Vec<(DVec3, DVec3)>,
 }
 
@@ -126,7 +126,7 @@ impl Stepper {
         }
     }
 
-    /// Advances particles from time `t` (s) to the end of the grid. There are at most as many particles as lanes.
+    /// Advances at most [`lanes`](Self::lanes) particles from time `t` (s) to the end of the interval that `grid` divides into steps.
     pub(super) fn advance(&mut self, particles: &mut [Particle], t: f64, grid: &Grid) {
         self.enter(particles, t);
         let (mut now, mut number) = (t, grid.first_after(t));
@@ -158,7 +158,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Advances particles like `advance`. For each step of each particle, `change` returns the place and the velocity at the end of the
+    /// Advances particles like `advance`. For each step of each particle, `change` returns the position and the velocity at the end of the
     /// step. The integrator starts again at each step, so that no particle depends on an impact of another particle.
     pub(super) fn advance_changed(
         &mut self,
@@ -183,7 +183,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Makes one step of a single particle. Takes its place (m) and velocity (m/s) at the beginning, and returns those at the end.
+    /// Makes one step of a single particle. Takes its position (m) and velocity (m/s) at the beginning, and returns those at the end.
     pub(super) fn leap(&mut self, (place, velocity): (DVec3, DVec3), times: [f64; 2]) -> (DVec3, DVec3) {
         (self.state.location[0], self.state.velocity[0]) = (place, velocity);
         self.integrator.discontinuity();
@@ -218,7 +218,7 @@ impl Stepper {
         self.rest();
     }
 
-    /// Saves the places and velocities of the first `lanes` particles at the beginning of a step.
+    /// Saves the positions and velocities of the first `lanes` particles at the beginning of a step.
     fn note(&mut self, lanes: usize) {
         self.before.clear();
         let state = &self.state;

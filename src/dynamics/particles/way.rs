@@ -5,23 +5,23 @@ use glam::DVec3;
 /// Differences below this fraction of the coordinates are taken for rounding errors.
 const ROUNDING: f64 = 2e-15;
 
-/// A step of a particle, or a part of a step: the times, places and velocities at its beginning and its end.
+/// A step of a particle, or a part of a step: the times, positions and velocities at its beginning and its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leap {
     /// The times at the beginning and at the end, s.
     pub(super) times: [f64; 2],
-    /// The places of the particle at the beginning and at the end, m.
+    /// The positions of the particle at the beginning and at the end, m.
     pub(super) places: [DVec3; 2],
     /// The velocities of the particle at the beginning and at the end, m/s.
     pub(super) velocities: [DVec3; 2],
 }
 
-/// The path of a particle within a step. The place and the velocity are polynomials of the time since the beginning of the step.
+/// The path of a particle within a step. The position and the velocity are polynomials of the time since the beginning of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     place: [DVec3; 4],
     velocity: [DVec3; 3],
-    /// An upper bound for the magnitude of the second derivative of the place, m/s².
+    /// An upper bound for the magnitude of the second derivative of the position, m/s².
     pub(super) bend: f64,
 }
 
@@ -46,7 +46,7 @@ impl Leap {
     }
 
     /// Returns the path of the particle. It is a parabola for a step with constant acceleration by Euler–Cromer or by a method of order 2
-    /// or higher. Otherwise, it is the cubic polynomial that matches the places and velocities at both ends.
+    /// or higher. Otherwise, it is the cubic polynomial that matches the positions and velocities at both ends.
     ///
     /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So the path is x + v t + a t², although the velocity is v + a
     /// t.
@@ -74,20 +74,20 @@ impl Leap {
 }
 
 impl Way {
-    /// Returns the place of the particle at time `t` (s) after the beginning of the step, m.
+    /// Returns the position of the particle at time `t` (s) after the beginning of the step, m.
     pub(super) fn place(&self, t: f64) -> DVec3 {
         let [a, b, c, d] = self.place;
         a + t * (b + t * (c + t * d))
     }
 
-    /// Returns the time derivative of the place at time `t` (s) after the beginning of the step, m/s.
+    /// Returns the time derivative of the position at time `t` (s) after the beginning of the step, m/s.
     pub(super) fn rate(&self, t: f64) -> DVec3 {
         let [_, b, c, d] = self.place;
         b + t * (2.0 * c + t * (3.0 * d))
     }
 
     /// Returns the velocity of the particle at time `t` (s) after the beginning of the step, m/s. With Euler–Cromer, it differs slightly
-    /// from the derivative of the place.
+    /// from the derivative of the position.
     pub(super) fn velocity(&self, t: f64) -> DVec3 {
         let [a, b, c] = self.velocity;
         a + t * (b + t * c)

@@ -183,8 +183,8 @@ mod tests {
         }
     }
 
-    /// A box with the largest possible rounding is a ball, so the distance of the centres tells whether it touches another ball. Its
-    /// intersection test needs iterations, that of a sphere does not.
+    /// A box with the largest possible rounding is a ball, so the distance of the centres gives the expected result. The intersection test
+    /// of such a box needs iterations, unlike that of two spheres.
     #[test]
     fn round_boxes_meet_as_balls_do() {
         let (ball, round) =

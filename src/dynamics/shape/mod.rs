@@ -178,7 +178,7 @@ impl Shape {
             return Some(radius);
         }
         let direction = world_from_body.conjugate() * direction;
-        // This is the component of the direction across the axis of symmetry.
+        // The variable is the component of the direction perpendicular to the axis of symmetry.
         let across = (direction.x * direction.x + direction.z * direction.z).sqrt();
         Some(match *self {
             Shape::Sphere { radius } => radius,
@@ -201,7 +201,7 @@ impl Shape {
     }
 
     /// Returns the point of the shape that is farthest in a direction, m. The direction is in the frame of the body, and need not be a
-    /// unit vector. Returns `None` for shapes without a rule here, such as planes, tori, compounds and meshes.
+    /// unit vector. Returns `None` for shapes that this function does not support: planes, axes, tori, compounds and meshes.
     #[must_use]
     pub fn farthest(&self, direction: DVec3) -> Option<DVec3> {
         let sign = |number: f64| if number < 0.0 { -1.0 } else { 1.0 };

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 use super::*;
 
 /// Returns the volume, the centre of mass, and the moments of inertia for mass 1 about the coordinate axes, as sums over the cells of a
-/// grid in a box. `inside` tells whether a point belongs to the shape.
+/// grid in a box. `inside` returns whether a point belongs to the shape.
 fn by_cells(low: DVec3, high: DVec3, inside: impl Fn(DVec3) -> bool) -> (f64, DVec3, DVec3) {
     const CELLS: i32 = 160;
     let width = (high - low) / f64::from(CELLS);

@@ -1,5 +1,5 @@
-//! Time integration with the engine. Steps have equal lengths between two births or deaths of bodies. Requested moments within a step are
-//! interpolated.
+//! Time integration with the physics engine. Steps have equal lengths between two births or deaths of bodies. Requested moments within a
+//! step are interpolated.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::{TimeStepping, bodies, set_step, spin};
 
-/// Two angular velocities count as equal if their relative difference is below this.
+/// Two angular velocities count as equal if their relative difference is below this tolerance.
 const SAME: f64 = 1e-14;
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
@@ -125,7 +125,8 @@ impl TimeStepping {
         Err(failure)
     }
 
-    /// Passes the forces on the bodies and their angular velocities to the engine, before a step of `dt` that ends at time `end`, s.
+    /// Passes the forces on the bodies and their angular velocities to the physics engine, before a step of `dt` that ends at time `end`,
+    /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, .. } = self;
         for (i, handle) in handles.iter().enumerate() {
@@ -143,14 +144,14 @@ impl TimeStepping {
                 spin::leading(from, to, dt)
             };
             books.mean[i].1 = turning;
-            // Fast bodies must not pass through moving bodies. By default, the engine stops fast bodies only at bodies at rest.
+            // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at rest.
             let is_fast = dt * state.velocity[i].length() > half_thickness[i];
             let Some(body) = engine.bodies.get(*handle) else { continue };
             let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
             let is_turning =
                 (body.angvel() - turning).length_squared() > SAME * SAME * turning.length_squared();
             if is_same && !is_turning {
-                // Each change of a body through the engine's interface takes time, so unchanged values are not set again.
+                // Each change of a body through the physics engine's interface takes time, so unchanged values are not set again.
                 books.mean[i].1 = body.angvel();
                 continue;
             }
@@ -168,7 +169,7 @@ impl TimeStepping {
         }
     }
 
-    /// Reads the positions and velocities of the bodies from the engine after a step of `dt`, s.
+    /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, .. } = self;
         books.motors = joints.motor_pushes(engine, state);
@@ -187,8 +188,8 @@ impl TimeStepping {
             if body.is_ccd_enabled()
                 && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
             {
-                // The engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of the body
-                // would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
+                // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
+                // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
                 moved.push((*handle, pose));
             }

@@ -16,8 +16,8 @@ pub(super) fn moving(model: &Model) -> Vec<bool> {
     (0..model.len()).map(|i| model.is_moved_by_forces(i)).collect()
 }
 
-/// Returns the thickness of the thinnest body that moves and touches others, m; 1 m if no body does. The engine measures its tolerances in
-/// this length.
+/// Returns the thickness of the thinnest body that moves and touches others, m; 1 m if no body does. The physics engine measures its
+/// tolerances in this length.
 pub(super) fn typical_length(model: &Model, contacts: &Contacts, moves: &[bool]) -> f64 {
     let touches = |i: &usize| moves[*i] && contacts.surfaces.get(*i).is_some_and(Option::is_some);
     let thickness = |i: usize| Some(2.0 * model.shape(i)?.half_thickness()?);
@@ -31,8 +31,8 @@ pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
     (0..model.len()).map(of).collect()
 }
 
-/// Adds all bodies to the engine and returns their handles, one per body. Absent bodies are disabled. `length` is the thickness of the
-/// thinnest moving body, m.
+/// Adds all bodies to the physics engine and returns their handles, one per body. Absent bodies are disabled. `length` is the thickness of
+/// the thinnest moving body, m.
 pub(super) fn insert(
     engine: &mut PhysicsWorld,
     model: &mut Model,
@@ -67,7 +67,7 @@ pub(super) fn insert(
     handles
 }
 
-/// Returns the rigid body for the engine, still without its colliders. Its frame is that of the principal axes of inertia.
+/// Returns the rigid body for the physics engine, still without its colliders. Its frame is that of the principal axes of inertia.
 fn body(model: &Model, state: &State, i: usize) -> RigidBodyBuilder {
     let builder = if !model.movable()[i] {
         RigidBodyBuilder::fixed()
@@ -98,7 +98,7 @@ pub(super) fn pose(state: &State, i: usize) -> Pose {
     Pose::from_parts(state.location[i], state.orientation[i])
 }
 
-/// Returns the colliders of a body, without mass. `meets_others` tells whether any moving body is neither sphere nor box.
+/// Returns the colliders of a body, without mass. `meets_others` is true if any moving body is neither sphere nor box.
 fn colliders(
     model: &Model,
     state: &State,

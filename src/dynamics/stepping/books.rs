@@ -44,7 +44,7 @@ pub(super) struct Books {
     slow: f64,
 }
 
-/// Collects the engine's collision events: two colliders come near each other, or separate.
+/// Collects the physics engine's collision events: two colliders come near each other, or separate.
 #[derive(Default)]
 pub(super) struct Events(Mutex<Vec<CollisionEvent>>);
 
@@ -100,7 +100,7 @@ impl Pushing {
     }
 }
 
-/// Returns the index of a collider in the engine.
+/// Returns the index of a collider in the physics engine.
 fn number(collider: ColliderHandle) -> usize {
     collider.into_raw_parts().0 as usize
 }
@@ -138,8 +138,8 @@ impl Books {
     /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, also if other
     /// impulses act at the same time. The sum over both bodies of a contact is the energy loss. The contribution of a guided body is work.
     ///
-    /// The engine also shifts overlapping bodies apart, or lets them sink in, without a lasting velocity. Forces with a potential do work
-    /// during that displacement. Contacts absorb or release the same energy.
+    /// The physics engine also shifts overlapping bodies apart, or lets them sink in, without a lasting velocity. Forces with a potential
+    /// do work during that displacement. Contacts absorb or release the same energy.
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
@@ -209,7 +209,7 @@ impl Books {
         Some([rate(0)?, rate(1)?])
     }
 
-    /// Updates the list of near pairs from the engine's collision events of the last step.
+    /// Updates the list of near pairs from the physics engine's collision events of the last step.
     fn note_near(&mut self) {
         let events = std::mem::take(&mut *self.events.0.lock().unwrap_or_else(PoisonError::into_inner));
         for event in events {

@@ -1,6 +1,6 @@
 //! Checkpoints: one moment of a run as bytes, from which the run continues with the same bits.
 //!
-//! A checkpoint holds everything that changes with time: the state, the accounts, the presence of bodies, and the engine with its
+//! A checkpoint holds everything that changes with time: the state, the accounts, the presence of bodies, and the physics engine with its
 //! contacts. Everything constant follows from the scene.
 
 use glam::DVec3;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::super::{EnergyLedger, State};
 use super::TimeStepping;
 
-/// Everything in a run that changes with time, except the engine.
+/// Everything in a run that changes with time, except the physics engine.
 #[derive(Serialize, Deserialize)]
 struct Moment {
     time: f64,

@@ -1,7 +1,7 @@
 //! The work of forces without a potential in time-stepping.
 //!
-//! The engine holds a force constant over a step, so the work of the force follows from the mean velocity of the step. With the velocity
-//! at the start of the step, a servo that starts at rest would do no work.
+//! The physics engine holds a force constant over a step, so the work of the force follows from the mean velocity of the step. With the
+//! velocity at the start of the step, a servo that starts at rest would do no work.
 
 use glam::DVec3;
 

@@ -39,7 +39,7 @@ pub enum LinkKind {
     Rope(Rope),
 }
 
-/// The joints of a run in the engine.
+/// The joints of a run in the physics engine.
 pub(super) struct Joints {
     handles: Vec<ImpulseJointHandle>,
     /// For each joint, the indices of the bodies at its two ends; `None` for an end at a fixed point of the world.
@@ -71,8 +71,8 @@ impl MotorPush {
     }
 }
 
-/// An end of a joint: a body in the engine, the rotation from the axes of the scene's body to those of the engine's body, and the point in
-/// the latter axes, m.
+/// An end of a joint: a body in the physics engine, the rotation from the axes of the scene's body to those of the engine's body, and the
+/// joint's point in the axes of the engine's body, m.
 struct End {
     body: RigidBodyHandle,
     turn: DQuat,
@@ -107,7 +107,7 @@ impl LinkKind {
 }
 
 impl Joints {
-    /// Adds a joint to the engine for each of `links`. `bodies` holds the engine's handle of each body.
+    /// Adds a joint to the physics engine for each of `links`. `bodies` holds the engine's handle of each body.
     pub(super) fn insert(
         engine: &mut PhysicsWorld,
         links: &[Link],
@@ -149,8 +149,8 @@ impl Joints {
 
     /// Returns the impulses of the joints' motors in the last step. `state` is the state at the start of the step.
     ///
-    /// The engine makes the row of a motor before the other rows of its joint, so the motor's impulse acts along its axis. The engine
-    /// makes later rows orthogonal to the earlier ones, so impulses of later rows would not act along the axes of the joint.
+    /// The physics engine makes the row of a motor before the other rows of its joint, so the motor's impulse acts along its axis. The
+    /// engine makes later rows orthogonal to the earlier ones, so impulses of later rows would not act along the axes of the joint.
     pub(super) fn motor_pushes(&self, engine: &PhysicsWorld, state: &State) -> Vec<MotorPush> {
         let with_motor = self.motors.iter().enumerate().filter_map(|(k, axis)| Some((k, (*axis)?)));
         let push = |(k, axis): (usize, JointAxis)| {
@@ -180,7 +180,7 @@ impl Joints {
     }
 }
 
-/// Returns a joint as the engine describes it.
+/// Returns a joint as the physics engine describes it.
 fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
     // The x axis of an engine joint's frame is the axis of its free motion.
     let frames = |axis: DVec3, turned: DQuat| {
@@ -209,7 +209,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
             joint
         }
         LinkKind::Rod(rod) => {
-            // The engine has no joint for a constant distance. A motor with unlimited force keeps the distance instead.
+            // The physics engine has no joint that keeps a distance constant, so a motor with unlimited force does.
             let mut joint = build(JointAxesMask::empty(), frames(DVec3::X, DQuat::IDENTITY));
             joint.coupled_axes = JointAxesMask::LIN_AXES;
             joint.set_motor_model(JointAxis::LinX, MotorModel::ForceBased);

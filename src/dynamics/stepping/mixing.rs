@@ -1,4 +1,4 @@
-//! The rules by which the engine combines the friction and the restitution of two surfaces in contact.
+//! The rules by which the physics engine combines the friction and the restitution of two surfaces in contact.
 
 use std::collections::BTreeSet;
 
@@ -11,21 +11,21 @@ use super::super::contact::{Contacts, Surface};
 
 /// The rules for pairs of bodies: which bodies pass through each other, and how the properties of two surfaces combine.
 ///
-/// The engine supports the scene's rules: the larger of two restitutions and the geometric mean of two frictions. It has no surfaces
-/// without a value, where the value of the other surface counts. Pairs with such a surface may need a callback at every step, which costs
-/// time. So callbacks are avoided where possible.
+/// The physics engine supports the scene's rules: the larger of two restitutions and the geometric mean of two frictions. In the scene, a
+/// surface may have no value; the value of the other surface then counts. The engine does not support this rule. Pairs with such a surface
+/// may need a callback at every step, which costs time. So callbacks are avoided where possible.
 pub(super) struct Mixing {
     surfaces: Vec<Surface>,
     apart: BTreeSet<(usize, usize)>,
-    /// The coefficient of friction of each body that is set in the engine.
+    /// The coefficient of friction of each body that is set in the physics engine.
     known: Vec<f64>,
     /// For each body, whether some of its contact pairs need a callback to compute the friction.
     asked: Vec<bool>,
 }
 
 impl Mixing {
-    /// Prepares the rules for the given contacts. `moves` tells for each body whether forces move it. Two bodies touch only if forces move
-    /// one of them.
+    /// Prepares the rules for the given contacts. `moves` holds, for each body, whether forces move it. Two bodies touch only if forces
+    /// move one of them.
     pub(super) fn new(contacts: &Contacts, moves: &[bool]) -> Mixing {
         let surfaces: Vec<Surface> =
             contacts.surfaces.iter().map(|surface| surface.unwrap_or_default()).collect();
@@ -65,7 +65,7 @@ impl Mixing {
         collider
             .friction(self.known[body])
             .friction_combine_rule(CoefficientCombineRule::GeometricMean)
-            // An unset restitution counts as 0. The engine takes the larger value, so the restitution of the other surface counts.
+            // An unset restitution counts as 0. The physics engine takes the larger value, so the restitution of the other surface counts.
             .restitution(self.surfaces[body].restitution.unwrap_or(0.0))
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .active_hooks(hooks)

@@ -2,8 +2,8 @@
 //!
 //! Among hundreds of touching bodies, impacts cannot be followed one by one. Time-stepping solves all contacts of a step together, as
 //! inequalities of velocities, by a few sweeps over all contacts. Source: E. Catto, *Solver2D* (2024), and M. Macklin et al., *Small Steps
-//! in Physics Simulation*, SCA 2019. The engine is rapier, which finds contacts, and solves contacts and joints. Forces, energies, guided
-//! bodies, births and deaths come from a [`World`], whose bodies are taken over.
+//! in Physics Simulation*, SCA 2019. The physics engine is rapier, which finds contacts, and solves contacts and joints. Forces, energies,
+//! guided bodies, births and deaths come from a [`World`], whose bodies are taken over.
 //!
 //! Without contacts and joints, a step gives the same numbers as a step of Euler–Cromer. All forces are evaluated at the start of the
 //! step.
@@ -57,7 +57,7 @@ pub struct TimeStepping {
     calendar: Calendar,
     /// The physics engine, which finds and solves contacts and joints.
     engine: PhysicsWorld,
-    /// The engine's handle of each body of the model.
+    /// The physics engine's handle of each body of the model.
     handles: Vec<RigidBodyHandle>,
     /// Half of each body's thickness, m. A body that moves farther than this within a step counts as fast.
     half_thickness: Vec<f64>,
@@ -122,25 +122,25 @@ impl TimeStepping {
     }
 }
 
-/// Returns the engine's parameters. `length` is the thickness of the thinnest moving body, m.
+/// Returns the physics engine's parameters. `length` is the thickness of the thinnest moving body, m.
 fn parameters(length: f64) -> IntegrationParameters {
     IntegrationParameters {
         length_unit: length,
-        // Each step is a single step of the engine, so that forces are evaluated in each step, and all impulses can be read.
+        // Each step is a single step of the physics engine, so that forces are evaluated in each step, and all impulses can be read.
         num_solver_iterations: 1,
         num_internal_pgs_iterations: SWEEPS,
         num_internal_stabilization_iterations: FINAL_SWEEPS,
         normalized_allowed_linear_error: SLOP,
-        // The engine must not limit the speeds of bodies.
+        // The physics engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,
-        // The engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
+        // The physics engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
         normalized_max_corrective_velocity: 3.0 / length.sqrt(),
         warmstart_joints: true,
         ..IntegrationParameters::default()
     }
 }
 
-/// Sets the length of the engine's step, s, and the stiffness of contacts, which depends on the step.
+/// Sets the length of the physics engine's step, s, and the stiffness of contacts, which depends on the step.
 fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
     let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
     parameters.dt = dt;

@@ -19,11 +19,12 @@ const OTHER: Group = Group::GROUP_2;
 const PLANE: Group = Group::GROUP_3;
 
 /// Returns the solids of a plane, each with its collision groups. `normal` (body axes) and `orientation` give the direction of the plane.
-/// `meets_others` tells whether any moving body is neither sphere nor box.
+/// `meets_others` is true if any moving body is neither sphere nor box.
 ///
-/// The engine has half-spaces, but compares each half-space with every body, near or far: four walls and a ground cost as much as the
-/// remaining work of a step. So a block replaces a plane that is aligned with a world axis, because the engine compares a block only with
-/// near bodies. Spheres and boxes touch the block exactly. Other shapes are compared with the half-space, which is exact for these shapes.
+/// The physics engine has half-spaces, but compares each half-space with every body, near or far: four walls and a ground cost as much as
+/// the remaining work of a step. So a block replaces a plane that is aligned with a world axis, because the engine compares a block only
+/// with near bodies. Spheres and boxes touch the block exactly. Other shapes are compared with the half-space, which is exact for these
+/// shapes.
 pub(super) fn solids(
     normal: DVec3,
     orientation: DQuat,

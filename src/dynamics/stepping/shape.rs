@@ -1,4 +1,4 @@
-//! Translates shapes into the collision shapes of the engine.
+//! Translates shapes into the collision shapes of the physics engine.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -18,7 +18,7 @@ const CONVEX: f64 = 1e-3;
 /// tube deviates more.
 const TORUS: f64 = 0.01;
 
-/// A collision shape of the engine, with its pose in the frame of its body.
+/// A collision shape of the physics engine, with its pose in the frame of its body.
 pub(super) type Solid = (Pose, SharedShape);
 
 /// Returns the solids that make up a shape, in the shape's own frame. A plane has none, because [`plane`](super::plane) makes its solids.
@@ -26,7 +26,7 @@ pub(super) type Solid = (Pose, SharedShape);
 pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
     let mut all = Vec::new();
     collect(shape, moves, Pose::IDENTITY, &mut all);
-    // A compound tells the engine which contacts belong to the same pair of bodies.
+    // A single compound shape lets the physics engine treat all contacts of the shape as those of one pair of bodies.
     if all.len() > 1 && all.iter().all(|(_, solid)| solid.as_composite_shape().is_none()) {
         return vec![(Pose::IDENTITY, SharedShape::compound(all))];
     }
@@ -43,8 +43,8 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
         }
         Shape::RoundedBox { size, rounding } => {
             let half = 0.5 * size - rounding;
-            // A box with the largest possible rounding has no extent between its roundings in some direction. The engine needs a small
-            // extent.
+            // A box with the largest possible rounding has no extent between its roundings in some direction. The physics engine needs a
+            // small extent.
             let half = half.max(DVec3::splat(1e-9 * rounding));
             all.push((pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
         }
@@ -76,7 +76,7 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
     }
 }
 
-/// Returns wedges around the axis that together form a frustum, because the engine uses only four corners of a face.
+/// Returns wedges around the axis that together form a frustum, because the physics engine uses only four corners of a face.
 fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = SharedShape> {
     let base = cone_base(radius, top_radius, height);
     // The circle lies midway between the circumscribed and the inscribed circle of the polygon.

@@ -1,4 +1,4 @@
-//! Makes snapshots of a moment in time-stepping.
+//! Makes snapshots of time-stepping runs: the bodies, contacts and forces at one moment.
 
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
@@ -59,8 +59,8 @@ impl TimeStepping {
                     place: self.state.location[one] + point.arms[0],
                     normal: sign * touch.normal(),
                     force: sign * point.impulse / dt * touch.normal(),
-                    // The engine computes one friction impulse for all points of a contact. Each point gets a share in proportion to its
-                    // normal impulse.
+                    // The physics engine computes one friction impulse for all points of a contact. Each point gets a share in proportion
+                    // to its normal impulse.
                     friction: sign * point.impulse / push.impulse / dt * push.friction,
                 }));
             }

@@ -1,11 +1,12 @@
-//! Computes the rotation of free bodies within a step of the engine.
+//! Computes the rotation of free bodies within a step of the physics engine.
 
 use glam::{DQuat, DVec3};
 
 /// The largest rotation of a body within a step, rad. Faster rotations are cut off at this angle.
 const LARGEST: f64 = 3.0;
 
-/// Returns the angular velocity (world axes, rad/s) with which the engine rotates a body from orientation `from` to `to` within `dt`, s.
+/// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body from orientation `from` to `to` within
+/// `dt`, s.
 ///
 /// The engine advances orientations along a straight line, q + ½ ω q dt, and normalises the result. This rotates a body by 2 atan(½ ω dt),
 /// so a rotation by φ needs ω = 2 tan(½ φ)/dt.

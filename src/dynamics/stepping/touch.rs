@@ -1,11 +1,11 @@
-//! Reads the engine's data on contacts between two bodies.
+//! Reads the physics engine's data on contacts between two bodies.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{
     ContactData, ContactManifold, ContactPair, PairContacts, Pose, RigidBodyHandle, SolverContact,
 };
 
-/// The largest number of points of one contact for which the engine computes impulses.
+/// The largest number of points of one contact for which the physics engine computes impulses.
 const MOST_POINTS: usize = 4;
 
 /// A contact of two bodies: one or more points with a common normal.
@@ -43,7 +43,7 @@ impl<'a> Touch<'a> {
         manifolds(pair).iter().filter_map(Touch::new)
     }
 
-    /// Makes a contact from the engine's contact manifold; `None` if the manifold has no points to solve.
+    /// Makes a contact from the physics engine's contact manifold; `None` if the manifold has no points to solve.
     fn new(manifold: &'a ContactManifold) -> Option<Touch<'a>> {
         if manifold.data.solver_contacts.is_empty() {
             return None;
@@ -63,7 +63,7 @@ impl<'a> Touch<'a> {
         self.data().map(|data| Point { impulse: data.impulse, arms: [data.solver_dp1, data.solver_dp2] })
     }
 
-    /// Returns the engine's data on each point of the contact.
+    /// Returns the physics engine's data on each point of the contact.
     fn data(&self) -> impl Iterator<Item = &'a ContactData> + use<'a> {
         let points = &self.manifold.points;
         let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
@@ -96,7 +96,7 @@ impl<'a> Touch<'a> {
     fn push_or_nothing(&self) -> Push {
         let mut points = self.data();
         let Some(first) = points.next() else { return Push::default() };
-        // The engine stores the friction and the twist of the whole manifold with each of its points.
+        // The physics engine stores the friction and the twist of the whole manifold with each of its points.
         let mut push = Push { friction: -first.warmstart_tangent_world, ..Push::default() };
         let mut count = 0.0;
         for point in std::iter::once(first).chain(points) {
@@ -109,7 +109,7 @@ impl<'a> Touch<'a> {
             }
         }
         push.arms = push.arms.map(|arm| arm / count);
-        // The engine computes no twist for a single point, because friction there has no lever arm about the normal.
+        // The physics engine computes no twist for a single point, because friction there has no lever arm about the normal.
         push.twist = if count > 1.0 { first.warmstart_twist_impulse } else { 0.0 };
         push
     }
@@ -125,8 +125,8 @@ fn manifolds(pair: &ContactPair) -> &[ContactManifold] {
 /// Calls `meet` with each contact, with or without an impulse. Calls `look` with each contact that has an impulse, and with its pair of
 /// colliders. Contacts come in the order of `pairs`.
 ///
-/// The engine's contacts are scattered over the memory. Each of the short loops follows one more pointer for many contacts at once, so
-/// that the processor loads many contacts in parallel instead of one after another.
+/// The physics engine's contacts are scattered over the memory. Each of the short loops follows one more pointer for many contacts at
+/// once, so that the processor loads many contacts in parallel instead of one after another.
 pub(super) fn visit<'a>(
     pairs: impl Iterator<Item = &'a ContactPair>,
     mut meet: impl FnMut(&Touch<'a>),

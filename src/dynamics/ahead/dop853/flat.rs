@@ -17,7 +17,7 @@ fn places(field: &Field<'_>) -> [usize; 3] {
     [3 * moving, 6 * moving, 6 * moving + OF_TURN * turning]
 }
 
-/// Writes the state of the field's bodies to the list `values`.
+/// Writes the state of the advanced bodies at the current stage to the list `values`.
 pub(super) fn read(field: &Field<'_>, values: &mut Vec<f64>) {
     let (bodies, stage) = (field.bodies, &*field.stage);
     values.clear();

@@ -30,9 +30,9 @@ pub(super) struct Dop853 {
     tolerance: f64,
     /// The state of the bodies as a list: positions, velocities, orientations with angular momenta, and work.
     values: Vec<f64>,
-    /// The slopes of the list at the twelve stages. The first stage is the present state.
+    /// The slopes (time derivatives) of the values at the twelve stages. The first stage is the present state.
     slopes: [Vec<f64>; 12],
-    /// Working memory for the list at a stage.
+    /// Working memory for the values at a stage.
     stage: Vec<f64>,
     /// The length of the next step, s.
     proposal: f64,

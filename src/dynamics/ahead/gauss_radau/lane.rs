@@ -1,4 +1,4 @@
-//! Three numbers that are integrated together: a position with its velocity, or another quantity with its slope.
+//! Lanes: groups of three numbers that are integrated together, such as a velocity with its position.
 
 use glam::DVec3;
 

@@ -18,8 +18,8 @@ const CHANGES: f64 = 0.25;
 const MOST_ROUNDS: usize = 12;
 /// The iteration has converged if the last coefficient changes by less than this fraction of the largest slope.
 const KNOWN: f64 = 1e-16;
-/// Relative changes below this may be rounding errors, so the iteration stops when they no longer shrink. Larger changes may grow at first
-/// and shrink later.
+/// Relative changes below this may be rounding errors, so the iteration stops when these changes no longer shrink. Larger changes may grow
+/// at first and shrink later.
 const ROUNDING: f64 = 1e-12;
 /// A value that changes by less than this fraction within a step does not limit the step, because the change is a rounding error.
 const NOISE: f64 = 1e-15;
@@ -79,11 +79,11 @@ impl GaussRadau {
     }
 
     /// Evaluates the slopes at node N and updates the coefficients. For the last node, returns the largest change of the last coefficient,
-    /// relative to the largest slope of its kind; for other nodes, 0.
+    /// relative to the largest slope with the same unit; for other nodes, 0.
     fn visit<const N: usize>(&mut self, field: &mut Field<'_>, now: Time, dt: f64) -> f64 {
         self.place(field, |lane| lane.place_at(N, dt), |lane| lane.value_at(N, dt));
         field.evaluate(now.after(nodes::NODES[N] * dt).seconds());
-        // Accelerations, rotations, torques and powers have different units, so each kind has its own largest values.
+        // Accelerations, rotations, torques and powers have different units, so the largest values are found for each unit separately.
         let mut largest = [(0.0f64, 0.0f64); 4];
         self.each_slope(field, |lane, slope, sort| {
             let change = lane.refine::<N>(slope);
@@ -116,7 +116,7 @@ impl GaussRadau {
         }
     }
 
-    /// Calls `see` for each lane with its slope at the current stage, and with an index for the kind of the slope.
+    /// Calls `see` for each lane with its slope at the current stage, and with an index for the slope's unit.
     #[inline(always)]
     fn each_slope(&mut self, field: &Field<'_>, mut see: impl FnMut(&mut Lane, DVec3, usize)) {
         let (moving, others) = self.lanes.split_at_mut(field.bodies.moving.len());

@@ -28,7 +28,7 @@ pub(super) struct Planets {
 }
 
 impl Planets {
-    /// Reads the bodies from a field's stage: the heaviest body first, then the other bodies by their distance from it.
+    /// Reads the bodies from the current stage: the heaviest body first, then the other bodies by their distance from the heaviest.
     pub(super) fn read(&mut self, field: &Field<'_>) {
         let (model, stage) = (field.model, &*field.stage);
         let mass = |i: usize| model.mass()[i];

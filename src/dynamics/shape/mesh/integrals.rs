@@ -37,7 +37,7 @@ pub(super) fn over_solid(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Whole {
 }
 
 impl Whole {
-    /// Returns the integrals for the same surface with all triangles oriented the other way.
+    /// Returns the integrals of the same surface with the orientation of all triangles reversed.
     pub(super) fn inside_out(self) -> Whole {
         Whole { volume: -self.volume, centre: self.centre, second: self.second * -1.0 }
     }

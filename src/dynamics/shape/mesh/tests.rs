@@ -25,8 +25,8 @@ fn cuboid(size: DVec3, turn: DQuat, centre: DVec3) -> Mesh {
     Mesh::new("box", (0..8).map(corner).collect(), triangles)
 }
 
-/// Returns a surface that is closed in both directions. `point(i, j)` returns the vertex at two angles, rad, of which there are `rows` and
-/// `columns`.
+/// Returns a surface that is closed in both directions. `point` returns the vertex for two angles, rad. The first angle takes `rows`
+/// values around the circle, the second one `columns` values.
 fn ring(rows: u32, columns: u32, point: impl Fn(f64, f64) -> DVec3) -> Mesh {
     let angle = |i: u32, of: u32| 2.0 * PI * f64::from(i) / f64::from(of);
     let grid = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
@@ -113,8 +113,8 @@ fn a_tetrahedron_has_the_inertia_of_its_corners() {
     assert!((mesh.vertices()[2] - (corners[2] - centre)).length() < ROUNDING);
 }
 
-/// A regular polygon with n corners has the fraction n sin(2π/n)/2π of the area of its circle. A ring of m wedges has the same fraction,
-/// with m, of the volume of the full ring.
+/// A regular polygon with n corners has the fraction n sin(2π/n)/2π of the area of its circle. A ring of m wedges has m sin(2π/m)/2π of
+/// the volume of the full ring.
 #[test]
 fn a_torus_of_triangles_has_the_volume_of_its_polygons() {
     let part = |n: u32| f64::from(n) * libm::sin(2.0 * PI / f64::from(n)) / (2.0 * PI);

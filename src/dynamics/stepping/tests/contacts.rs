@@ -133,7 +133,7 @@ fn a_rebound_loses_as_much_height_as_the_warning_says() {
     assert!((90..=98).contains(&heights.len()), "{}", heights.len());
 }
 
-/// A torus and a frustum, which the engine approximates by simpler solids, must rest at the heights of the exact shapes.
+/// A torus and a frustum, which the physics engine approximates by simpler solids, must rest at the heights of the exact shapes.
 #[test]
 fn shapes_that_are_fitted_are_right_to_a_percent() {
     let mut scene = Scene::default().with_ground(0.0);

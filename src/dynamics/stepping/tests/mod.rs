@@ -146,7 +146,7 @@ fn masses_and_inertias_are_exact() {
     for (handle, body) in stepping.handles.iter().zip(&scene.bodies) {
         let properties = stepping.engine.bodies[*handle].mass_properties().local_mprops;
         assert!(is_same(properties.inv_mass, 1.0 / body.mass), "{}", properties.inv_mass);
-        // The engine orders the principal axes in its own way, so sorted moments are compared.
+        // The physics engine orders the principal axes in its own way, so sorted moments are compared.
         let sorted = |moments: DVec3| {
             let mut moments = moments.to_array();
             moments.sort_by(f64::total_cmp);
