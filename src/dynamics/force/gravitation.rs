@@ -43,7 +43,7 @@ impl Gravitation {
         }
     }
 
-    /// Returns the sums over all pairs of bodies, computed by trees with the opening angle `angle`.
+    /// Returns the force between all pairs of bodies in a form that trees evaluate, with the opening angle `angle`.
     fn by_tree<'a>(&'a self, angle: f64, moment: &Moment<'a>) -> ByTree<'a> {
         ByTree { pairs: self.of(moment), angle, each: self.interactions(angle) }
     }

@@ -13,7 +13,7 @@ pub struct Course {
     end: f64,
     from: BodySnapshot,
     to: BodySnapshot,
-    /// The part of the rotation that a constant first angular velocity does not explain, world axes: rotation axis times angle, rad.
+    /// The actual rotation relative to a rotation with the constant first angular velocity, world axes: rotation axis times angle, rad.
     rest: DVec3,
 }
 

@@ -135,8 +135,8 @@ fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery:
     let span = frame.span;
     let acting = span * frame.acceleration.length();
     let mut velocity = frame.velocity + span * frame.acceleration;
-    // For each contact, the list holds its normal, the velocity of its obstacle, and the normal and friction impulses so far, per unit of
-    // mass.
+    // For each contact, the list `given` holds the normal, the velocity of the obstacle relative to the first one, and the normal and
+    // friction impulses so far, per unit of mass.
     let other = |it: &Contact| {
         if Scenery::is_same(&it.target, &held[0].target) {
             return DVec3::ZERO;

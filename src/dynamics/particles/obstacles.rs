@@ -51,7 +51,7 @@ pub struct Scenery {
     fastest: f64,
 }
 
-/// An obstacle that is present in the interval, with its motion.
+/// An obstacle that is present in the time interval of its [`Scenery`], with its motion.
 #[derive(Debug)]
 struct Placed {
     obstacle: usize,

@@ -126,7 +126,7 @@ impl Stepper {
         }
     }
 
-    /// Advances at most [`lanes`](Self::lanes) particles from time `t` (s) to the end of the interval that `grid` divides into steps.
+    /// Advances at most `lanes` particles from time `t` (s) to the end of the interval that `grid` divides into steps.
     pub(super) fn advance(&mut self, particles: &mut [Particle], t: f64, grid: &Grid) {
         self.enter(particles, t);
         let (mut now, mut number) = (t, grid.first_after(t));

@@ -22,28 +22,28 @@ pub(super) const TIMES: [f64; 12] = [
 /// The index of a stage, counted from 0, and the weight of the slope at that stage.
 pub(super) type Weight = (usize, f64);
 
-/// The weights of earlier slopes in the second stage.
+/// The weights of the slopes at earlier stages in the second stage of DOP853.
 pub(super) const STAGE_2: [Weight; 1] = [(0, 0.052_600_151_958_767_73)];
 
-/// The weights of earlier slopes in the third stage.
+/// The weights of the slopes at earlier stages in the third stage of DOP853.
 pub(super) const STAGE_3: [Weight; 2] = [(0, 0.019_725_056_984_537_9), (1, 0.059_175_170_953_613_7)];
 
-/// The weights of earlier slopes in the fourth stage.
+/// The weights of the slopes at earlier stages in the fourth stage of DOP853.
 pub(super) const STAGE_4: [Weight; 2] = [(0, 0.029_587_585_476_806_85), (2, 0.088_762_756_430_420_54)];
 
-/// The weights of earlier slopes in the fifth stage.
+/// The weights of the slopes at earlier stages in the fifth stage of DOP853.
 pub(super) const STAGE_5: [Weight; 3] =
     [(0, 0.241_365_134_159_266_7), (2, -0.884_549_479_328_286_1), (3, 0.924_834_003_261_792)];
 
-/// The weights of earlier slopes in the sixth stage.
+/// The weights of the slopes at earlier stages in the sixth stage of DOP853.
 pub(super) const STAGE_6: [Weight; 3] =
     [(0, 0.037_037_037_037_037_035), (3, 0.170_828_608_729_473_86), (4, 0.125_467_687_566_822_42)];
 
-/// The weights of earlier slopes in the seventh stage.
+/// The weights of the slopes at earlier stages in the seventh stage of DOP853.
 pub(super) const STAGE_7: [Weight; 4] =
     [(0, 0.037_109_375), (3, 0.170_252_211_019_544_05), (4, 0.060_216_538_980_455_96), (5, -0.017_578_125)];
 
-/// The weights of earlier slopes in the eighth stage.
+/// The weights of the slopes at earlier stages in the eighth stage of DOP853.
 pub(super) const STAGE_8: [Weight; 5] = [
     (0, 0.037_092_000_118_504_79),
     (3, 0.170_383_925_712_239_98),
@@ -52,7 +52,7 @@ pub(super) const STAGE_8: [Weight; 5] = [
     (6, 0.008_273_789_163_814_023),
 ];
 
-/// The weights of earlier slopes in the ninth stage.
+/// The weights of the slopes at earlier stages in the ninth stage of DOP853.
 pub(super) const STAGE_9: [Weight; 6] = [
     (0, 0.624_110_958_716_075_7),
     (3, -3.360_892_629_446_941_4),
@@ -62,7 +62,7 @@ pub(super) const STAGE_9: [Weight; 6] = [
     (7, -43.489_884_181_069_96),
 ];
 
-/// The weights of earlier slopes in the tenth stage.
+/// The weights of the slopes at earlier stages in the tenth stage of DOP853.
 pub(super) const STAGE_10: [Weight; 7] = [
     (0, 0.477_662_536_438_264_34),
     (3, -2.488_114_619_971_667_7),
@@ -73,7 +73,7 @@ pub(super) const STAGE_10: [Weight; 7] = [
     (8, -0.020_331_201_708_508_627),
 ];
 
-/// The weights of earlier slopes in the eleventh stage.
+/// The weights of the slopes at earlier stages in the eleventh stage of DOP853.
 pub(super) const STAGE_11: [Weight; 8] = [
     (0, -0.937_142_430_085_987_3),
     (3, 5.186_372_428_844_064),
@@ -85,7 +85,7 @@ pub(super) const STAGE_11: [Weight; 8] = [
     (9, -3.046_764_471_898_219_6),
 ];
 
-/// The weights of earlier slopes in the twelfth stage.
+/// The weights of the slopes at earlier stages in the twelfth stage of DOP853.
 pub(super) const STAGE_12: [Weight; 9] = [
     (0, 2.273_310_147_516_538),
     (3, -10.534_495_466_737_25),
