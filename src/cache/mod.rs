@@ -324,7 +324,7 @@ impl Kept {
     }
 }
 
-/// Writes a checkpoint of a run. Returns false if the simulation has no checkpoints, or the folder has no space.
+/// Writes a checkpoint of a run. Returns false if the simulation has no checkpoints, or the pages are not all in the cache folder.
 fn save(spill: &Spill, recorder: &mut Recorder<'_>) -> io::Result<bool> {
     let Some(checkpoint) = recorder.checkpoint()? else { return Ok(false) };
     spill.save(&checkpoint)

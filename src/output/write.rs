@@ -16,7 +16,7 @@ use crate::emit::{frame_name, shutter_name};
 use crate::scene::Shutter;
 use crate::simulate::{Exposure, Selection};
 
-/// A summary of the files that [`write`] has written.
+/// A summary of the files that [`write()`] has written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     /// The number of frames whose scripts were written.

@@ -1,4 +1,4 @@
-// What the viewer does: keys, buttons, pointers.
+// Handles the viewer's input: keys, buttons, pointers.
 
 import { drawn, element, open, panel, player, plots, redraw, viewpoint } from "./parts.js";
 import { sceneCamera } from "./picture.js";
@@ -73,7 +73,7 @@ const KEYS = [
 function pressed(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || element("keys").open) return;
   const writes = event.target.matches?.("input:not([type=range]):not([type=checkbox])");
-  // In a text, a space is a space only where names are written.
+  // In a text field, keys type text. Only the space key stays a command, except in the field for body names.
   if (writes && (event.key !== " " || event.target === element("body-name"))) return;
   if (event.target.matches?.("select") && event.key !== " ") return;
   const found = KEYS.find(([keys]) => keys.includes(event.key) || keys.includes(event.key.toLowerCase()));
@@ -126,7 +126,7 @@ function watchPointers() {
   };
 }
 
-/** Chooses the body at a place of the picture. */
+/** Selects the body at a point of the picture. */
 export function choose(x, y) {
   if (!drawn.view) return;
   const canvas = element("picture");

@@ -1,6 +1,6 @@
-// What WebGL2 is asked for: programs, buffers, textures.
+// Helpers for WebGL2: programs, buffers, textures.
 
-/** The numbers of one instance of a form, attribute by attribute, as the shaders name them. */
+/** The number of components of each attribute of a drawn piece, in the order of the shaders. An instance is one copy of a base shape. */
 const INSTANCE = [3, 4, 3, 4, 4, 4, 1];
 export const NUMBERS = INSTANCE.reduce((sum, size) => sum + size, 0);
 export const SHADOW = 1024;
@@ -60,7 +60,7 @@ export function instances(gl, form, numbers) {
   return { vertices, buffer };
 }
 
-/** One for each instance. */
+/** Enables an attribute that has one value for each instance. */
 function attribute(gl, place, size, stride, offset) {
   gl.enableVertexAttribArray(place);
   gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);

@@ -1,4 +1,4 @@
-// `window.jabuka`, for programs: what the page knows and does.
+// `window.jabuka`: an interface for programs, such as tests, that control the page or read what it shows.
 
 import { drawn, element, open, panel, player, redraw } from "./parts.js";
 
@@ -15,13 +15,13 @@ window.jabuka = {
   get comparison() { return element("comparison").textContent; },
   get selected() { return open.run?.description.bodies[panel.body]?.name ?? null; },
   get drawn() { return { count: drawn.count, run: drawn.run, frame: drawn.frame }; },
-  /** How a place of the world, m, comes to one of the picture: to (it - center) / size, and that by the matrix `clip`. */
+  /** The transform from world coordinates (m) to the picture: (point - center) / size, and then the matrix `clip`. */
   get view() {
     const { clip, width, height } = drawn.view ?? { clip: [] };
     return { clip: Array.from(clip), width, height, ...open.painter.space };
   },
   get bodies() { return open.run?.description.bodies.map(({ name }) => name) ?? []; },
-  /** Location (m) and orientation (x y z w) of a body, by its name or number, in a frame; null until it is there. */
+  /** Returns the pose of a body (by name or index) in a frame: location (m) and orientation (x y z w). Null until it is fetched. */
   pose(body, frame = player.frame) {
     const number = typeof body === "number" ? body : (panel.numbers?.get(body) ?? -1);
     return open.run?.pose(number, frame) ?? null;
@@ -30,7 +30,7 @@ window.jabuka = {
   play() { player.play(); redraw(); },
   pause() { player.pause(); redraw(); },
   reset() { player.reset(); redraw(); },
-  /** Resolves when the frame that is wanted now has been drawn, or what `is` asks for. */
+  /** Returns a promise that resolves when the requested frame has been drawn, or when the condition `is` holds. */
   whenDrawn(is = () => drawn.run === open.run?.id && drawn.frame === player.frame && !drawn.dirty) {
     return new Promise((resolve) => {
       drawn.waiting.push(() => (is(window.jabuka) ? (resolve(window.jabuka.drawn), true) : false));

@@ -1,8 +1,8 @@
-// What is drawn in lines: trails, arrows, springs, joints, grids, axes, and where the scene's camera stands.
+// Collects everything that is drawn as lines: trails, arrows, springs, joints, grids, axes, and the outline of the scene's camera.
 
 import { add, cross, dot, isThere, length, sub, times, turned, unit } from "./math.js";
 
-/** Lines of a picture: for each its ends, its radius there, and its color in sRGB. Lengths are metres. */
+/** The lines of a picture. Each has two ends, a radius at each end, and a color in sRGB. Lengths are in meters. */
 export class Lines {
   constructor() {
     this.numbers = [];
@@ -16,7 +16,7 @@ export class Lines {
     return this.numbers.length / 12;
   }
 
-  /** The numbers in the world of the shaders. */
+  /** Returns the numbers of all lines for the shaders, relative to the center and the size of the scene. */
   packed({ center, size }) {
     const out = new Float32Array(this.numbers);
     for (let i = 0; i < out.length; i += 12) {
@@ -31,7 +31,7 @@ export class Lines {
   }
 }
 
-/** An arrow, with a head as in the templates. */
+/** Adds an arrow, with a head as in the POV-Ray templates. */
 export function arrow(lines, { from, to, radius, color }) {
   const along = sub(to, from);
   const shaft = Math.min(radius, length(along) / 14);
@@ -40,7 +40,7 @@ export function arrow(lines, { from, to, radius, color }) {
   lines.add(neck, to, 3.2 * shaft, color, 0);
 }
 
-/** A part of a spring or of a joint, as in the scripts. */
+/** Adds a part of a spring or of a joint, with the same shape as in the scripts. */
 export function link(lines, { form, at, ends, points, radius, wire, turns, color }) {
   if (form === "pin") lines.add(at, at, radius, color);
   else if (form === "rod") lines.add(...ends, radius, color);
@@ -48,7 +48,7 @@ export function link(lines, { form, at, ends, points, radius, wire, turns, color
   else coil(lines, ends, radius, wire, turns, color);
 }
 
-/** A coil around the line between its ends, as in the templates. */
+/** Adds a coil around the line between two points, as in the POV-Ray templates. */
 function coil(lines, [a, b], radius, wire, turns, color) {
   const axis = sub(b, a);
   const sideways = unit(cross(axis, Math.abs(unit(axis)[2]) < 0.98 ? [0, 0, 1] : [1, 0, 0]), [1, 0, 0]);
@@ -68,7 +68,7 @@ function coil(lines, [a, b], radius, wire, turns, color) {
   lines.add(end, b, wire, color);
 }
 
-/** The colors of x, y and z. */
+/** The colors of the x, y and z axes, in sRGB. */
 export const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
 
 export function axes(lines, { location, turn, length: arm }) {
@@ -79,7 +79,7 @@ export function axes(lines, { location, turn, length: arm }) {
   });
 }
 
-/** The way of a body, or of a point of it, up to the present position in the film, as far as its frames are there. */
+/** Adds the trail of a body up to the present position in the film, as far as its frames have been fetched. */
 export function trail(lines, run, { body, radius, color, tapers }, position, most) {
   const rate = run.rate;
   const { duration, at = [0, 0, 0] } = run.description.bodies[body].trail ?? {};
@@ -94,7 +94,7 @@ export function trail(lines, run, { body, radius, color, tapers }, position, mos
     const place = poses && pointOf(poseIn(poses, run.bodies, body));
     const wasAway = away;
     away = place !== undefined && !isThere(place);
-    // A body that comes back has no way from where it went.
+    // The trail restarts when an absent body appears again.
     if (!place || (wasAway && !away)) points.length = 0;
     if (place && !away) points.push(place);
   }
@@ -110,13 +110,13 @@ export function trail(lines, run, { body, radius, color, tapers }, position, mos
   }
 }
 
-/** Location and orientation of a body in a frame. */
+/** Returns the location and orientation of a body from the poses of a frame. */
 function poseIn(poses, bodies, body) {
   const turn = 3 * bodies + 4 * body;
   return [...poses.subarray(3 * body, 3 * body + 3), ...poses.subarray(turn, turn + 4)];
 }
 
-/** More points where a line bends, on a curve through all of them (Catmull–Rom). */
+/** Adds points to a polyline where it bends, on a Catmull–Rom spline through all of its points. */
 function rounded(points) {
   if (points.length < 3 || points.length > 800) return points;
   const out = [points[0]];
@@ -138,7 +138,7 @@ function angle(a, b) {
   return Math.acos(Math.max(-1, Math.min(1, dot(p, q)))) || 0;
 }
 
-/** The scene's camera as another one sees it: its place, and the frame of its film. */
+/** Adds the outline of the scene's camera, seen from another viewpoint: a pyramid from the camera to the edges of its picture. */
 export function camera(lines, { location, right, up, back, tangentX, tangentY, depth }, radius) {
   const color = [0.95, 0.62, 0.1];
   const corner = (x, y) => add(add(sub(location, times(back, depth)), times(right, x * tangentX * depth)), times(up, y * tangentY * depth));

@@ -1,4 +1,4 @@
-// The page: what the server says → what is seen.
+// Starts the page, and passes each state that the server announces to the display.
 
 import { listen } from "./controls.js";
 import "./hook.js";
@@ -16,7 +16,7 @@ function begin() {
   }
   nothing.textContent = "…";
   listen();
-  // Of states that come while one is taken in, only the newest counts.
+  // If several states arrive while one is being handled, only the newest is handled next.
   let newest, busy;
   const takeIn = async () => {
     busy = true;

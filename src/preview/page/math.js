@@ -1,4 +1,4 @@
-// Vectors are arrays of three numbers, quaternions are x y z w, matrices are 4 x 4, column after column.
+// Vectors are arrays of three numbers, quaternions are x y z w, matrices are 4 x 4 in column-major order.
 
 export const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 export const sub = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -7,13 +7,13 @@ export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const length = (a) => Math.hypot(a[0], a[1], a[2]);
 
-/** The unit vector along `a`, or `otherwise` where that has no direction. */
+/** Returns the unit vector along `a`, or `otherwise` if `a` has no direction. */
 export function unit(a, otherwise = [0, 0, 0]) {
   const l = length(a);
   return l > 0 && Number.isFinite(l) ? times(a, 1 / l) : otherwise;
 }
 
-/** A vector turned by a quaternion. */
+/** Rotates a vector by a quaternion. */
 export function turned([x, y, z, w], v) {
   const t = times(cross([x, y, z], v), 2);
   return add(add(v, times(t, w)), cross([x, y, z], t));
@@ -31,7 +31,7 @@ export function product(a, b) {
   return out;
 }
 
-/** Takes points of the world to those of a camera at `eye`, which looks along its own -z. */
+/** Returns the matrix from world coordinates to those of a camera at `eye`, which looks along its own -z. */
 export function lookAt(eye, { right, up, back }) {
   return new Float64Array([
     right[0], up[0], back[0], 0,
@@ -41,7 +41,7 @@ export function lookAt(eye, { right, up, back }) {
   ]);
 }
 
-/** The axes of a camera that looks from `eye` to `aim`; straight up or down, x is to the right, as in the scripts. */
+/** Returns the axes of a camera that looks from `eye` to `aim`. For a vertical view, x points to the right, as in the scripts. */
 export function axes(eye, aim) {
   const back = unit(sub(eye, aim), [0, 0, 1]);
   const vertical = Math.max(Math.abs(back[0]), Math.abs(back[2])) < 1e-6 * Math.abs(back[1]);
@@ -69,14 +69,14 @@ export function orthographic(halfX, halfY, near, far) {
   return m;
 }
 
-/** Where a point comes to, and how far it is: x and y from -1 to 1. */
+/** Projects a point into the picture. Returns x and y from -1 to 1, and the homogeneous coordinate w. */
 export function projected(matrix, [x, y, z]) {
   const row = (i) => matrix[i] * x + matrix[4 + i] * y + matrix[8 + i] * z + matrix[12 + i];
   const w = row(3);
   return { x: row(0) / w, y: row(1) / w, w };
 }
 
-/** A number with some significant digits, as people write it. */
+/** Formats a number with a few significant digits. */
 export function short(number, digits = 4) {
   if (!Number.isFinite(number)) return "–";
   const size = Math.abs(number);
@@ -86,12 +86,12 @@ export function short(number, digits = 4) {
   return String(Number(number.toPrecision(digits))).replace("-", "−");
 }
 
-/** A color in sRGB, made linear. */
+/** Converts a color from sRGB to linear light. */
 export const linear = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
 
 export const css = (color) => `rgb(${color.map((c) => Math.round(255 * Math.min(1, Math.max(0, c)))).join(" ")})`;
 
-/** Whether a body is there: the numbers of one that is not are none. */
+/** Returns true if a body is present. The pose of an absent body consists of NaNs. */
 export function isThere(pose) {
   return !Number.isNaN(pose[0]);
 }

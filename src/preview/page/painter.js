@@ -7,11 +7,11 @@ import { PARTICLE } from "./run.js";
 import * as shaders from "./shaders.js";
 
 const MOTIFS = { none: 0, ground: 0, checkered: 1, striped: 2, "beach-ball": 3 };
-/** As many lamps as the shaders have room for. */
+/** The largest number of lamps that the shaders support. */
 const MOST_LAMPS = 8;
-/** With more vertices than this, shadows would take too long. */
+/** The largest number of vertices for which shadows are drawn. More would take too long. */
 const MOST_SHADOWED = 4e6;
-/** More balls than this are drawn as squares that face the eye. */
+/** The largest number of balls that are drawn as triangles. More balls are drawn as squares that face the camera. */
 const MOST_ROUND = 200;
 const FACING = {
   positions: new Float32Array([-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0]),
@@ -25,7 +25,7 @@ export class Painter {
     if (!gl) throw new Error("This browser has no WebGL2, by which the picture is drawn.");
     this.gl = gl;
     this.canvas = canvas;
-    /** The programs for bodies, each made when it is first needed. */
+    /** The shader programs for bodies, each made when it is first needed. */
     this.programs = new Map();
     this.ground = program(gl, shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT);
     this.sky = program(gl, shaders.SKY_VERTEX, shaders.SKY_FRAGMENT);
@@ -33,12 +33,12 @@ export class Painter {
     this.square = corners(gl, [-1, -1, 1, -1, -1, 1, 1, 1]);
     this.lineVertices = lineVertices(gl);
     this.shadow = shadowMap(gl);
-    /** Batches of bodies: the run's, the other run's, the ghosts. */
+    /** The batches of bodies: those of the run, of the compared run, and the ghosts. Particles are a batch as well. */
     this.batches = {};
     gl.enable(gl.DEPTH_TEST);
   }
 
-  /** Takes the forms of a run, and its bodies. */
+  /** Uploads the base shapes and bodies of a run. */
   take(run) {
     const { gl } = this;
     this.forms?.forEach((form) => form.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
@@ -52,7 +52,7 @@ export class Painter {
     this.put("run", bodies);
   }
 
-  /** Makes a batch of bodies, each with the number of its pose. */
+  /** Makes a batch of bodies, each with the index of its pose. */
   put(name, bodies, pale = false) {
     this.release(name);
     const { gl, description, space } = this;
@@ -80,7 +80,7 @@ export class Painter {
     this.batches[name] = { groups: made, poses: poseTexture(gl, count), total };
   }
 
-  /** Takes the particles of a frame: balls that belong to no body, each with a color of its own. */
+  /** Uploads the particles of a frame: balls that belong to no body, each with its own color. */
   scatter(particles) {
     if (this.scattered === particles) return;
     this.scattered = particles;
@@ -123,7 +123,7 @@ export class Painter {
     return this.sorted.byBody;
   }
 
-  /** Tells where the bodies of a batch are: `at(number)` gives location and orientation. */
+  /** Sets the poses of all bodies in a batch. `at(index)` returns a location and an orientation. */
   place(name, at) {
     const { poses } = this.batches[name];
     const { center, size } = this.space;
@@ -144,7 +144,7 @@ export class Painter {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, 2048, poses.rows, gl.RGBA, gl.FLOAT, poses.numbers);
   }
 
-  /** Draws all: `view` is from where, `lamps` what shines, `lines` what is drawn in lines. */
+  /** Draws the whole picture, as seen from `view`, with the given lamps, lines and poses of planes. */
   draw(view, lamps, lines, planePose) {
     const { gl, description } = this;
     const around = surroundings(description);
@@ -169,7 +169,7 @@ export class Painter {
     const { center, size } = this.space;
     const near = (lamp) => (lamp.sun ? unit(sub(lamp.location, center)) : times(sub(lamp.location, center), 1 / size));
     const given = lamps.length ? lamps.map((lamp) => ({ ...lamp, location: near(lamp) })) : [FIRST_LAMP];
-    // The first one casts the shadows.
+    // The first lamp is the only one that casts shadows.
     const brightness = (lamp) => Number(lamp.shadows) + length(lamp.color) / 1000;
     const sorted = [...given].sort((a, b) => brightness(b) - brightness(a)).slice(0, MOST_LAMPS);
     const first = sorted[0];
@@ -177,7 +177,7 @@ export class Painter {
     return { sorted, shade };
   }
 
-  /** What the first lamp sees: all that moves. */
+  /** Draws the shadow map: the depths of all moving bodies, as seen from the first lamp. */
   shade({ location }) {
     const direction = unit(location);
     const eye = times(direction, 2);
@@ -261,7 +261,7 @@ export class Painter {
   drawPlane(middle, across, along, look, tile, tilesFade, fade) {
     const { gl, ground, space } = this;
     this.common(ground);
-    // Its square is about the foot of the scene's middle; its tiles begin at its own.
+    // The square of the plane is centered below the middle of the scene. Its tiles are aligned to the plane's own origin.
     const offset = sub(space.center, middle);
     const [a, b] = [across, along].map((axis) => offset[0] * axis[0] + offset[1] * axis[1] + offset[2] * axis[2]);
     const foot = add(middle, add(times(across, a), times(along, b)));
@@ -277,7 +277,7 @@ export class Painter {
     gl.uniform1f(ground.at("u_tile"), tile / space.size);
     gl.uniform1f(ground.at("u_tilesFade"), tilesFade / space.size);
     gl.uniform1f(ground.at("u_fade"), fade / space.size);
-    // What lies on it is in front of it.
+    // The offset moves the plane backward in depth, so that objects lying on it are drawn in front of it.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 4);
     gl.bindVertexArray(this.square);
@@ -306,7 +306,7 @@ export class Painter {
     gl.disable(gl.BLEND);
   }
 
-  /** Draws groups of a batch for a purpose, by the programs for their kinds, each of which is made `ready` first. */
+  /** Draws the groups of a batch. `purpose` selects the kind of shader program, and `ready` prepares each program before its use. */
   groups(name, purpose, ready, which = () => true) {
     const { gl } = this;
     const batch = this.batches[name];
@@ -344,13 +344,13 @@ export class Painter {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
   }
 
-  /** The number of the body at a pixel; undefined where there is none. */
+  /** Returns the index of the body at a pixel. Undefined if no body is at this pixel. */
   pick(view, x, y) {
     const { gl } = this;
     this.picking ??= pickTarget(gl);
     const { framebuffer } = this.picking;
     const [w, h] = [this.canvas.width, this.canvas.height];
-    // Only the one pixel is drawn: the picture is moved so that it is there.
+    // Only this one pixel is drawn: the matrix shifts the picture so that the pixel fills a target of 1 x 1.
     const place = new Float64Array([w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1]);
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     gl.viewport(0, 0, 1, 1);
@@ -370,12 +370,12 @@ export class Painter {
   }
 }
 
-/** How far away what is not there is put, in sizes of the scene: beyond all that is seen. */
+/** The distance at which absent bodies are placed, in sizes of the scene. It is outside of every view. */
 const AWAY = 1e6;
 
 const PLAIN = { color: [0.3, 0.3, 0.3, 1], metallic: 0, roughness: 0.6, emissive: false, motif: "none", second: null, pale: [0.5, 0.5, 0.5] };
 
-/** Where the world of the shaders is: its middle, m, and the length of 1 there. */
+/** Returns the origin (m) and the unit length (m) of the coordinates that shaders use. */
 export function spaceOf({ stage, bounds }) {
   if (stage) return { center: stage.center, size: stage.size };
   if (!bounds) return { center: [0, 0, 0], size: 3 };

@@ -1,8 +1,8 @@
-// The values of the chosen body, and the choice of methods.
+// The panel with the values of the chosen body.
 
 import { isThere, length, short } from "./math.js";
 
-/** The numbers of a body in a frame come in blocks of so many frames. */
+/** The number of frames whose values of a body are fetched together. */
 const BLOCK = 200;
 
 export class Panel {
@@ -31,7 +31,7 @@ export class Panel {
     this.chosen(body);
   }
 
-  /** Shows how the body is in a frame. */
+  /** Shows the values of the body in a frame. */
   async show(frame) {
     const { run, body } = this;
     if (!run || body === undefined || frame >= (run.progress?.recorded ?? 0)) return;
@@ -55,7 +55,7 @@ export class Panel {
     const n = known.subarray(at, at + 15);
     const description = run.description.bodies[body];
     const three = (i) => Array.from(n.subarray(i, i + 3));
-    // What is left of a component by rounding is nothing.
+    // A component that differs from zero only by a rounding error is shown as 0.
     const written = (v, unit) => `${v.map((c) => short(Math.abs(c) < 1e-12 * length(v) ? 0 : c)).join(", ")} ${unit}`;
     this.fill([
       ["kind", { free: "moves freely", fixed: "fixed", driven: "its motion is given" }[description.kind]],

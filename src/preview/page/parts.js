@@ -1,4 +1,4 @@
-// What the modules of the page have in common: the elements of the page, and what is open.
+// State and objects that the modules of the page share: the elements of the page, and the open runs.
 
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
@@ -8,10 +8,10 @@ import { Viewpoint } from "./viewpoint.js";
 
 export const element = (id) => document.getElementById(id);
 
-/** The server's state, the run that is shown, the one that it is compared with, what draws them. */
+/** The server's state, the shown run (`run`), the run that it is compared with (`other`), and the painter of both. */
 export const open = { state: null, run: null, other: null, view: 0, serial: 0, gone: false, painter: undefined };
 
-/** What has been drawn last, and whether that is still right; `waiting` are those who wait for a frame. */
+/** The frame that was drawn last, and whether it must be drawn again (`dirty`). `waiting` holds callbacks for the next drawn frame. */
 export const drawn = { count: 0, run: null, frame: -1, view: null, dirty: true, waiting: [] };
 
 export const player = new Player();
@@ -20,7 +20,7 @@ export const panel = new Panel({ name: element("body-name"), names: element("bod
 export const plots = new Plots({ canvas: element("plot"), choice: element("plotted"), legend: element("legend"), drift: element("drift") });
 export const texts = new Texts(element("texts"));
 
-/** Something is to be seen that has not been drawn. */
+/** Marks the picture as outdated, so that it is drawn again. */
 export function redraw() {
   drawn.dirty = true;
 }

@@ -1,17 +1,17 @@
-// What is seen of a frame.
+// Composes the picture of a frame.
 
 import { arrow, axes, camera as cameraLines, link, Lines, trail } from "./lines.js";
 import { isThere, length, short, sub, unit } from "./math.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
-/** All trails together have no more points. */
+/** The largest number of points of all trails together. */
 const MOST_POINTS = 60_000;
 const NONE = new Float64Array();
 
 let before;
 
-/** The camera of the scene at a position of the film: that of a frame, or between two. */
+/** Returns the scene's camera at a position of the film: at a frame, or interpolated between two frames. */
 export function sceneCamera(run, position) {
   const frame = Math.floor(position + 1e-9);
   const stage = run.description.stage;
@@ -30,7 +30,7 @@ function betweenCameras(a, b, part) {
   return { ...a, location: point(a.location, b.location), look_at: point(a.look_at, b.look_at), angle: a.angle && mixed(a.angle, b.angle) };
 }
 
-/** How far it is from an eye to what is nearest, bodies or ground, m. */
+/** Returns the distance from a viewpoint to the nearest body or the ground, m. */
 function nearestTo(run, at, eye) {
   const { pieces, stage } = run.description;
   let nearest = stage?.ground ? Math.abs(eye[1] - stage.ground.height) : Infinity;
@@ -39,7 +39,7 @@ function nearestTo(run, at, eye) {
     if (!isThere(place)) continue;
     const away = Math.hypot(place[0] - eye[0], place[1] - eye[1], place[2] - eye[2]);
     const reach = plane ? 0 : length(location) + 1.8 * Math.max(...scale);
-    // Within what may be a long body, only its surface would tell how near it is.
+    // Inside the bounding sphere of a long body, the distance to its surface is unknown, so a small one is assumed.
     nearest = Math.min(nearest, plane ? away : Math.max(away - reach, 0.02 * reach));
   }
   return nearest;
@@ -52,11 +52,11 @@ function draw() {
   run.want(frame, open.view);
   const at = run.posesAt(position);
   if (!at) return;
-  // A frame that stands still is drawn when all of it is there.
+  // While paused, a frame is drawn only when all of its data has been fetched.
   const present = run.shownIn(frame, open.view);
   const particles = run.description.particles ? run.particlesIn(frame) : NONE;
   if (!player.playing && ((run.hasShown && !present) || !particles)) return;
-  // While it plays, what is not there yet is seen as it was last.
+  // While playing, missing data is replaced by that of the last complete frame.
   if (present) open.shown = present;
   const shown = present ?? (open.shownOf === run.id ? open.shown : undefined);
   open.shownOf = run.id;
@@ -96,7 +96,7 @@ function draw() {
   for (const one of drawn.waiting.splice(0)) if (!one()) drawn.waiting.push(one);
 }
 
-/** The triads of axes that are to be seen: bodies, and those that are drawn on bodies. */
+/** Returns the triads of axes to draw: bodies that are triads, and the axes drawn on other bodies. */
 function triads(run, shown, at) {
   const bodies = run.description.bodies.flatMap(({ axes: length }, body) => {
     if (!length) return [];
@@ -106,7 +106,7 @@ function triads(run, shown, at) {
   return [...bodies, ...(shown?.axes ?? [])];
 }
 
-/** The ways of particles that are drawn as streaks. */
+/** Adds the streaks of particles as lines. */
 function streaks(lines, particles) {
   for (let i = 0; i < particles.length; i += PARTICLE) {
     const [x, y, z, a, b, c, radius, ...color] = particles.subarray(i, i + PARTICLE);
@@ -128,7 +128,7 @@ function drawLines(lines, run, shown, at, view) {
   }
 }
 
-/** Four lines around the chosen body, beside it in the picture. */
+/** Adds four lines around the chosen body, to its left and right, above and below. */
 function mark(lines, view, [x, y, z], pieces) {
   if (!pieces.length || Number.isNaN(x)) return;
   const reach = 1.25 * Math.max(...pieces.map((piece) => length(piece.location) + Math.max(...piece.scale)));
@@ -150,7 +150,7 @@ function outlineCamera(lines, camera, [w, h]) {
   cameraLines(lines, { location: camera.location, right, up, back, tangentX, tangentY: (tangentX * h) / w, depth }, 0.002 * depth);
 }
 
-/** The ghosts that the scene asks for, as a stroboscope shows them. */
+/** Draws the ghosts that the scene requests: earlier poses of bodies at regular intervals. */
 function strobes(run, position, at) {
   if (!run.ghosts.length) return;
   const now = position / run.rate;
@@ -168,7 +168,7 @@ function strobes(run, position, at) {
   if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation]);
 }
 
-/** Places the run that is compared with, and says how far apart the two are. */
+/** Sets the poses of the compared run, and shows the largest distance between equal bodies of the two runs. */
 function placeOther(run) {
   const { other } = open;
   const position = Math.min(player.time * other.rate, other.frames - 1);

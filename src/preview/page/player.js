@@ -1,9 +1,9 @@
-// Which frame is shown. While it stands still, that is a whole frame; while it plays, it may be between two.
+// Controls which frame is shown. While paused, the position is a whole frame. While playing, it may lie between two frames.
 
 export class Player {
   constructor() {
     this.run = null;
-    /** The place in the film, in frames. */
+    /** The position in the film, in frames. */
     this.position = 0;
     this.playing = false;
     this.speed = 1;
@@ -18,12 +18,12 @@ export class Player {
     return this.run ? this.position / this.run.rate : 0;
   }
 
-  /** The last frame that has been simulated. */
+  /** The index of the last frame that has been simulated. */
   get last() {
     return Math.max(0, (this.run?.progress?.recorded ?? 1) - 1);
   }
 
-  /** The last frame that there will be: a run that has diverged ends early. */
+  /** The index of the last frame of the film. A run that has broken down ends early. */
   get end() {
     if (!this.run) return 0;
     return this.run.progress?.settled ? this.last : this.run.frames - 1;
@@ -34,7 +34,7 @@ export class Player {
     this.position = Math.max(0, Math.min(Math.round(frame), this.end));
   }
 
-  /** Back to the initial state, at rest: the tutorial's space key. */
+  /** Returns to the first frame, and pauses. The space key does this, as in the physics-engine tutorial. */
   reset() {
     this.pause();
     this.sought = undefined;
@@ -63,7 +63,7 @@ export class Player {
     this.seek(this.position + frames);
   }
 
-  /** Lets some seconds pass; waits where the next frame is not there yet. */
+  /** Advances the position by some seconds of real time. Waits if the next frame has not been fetched yet. */
   advance(seconds) {
     if (!this.playing || !this.run) return;
     let next = this.position + Math.min(seconds, 0.25) * this.speed * this.run.rate;
@@ -80,9 +80,9 @@ export class Player {
     if (this.run.poses(Math.floor(next)) || next < this.position) this.position = next;
   }
 
-  /** Goes on with another run at the same time. */
+  /** Switches to another run, at the same time. */
   take(run) {
-    // A run that is shorter for a moment does not make the viewer lose the place.
+    // The new run may be shorter. The player then remembers the time, and returns to it when a longer run follows.
     const time = this.sought ?? this.time;
     this.run = run;
     const place = Math.min(time * run.rate, run.frames - 1);

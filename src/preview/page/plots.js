@@ -1,12 +1,12 @@
-// Energies, momenta and the motion of a body over time. A click goes to that time.
+// Plots energies, momenta and the motion of a body over time. A click on a plot goes to that time.
 
 import { short } from "./math.js";
 
-/** The most points across a plot. */
+/** The largest number of points across a plot. */
 const POINTS = 4000;
 const INK = { first: "--kinetic", second: "--potential", third: "--total" };
 
-/** What can be plotted: from the 13 numbers of a balance, or the 15 of a body. */
+/** The available plots. Their values come from the 13 numbers of a frame's balance, or from the 15 numbers of a body. */
 export const PLOTS = [
   { name: "Energy", unit: "J", of: "balance", curves: [["kinetic", INK.first, (n, i) => n[i + 1]], ["potential", INK.second, (n, i) => n[i + 2]], ["total", INK.third, (n, i) => n[i + 3]]] },
   { name: "Drift", unit: "J", of: "balance", curves: [["total − work", INK.third, (n, i) => n[i + 3] - n[i + 4]]] },
@@ -48,7 +48,7 @@ export class Plots {
     return PLOTS[this.choice.selectedIndex];
   }
 
-  /** What is plotted, as far as other numbers are needed for it. */
+  /** Identifies the data of the current plot. New data must be fetched when the key changes. */
   get key() {
     return `${this.plot.of} ${this.plot.of === "body" ? this.body : ""}`;
   }
@@ -58,7 +58,7 @@ export class Plots {
     return run ? (run.frames - 1) / run.rate || 1 : 1;
   }
 
-  /** Takes the runs that are shown, the first one and the one it is compared with, and the chosen body. */
+  /** Sets the runs to plot (the shown run, and the compared one) and the chosen body. */
   take(runs, body) {
     const same = this.body === body && runs.length === this.runs.length && runs.every((run, i) => run === this.runs[i].run);
     this.body = body;
@@ -66,7 +66,7 @@ export class Plots {
     this.load();
   }
 
-  /** Fetches what has come since; of a run that goes on, not more often than can be followed. */
+  /** Fetches new data. While a run is being simulated, data is fetched at most every 0.4 s. */
   async load() {
     const goesOn = this.runs.some(({ run, numbers }) => numbers && !run.progress?.settled);
     if (goesOn && performance.now() - this.loaded < 400 && this.runs.every(({ of }) => of === this.key)) return;
@@ -95,7 +95,7 @@ export class Plots {
     this.loading = false;
   }
 
-  /** Marks the present time. */
+  /** Marks the present time in the plot. */
   mark(time) {
     if (this.time === time) return;
     this.time = time;
@@ -150,7 +150,7 @@ export class Plots {
           if (!Number.isNaN(v)) {
             points.push([x(numbers[i]), y(v)]);
           } else if (points.length) {
-            // While a body is not there, it has no curve.
+            // An absent body has no curve, so the curve is interrupted.
             line(context, points);
             points = [];
           }
@@ -159,7 +159,7 @@ export class Plots {
       }
     });
     context.setLineDash([]);
-    // The numbers stand on all curves, with an edge of the color of the paper.
+    // The labels are drawn over all curves, with an outline in the color of the background.
     context.strokeStyle = ink("--paper");
     context.lineWidth = 3;
     for (const level of levels(low, high, 3)) {
@@ -179,14 +179,14 @@ export class Plots {
     this.say(shown[0]?.numbers, stride, plot);
   }
 
-  /** The values at the present time, and the drift so far. */
+  /** Shows the values at the present time. */
   say(numbers, stride, plot) {
     const rows = plot.curves.flatMap(([name, color, value]) => {
       const [term, what] = [document.createElement("dt"), document.createElement("dd")];
       term.textContent = name;
       term.style.color = `var(${color})`;
       const at = numbers ? nearest(numbers, stride, this.time ?? 0) : undefined;
-      // Without contacts, nobody counts impacts.
+      // Without contacts, impacts are not counted, and the value is unknown.
       const isKnown = at !== undefined && !Number.isNaN(value(numbers, at));
       what.textContent = isKnown ? `${short(value(numbers, at))} ${plot.unit}` : "–";
       return [term, what];
@@ -205,7 +205,7 @@ function line(context, points) {
   context.stroke();
 }
 
-/** Round numbers between two. */
+/** Returns about `count` round numbers between two values. */
 function levels(low, high, count) {
   const raw = (high - low) / count;
   const decade = 10 ** Math.floor(Math.log10(raw));
@@ -215,7 +215,7 @@ function levels(low, high, count) {
   return out;
 }
 
-/** Where the numbers of the nearest time begin. */
+/** Returns the index at which the numbers of the nearest time begin. */
 function nearest(numbers, stride, time) {
   const count = numbers.length / stride;
   if (!count) return undefined;

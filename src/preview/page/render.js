@@ -1,4 +1,4 @@
-// A frame by POV-Ray, beside the picture.
+// Renders the current frame with POV-Ray, and shows the image beside the picture.
 
 import { element, open, player, redraw } from "./parts.js";
 import { post } from "./server.js";

@@ -1,20 +1,20 @@
-// A run as the page knows it: what stays the same, and the frames that have been fetched, within a budget of memory.
+// The data of a run that the page has fetched: its constant description, and frames within a memory budget.
 
 import { isThere } from "./math.js";
 import { binary, json } from "./server.js";
 
-/** So many bytes of poses are kept. */
+/** The largest size of the poses that are kept in memory, bytes. */
 const BUDGET = 256 << 20;
-/** So many bytes are fetched at once. */
+/** The size of the poses that are fetched together, bytes. */
 const PIECE = 2 << 20;
-/** The numbers of a body that say where it is: location and orientation. */
+/** The count of numbers in a pose: location (3) and orientation (4). */
 const POSE = 7;
-/** So many frames ahead it is known what is seen in them. */
+/** The number of frames for which the objects beside the bodies are fetched in advance. */
 const AHEAD = 30;
-/** The particles of so many frames are fetched at once; of no more bytes, some are kept. */
+/** The number of frames whose particles are fetched together, and the largest size of the particles kept in memory, bytes. */
 const SWARMS = 10;
 const SWARM_BUDGET = 64 << 20;
-/** The numbers of a particle: its place, the end of its streak, its radius, its color, whether it shines. */
+/** The count of numbers of a particle: location, end of its streak, radius, color, and whether it emits light. */
 export const PARTICLE = 11;
 const NOTHING = new Float64Array();
 
@@ -26,10 +26,10 @@ export class Run {
     this.bodies = description.bodies.length;
     this.frameBytes = Math.max(8, 8 * POSE * this.bodies);
     this.together = Math.max(1, Math.min(256, Math.floor(PIECE / this.frameBytes)));
-    /** Pieces of frames, by their number; each has `frames` of them. */
+    /** The fetched poses, in pieces by index. Each piece contains `frames` frames. */
     this.pieces = new Map();
     this.shown = new Map();
-    /** The particles of frames. */
+    /** The fetched particles, by frame. */
     this.swarms = new Map();
     this.swarmBytes = 0;
     this.ghosts = [];
@@ -39,7 +39,7 @@ export class Run {
     this.changed = () => {};
   }
 
-  /** Fetches what stays the same in a run. */
+  /** Fetches the constant data of a run. */
   static async open(id) {
     const [description, forms] = await Promise.all([json(`/api/runs/${id}`), binary(`/api/runs/${id}/forms`)]);
     return new Run(id, description, readForms(forms));
@@ -53,12 +53,12 @@ export class Run {
     return this.description.frameRate;
   }
 
-  /** The frame that is shown at a time, s. */
+  /** Returns the frame nearest to a time, s. */
   frameAt(time) {
     return Math.max(0, Math.min(this.frames - 1, Math.round(time * this.rate)));
   }
 
-  /** Takes note of how far the run is; tells whether it is another description that holds now. */
+  /** Stores the progress of the run. Returns true if the run has a new description, because it has finished. */
   async progressed(progress) {
     const settled = progress.settled && !this.progress?.settled;
     const isNew = settled && !this.description.stage && !progress.problem;
@@ -73,7 +73,7 @@ export class Run {
     return isNew;
   }
 
-  /** Where the bodies are in a frame: locations of all, then orientations of all; undefined until it is fetched. */
+  /** Returns the poses of all bodies in a frame: all locations, then all orientations. Undefined until they are fetched. */
   poses(frame) {
     if (!this.bodies) return frame < (this.progress?.recorded ?? 0) ? NOTHING : undefined;
     const piece = this.pieces.get(Math.floor(frame / this.together));
@@ -83,7 +83,7 @@ export class Run {
     return piece.numbers.subarray(at * POSE * this.bodies, (at + 1) * POSE * this.bodies);
   }
 
-  /** Where each body is at a position of the film: that of a frame, or between two. */
+  /** Returns a function from the index of a body to its pose at a position of the film, interpolated between two frames if necessary. */
   posesAt(position) {
     const frame = Math.min(Math.floor(position + 1e-9), this.frames - 1);
     const from = this.poses(frame);
@@ -95,7 +95,7 @@ export class Run {
       const [p, q] = [3 * i, turns + 4 * i];
       const here = [from[p], from[p + 1], from[p + 2], from[q], from[q + 1], from[q + 2], from[q + 3]];
       if (!to) return here;
-      // What comes or goes between the two stays as it is until then.
+      // A body that appears or disappears between the two frames keeps its pose until the second one.
       if (!isThere(here) || Number.isNaN(to[p])) return here;
       const then = [to[p], to[p + 1], to[p + 2], to[q], to[q + 1], to[q + 2], to[q + 3]];
       const sign = here[3] * then[3] + here[4] * then[4] + here[5] * then[5] + here[6] * then[6] < 0 ? -1 : 1;
@@ -105,7 +105,7 @@ export class Run {
     };
   }
 
-  /** Where one body is in a frame. */
+  /** Returns the pose of one body in a frame. */
   pose(body, frame) {
     const poses = this.poses(frame);
     if (!poses || !(body >= 0 && body < this.bodies)) return undefined;
@@ -116,17 +116,17 @@ export class Run {
     };
   }
 
-  /** What is seen in a frame beside the bodies, if it has been fetched. */
+  /** Returns the objects drawn beside the bodies in a frame. Undefined until they are fetched. */
   shownIn(frame, view) {
     return this.shown.get(`${view} ${frame}`);
   }
 
-  /** The particles of a frame, if there are any and they have been fetched. */
+  /** Returns the particles of a frame. Undefined until they are fetched. */
   particlesIn(frame) {
     return this.swarms.get(frame);
   }
 
-  /** Fetches a frame, with what is seen in it. */
+  /** Fetches a frame, with the objects drawn beside the bodies. */
   async ready(frame, view) {
     const recorded = this.progress?.recorded ?? 0;
     if (frame < recorded && !this.poses(frame)) await this.fetchPoses(Math.floor(frame / this.together), recorded);
@@ -134,7 +134,7 @@ export class Run {
     if (frame < recorded && this.description.particles && !this.particlesIn(frame)) await this.fetchParticles(frame, recorded);
   }
 
-  /** Fetches a frame, and then those after it, as long as there is room. */
+  /** Fetches a frame, and then later frames as long as the memory budget allows. */
   async want(frame, view) {
     this.wanted = { frame, view };
     if (this.loading || this.closed) return;
@@ -142,14 +142,14 @@ export class Run {
     try {
       await this.loading;
     } catch (error) {
-      // The run has been replaced, or the server has gone, and both are said elsewhere: it is asked again after a while.
+      // The run has been replaced or the server has stopped. The page reports both elsewhere, so this only waits before it tries again.
       await new Promise((resolve) => setTimeout(resolve, 500));
       this.changed();
     }
     this.loading = null;
   }
 
-  /** Whether there is anything to be seen beside the bodies, and it is known where. */
+  /** True if the scene has objects beside the bodies, and the server can tell their positions. */
   get hasShown() {
     return this.description.shows && Boolean(this.description.stage);
   }
@@ -162,7 +162,7 @@ export class Run {
       const unseen = this.hasShown ? this.firstWithout((next) => this.shownIn(next, view), frame, recorded) : undefined;
       const empty = this.description.particles ? this.firstWithout((next) => this.particlesIn(next), frame, recorded) : undefined;
       if (frame < recorded && !this.poses(frame)) {
-        // The first frame is fetched without those after it, so it is drawn sooner.
+        // The first frame is fetched without later ones, so that it is drawn sooner.
         const until = this.pieces.size ? recorded : frame + 1;
         await this.fetchPoses(Math.floor(frame / this.together), until);
       } else if (unseen !== undefined) {
@@ -178,14 +178,14 @@ export class Run {
     }
   }
 
-  /** The first of the next frames of which something is not known yet. */
+  /** Returns the first of the next frames whose data has not been fetched. `known` tests a frame. */
   firstWithout(known, frame, recorded) {
     const end = Math.min(frame + AHEAD, recorded);
     for (let next = frame; next < end; next++) if (!known(next)) return next;
     return undefined;
   }
 
-  /** The number of the next piece to be fetched ahead of need, from the present frame on. */
+  /** Returns the index of the next piece of poses to fetch in advance, from the present frame on. */
   next(frame, recorded) {
     if (!this.bodies) return undefined;
     const count = Math.ceil(recorded / this.together);
@@ -194,7 +194,7 @@ export class Run {
     for (let ahead = 0; ahead < Math.min(count, room - 1); ahead++) {
       const number = (first + ahead) % count;
       const there = Math.min(this.together, recorded - number * this.together);
-      // What is still growing is fetched when it is needed, or whole.
+      // A piece that is still growing is fetched only when it is needed or complete.
       const grows = there < this.together && !this.progress.settled;
       if (!grows && (this.pieces.get(number)?.frames ?? 0) < there) return number;
     }
@@ -242,18 +242,18 @@ export class Run {
     }
   }
 
-  /** Energies and momenta over the run, with at most so many points: 13 numbers each. */
+  /** Fetches energies and momenta of the run, with at most `points` frames. Each frame has 13 numbers. */
   async balance(points) {
     const every = Math.max(1, Math.ceil(this.frames / points));
     return new Float64Array(await binary(`/api/runs/${this.id}/balance`, { every }));
   }
 
-  /** How a body moves over some frames: 15 numbers each. */
+  /** Fetches the motion of a body over some frames. Each frame has 15 numbers. */
   async series(body, from, to, every = 1) {
     return new Float64Array(await binary(`/api/runs/${this.id}/series`, { body, from, to, every }));
   }
 
-  /** Nobody looks at it any more. */
+  /** Releases the data of the run, which is no longer shown. */
   close() {
     this.closed = true;
     this.pieces.clear();
@@ -262,7 +262,7 @@ export class Run {
   }
 }
 
-/** Triangles: for each form the numbers of its vertices and indices, positions, normals, and indices. */
+/** Reads the triangles of the base shapes. Each shape has its number of vertices and of indices, then positions, normals and indices. */
 function readForms(buffer) {
   const view = new DataView(buffer);
   const forms = [];

@@ -1,4 +1,4 @@
-// Which runs are open: those that the server announces, and those by the methods that are chosen.
+// Opens and closes runs: those that the server announces, and those with the methods that the viewer has chosen.
 
 import { short } from "./math.js";
 import { Painter } from "./painter.js";
@@ -6,29 +6,29 @@ import { drawn, element, open, panel, player, plots, redraw } from "./parts.js";
 import { Run } from "./run.js";
 import { post } from "./server.js";
 
-/** Takes in a state: which run is the scene's now, how far runs are, what is wrong. */
+/** Handles a new state of the server: the id of the scene's current run, the progress of all runs, and errors. */
 export async function changed(state) {
   open.state = state;
   open.gone = false;
   sayProblem();
   for (const run of [open.run, open.other]) {
     const progress = run && state.runs[run.id];
-    // When a run is finished, it is known where its camera stands.
+    // The positions of a run's cameras are known once the run is finished.
     if (progress && (await run.progressed(progress)) && run === open.run) paint(run);
   }
   await refresh();
-  // A run that had diverged before it was opened says so only now.
+  // A run that broke down before it was opened reports its error only now.
   sayProblem();
   redraw();
 }
 
-/** Opens the runs that should be shown, if they are others than before. */
+/** Opens the runs that should be shown, if they differ from the open ones. */
 export async function refresh() {
   const serial = ++open.serial;
   const { state } = open;
   if (!state?.current) return;
   if (open.scene !== state.current) {
-    // Another scene: what was chosen for the old one is asked for again, of the new one.
+    // The scene has changed. The chosen methods are requested again for the new scene.
     open.scene = state.current;
     open.wanted = {};
   }
@@ -47,12 +47,12 @@ export async function refresh() {
   if (open.run) plots.take([open.run, ...(open.other ? [open.other] : [])], panel.body);
 }
 
-/** The method that is chosen; an empty one is the scene's. */
+/** Returns the chosen method and timestep. Empty values stand for those of the scene. */
 function method(integrator, step) {
   return { integrator: element(integrator).value, step: element(step).value.trim() };
 }
 
-/** The number of the run by a method, which the server begins if need be; `usual` where there can be none. */
+/** Returns the id of the run with a method. The server starts the run if necessary. Returns `usual` if the run cannot be started. */
 async function wanted(which, { integrator, step }, usual) {
   if (usual && !integrator && !step) {
     delete open.wanted[which];
@@ -60,7 +60,7 @@ async function wanted(which, { integrator, step }, usual) {
   }
   const { state } = open;
   const key = `${integrator} ${step}`;
-  // What has failed may be possible with another scene; what others have driven out is begun again.
+  // A failed method is tried again when the scene has changed. A run that the server has removed is started again.
   const scene = JSON.stringify([state.current, state.problem]);
   const known = open.wanted[which];
   if (known?.key === key && (known.problem ? known.scene === scene : state.runs[known.id])) return known.id;
@@ -82,21 +82,21 @@ async function opened(id) {
   return run;
 }
 
-/** Shows a run, at the same time as the one before. */
+/** Shows a run, at the same time as the previous one. */
 async function show(id, serial) {
   let run;
   try {
     const opening = opened(id);
-    // To start the graphics processor takes as long as to fetch a run, so both are done at once.
+    // Starting the graphics processor takes as long as fetching a run, so both happen at the same time.
     if (!startPainter()) return;
     run = await opening;
   } catch (error) {
-    // It has been replaced meanwhile; the next state tells by what.
+    // The run has been replaced meanwhile. The next state of the server names the new one.
     if (error.status === 404) return;
     throw error;
   }
   if (serial !== open.serial) return run.close();
-  // The new run is not shown before there is something of it at this time.
+  // The new run is shown only when its frame at this time has been fetched.
   const frame = run.frameAt(player.time);
   run.changed = () => redraw();
   await run.ready(Math.min(frame, Math.max(0, (run.progress?.recorded ?? 1) - 1)), open.view);
@@ -111,7 +111,7 @@ async function show(id, serial) {
   if (open.other) await compare(open.other.id, serial);
 }
 
-/** Makes the picture that of a run. */
+/** Makes the painter draw a run. */
 function paint(run) {
   open.painter.take(run);
   open.strobes = null;
@@ -134,7 +134,7 @@ async function compare(id, serial) {
   paint(open.run);
 }
 
-/** Makes what draws, at the first time; tells whether it is there. */
+/** Makes the painter when it is first needed. Returns true if WebGL2 is available. */
 function startPainter() {
   if (open.painter !== undefined) return open.painter !== null;
   try {
@@ -147,7 +147,7 @@ function startPainter() {
   return open.painter !== null;
 }
 
-/** What stays the same while a run is shown. */
+/** Shows the values that are constant during a run. */
 function describe(run) {
   const { description } = run;
   const title = description.title ?? description.name;

@@ -1,4 +1,4 @@
-// What the server says. Every path but those of the page itself asks for the token that stands in the address.
+// Communicates with the server. Every request must contain the token from the address of the page, except those for the page's own files.
 
 export const token = new URLSearchParams(location.search).get("token");
 
@@ -21,15 +21,15 @@ export async function binary(path, parameters, signal) {
   return (await answer(await fetch(address(path, parameters), { signal }))).arrayBuffer();
 }
 
-/** Sends an order, and gives what the server answers. */
+/** Sends a POST request, and returns the server's answer. */
 export async function post(path, order, signal) {
   const headers = { "Content-Type": "application/json" };
   return answer(await fetch(address(path), { method: "POST", headers, body: JSON.stringify(order), signal }));
 }
 
 /**
- * Calls `changed` with the state of the server, now and whenever it changes; `lost` when the server is gone. A page that
- * nobody sees does not listen: a browser has few connections to one server.
+ * Calls `changed` with the state of the server, now and after each change. Calls `lost` when the server has stopped. A hidden page
+ * does not listen, since browsers limit the number of connections to one server.
  */
 export function follow(changed, lost) {
   let events;

@@ -1,4 +1,4 @@
-// The programs of the graphics processor. The world is measured in sizes of the scene, from its middle.
+// The shader programs of the graphics processor. Coordinates are relative to the center of the scene, in sizes of the scene.
 
 const HEAD = `#version 300 es
 precision highp float;
@@ -11,14 +11,14 @@ const TURN = `
 vec3 turned(vec4 q, vec3 v) { vec3 t = 2.0 * cross(q.xyz, v); return v + q.w * t + cross(q.xyz, t); }
 `;
 
-/** What each instance of a form has: its place in the body, its look, and where the pose of the body stands. */
+/** The attributes of an instance (one copy of a base shape): its pose in the body, its look, and the index of the body's pose. */
 const INSTANCE = `
 layout(location = 2) in vec3 a_offset;
 layout(location = 3) in vec4 a_turn;
 layout(location = 4) in vec3 a_scale;
 layout(location = 5) in vec4 a_color;
-layout(location = 6) in vec4 a_second; // its color, and the pattern
-layout(location = 7) in vec4 a_look;   // metallic, roughness, emissive, number of the pose
+layout(location = 6) in vec4 a_second; // the second color, and the pattern
+layout(location = 7) in vec4 a_look;   // metallic, roughness, emissive, index of the body's pose
 layout(location = 8) in float a_radius;
 uniform sampler2D u_poses;
 uniform mat4 u_clip;
@@ -28,7 +28,7 @@ ivec2 texelOfPose() {
 }
 `;
 
-/** Bodies: forms that are scaled and placed in a body, whose pose stands in a texture. */
+/** The vertex shader for bodies. Each piece is a base shape, scaled and placed in its body. The pose of the body is in a texture. */
 const BODY_VERTEX = `${HEAD}${TURN}
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
@@ -54,15 +54,15 @@ void main() {
 
 const EYE = `
 uniform vec3 u_eye;
-uniform vec3 u_toward;        // without perspective: where all eyes look from
+uniform vec3 u_toward;        // orthographic view: the direction to the camera; perspective: zero
 `;
 
 const LIGHT = `${EYE}
 uniform int u_lamps;
-uniform vec4 u_lamp[8];       // w is 0 for parallel light
-uniform vec4 u_lampColor[8];  // w is 1 for a lamp that casts shadows
+uniform vec4 u_lamp[8];       // location; w is 0 for parallel light
+uniform vec4 u_lampColor[8];  // linear color; w is 1 for a lamp that casts shadows
 uniform vec3 u_ambient;
-uniform vec4 u_sky[7];        // height from 0 to 1, and color in sRGB
+uniform vec4 u_sky[7];        // stops of the sky: height from 0 to 1, and color in sRGB
 uniform int u_stops;
 uniform mat4 u_shade;
 uniform float u_shadows;
@@ -94,17 +94,17 @@ float lit(vec3 place, vec3 normal) {
   return sum * 0.25;
 }
 vec3 toLamp(int i, vec3 place) { return u_lamp[i].w > 0.5 ? normalize(u_lamp[i].xyz - place) : u_lamp[i].xyz; }
-// How much of a lamp's light gets to a place: only the first one casts shadows.
+// The fraction of a lamp's light that reaches a point. Only the first lamp casts shadows.
 float reaches(int i, vec3 place, vec3 normal) { return i == 0 && u_lampColor[0].w > 0.5 ? lit(place, normal) : 1.0; }
 `;
 
-/** Balls, where there are many: each is a square that faces the eye, on which every pixel finds its place on the ball. */
+/** The vertex shader for many balls. Each ball is a square that faces the camera, and each pixel computes its point on the ball. */
 const BALL_VERTEX = `${HEAD}${TURN}${EYE}
 layout(location = 0) in vec3 a_position;
 ${INSTANCE}out vec3 v_place;
-flat out vec4 v_ball;    // its centre and radius
-flat out vec4 v_pose;    // how it is turned
-flat out vec4 v_offset;  // its place in the body, and the size of its pattern
+flat out vec4 v_ball;    // center and radius of the ball
+flat out vec4 v_pose;    // orientation of the ball
+flat out vec4 v_offset;  // location of the ball in its body, and the size of its pattern
 flat out vec4 v_color;
 flat out vec4 v_second;
 flat out vec4 v_look;
@@ -119,7 +119,7 @@ void main() {
   float far = length(away);
   vec3 back = away / far;
   vec3 right = normalize(cross(abs(back.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), back));
-  // As large as the ball is seen, from near.
+  // From a near viewpoint, a ball covers more than its radius in the picture.
   float size = u_toward == vec3(0.0) ? radius * far / sqrt(max(far * far - radius * radius, 1e-12)) : radius;
   v_place = center + (right * a_position.x + cross(back, right) * a_position.y) * min(size, 4.0 * radius) * 1.02;
   v_color = a_color;
@@ -160,7 +160,7 @@ void find() { place = v_place; normalThere = normalize(v_normal); inside = v_ins
 `;
 
 const bodyFragment = (surface) => `${HEAD}${LIGHT}
-uniform vec4 u_ghost;   // a veil of this color, and how much is seen through
+uniform vec4 u_ghost;   // color and opacity of ghosts; the opacity 0 means no ghost
 ${surface}
 flat in vec4 v_color;
 flat in vec4 v_second;
@@ -230,11 +230,11 @@ void main() {
   color = vec4(float(number & 255), float((number >> 8) & 255), float((number >> 16) & 255), 255.0) / 255.0;
 }`;
 
-/** The programs for bodies: by triangles, and as balls. */
+/** The shader programs for bodies: one set for triangles, and one for balls. */
 export const BODY = { body: [BODY_VERTEX, bodyFragment(FORM)], depth: [BODY_VERTEX, depthFragment(FORM)], pick: [BODY_VERTEX, pickFragment(FORM)] };
 export const BALLS = { body: [BALL_VERTEX, bodyFragment(BALL)], depth: [BALL_VERTEX, depthFragment(BALL)], pick: [BALL_VERTEX, pickFragment(BALL)] };
 
-/** Ground and planes: a large square that fades into the horizon. */
+/** The vertex shader for the ground and planes: a large square that fades into the horizon. */
 export const GROUND_VERTEX = `${HEAD}
 layout(location = 0) in vec2 a_corner;
 uniform mat4 u_clip;
@@ -310,24 +310,24 @@ void main() {
 }`;
 
 /**
- * Lines with a width in the world, and of a pixel at least; one that tapers is the head of an arrow, and one whose ends are at one
- * place is a ball.
+ * The vertex shader for lines. A line has a width in the world, and is at least one pixel wide. A line with the radius 0 at one end is
+ * the head of an arrow. A line with two equal ends is a ball.
  */
 export const LINE_VERTEX = `${HEAD}
 layout(location = 0) in vec2 a_corner;
-layout(location = 1) in vec4 a_from; // and the radius there
+layout(location = 1) in vec4 a_from; // one end of the line, and the radius at this end
 layout(location = 2) in vec4 a_to;
 layout(location = 3) in vec4 a_color;
 uniform mat4 u_clip;
 uniform vec2 u_pixels;
-uniform float u_focal;   // the length of 1 at distance 1, in pixels
+uniform float u_focal;   // length in pixels of a unit length at unit distance
 out vec4 v_color;
 out float v_side;
-out float v_end; // from -1 to 1 across a ball; 0 on a line
+out float v_end; // position along a ball's diameter, from -1 to 1; 0 on a line
 void main() {
   vec4 from = u_clip * vec4(a_from.xyz, 1.0);
   vec4 to = u_clip * vec4(a_to.xyz, 1.0);
-  // What is behind the eye is cut off.
+  // The part of the line behind the camera is cut off.
   const float NEAR = 1e-5;
   if (from.w < NEAR) from = mix(to, from, (to.w - NEAR) / max(1e-9, to.w - from.w));
   if (to.w < NEAR) to = mix(from, to, (from.w - NEAR) / max(1e-9, from.w - to.w));

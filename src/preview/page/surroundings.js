@@ -1,4 +1,4 @@
-// Sky and ambient light of each environment, roughly as POV-Ray's templates have them: heights, and colors in sRGB.
+// The sky and ambient light of each environment, similar to POV-Ray's templates. A stop of a sky is a height and a color in sRGB.
 
 const DAYLIGHT = [
   [0.5, 0.89, 0.925, 0.95], [0.508, 0.82, 0.89, 0.95], [0.522, 0.68, 0.815, 0.94], [0.55, 0.5, 0.7, 0.905],
@@ -8,7 +8,7 @@ const STUDIO = [[0.5, 0.88, 0.88, 0.88], [0.54, 0.86, 0.86, 0.86], [0.72, 0.55, 
 const NIGHT = [[0.5, 0.1, 0.13, 0.2], [0.53, 0.075, 0.1, 0.17], [0.6, 0.035, 0.05, 0.1], [1, 0.01, 0.015, 0.04]];
 const even = (r, g, b) => [[0.5, r, g, b], [1, r, g, b]];
 
-/** What shines before it is known where the lamps of a run are. */
+/** The lamp that is used until the lamps of a run are known. */
 export const FIRST_LAMP = { location: [-13, 22, 16], color: [1.2, 1.15, 1.05], shadows: false, sun: false };
 
 const PRESETS = {
@@ -20,7 +20,7 @@ const PRESETS = {
   space: { sky: even(0, 0, 0), ambient: [0.015, 0.015, 0.015], stars: 1 },
 };
 
-/** What surrounds a run: the stops of its sky, ambient light, stars. */
+/** Returns the surroundings of a run: the stops of its sky, the ambient light, and the stars. */
 export function surroundings({ preset, sky, stage }) {
   const usual = PRESETS[preset];
   const stops = sky ? even(...sky) : usual.sky;

@@ -1,9 +1,9 @@
-// Labels and numbers, over the picture. All of it is set as text: what a scene says is never read as anything else.
+// Labels and numbers over the picture. They are set as plain text, so that texts of a scene are never interpreted as HTML.
 
 import { AXES } from "./lines.js";
 import { add, css, projected, sub, times, turned } from "./math.js";
 
-/** Of more triads than this, the letters would hide the picture. */
+/** The largest number of triads of axes with letters. More letters would hide the picture. */
 const MOST_TRIADS = 20;
 
 export class Texts {
@@ -11,13 +11,13 @@ export class Texts {
     this.element = element;
   }
 
-  /** Puts up the texts of a frame, and the letters of triads of axes. `at(body)` tells where a body is. */
+  /** Shows the texts of a frame, and the letters at triads of axes. `at(body)` returns the location of a body. */
   show(shown, view, space, at, triads) {
     const [left, top, width, height] = view.rectangle;
     const spans = [];
-    // In the scene's own picture, its width is 2 and its middle 0.
+    // The coordinates of texts go from -1 to 1 across the picture of the scene's camera.
     const place = (x, y) => [left + ((x + 1) / 2) * width, top + height / 2 - (y / 2) * width];
-    // Beside ghosts, a label stands where the scene's camera has them; elsewhere only that of the present moment is shown.
+    // With the scene's camera, labels are also shown beside ghosts. With any other camera, only the label of the present moment is shown.
     const latest = new Set(new Map((shown?.texts ?? []).map((text) => [text.beside ? text.name : text, text])).values());
     for (const text of shown?.texts ?? []) {
       let [x, y] = place(text.x, text.y);
@@ -43,7 +43,7 @@ export class Texts {
     return span;
   }
 
-  /** x, y and z at the ends of a triad. */
+  /** Returns the letters x, y and z at the ends of a triad. */
   letters({ location, turn, length: arm }, view, space) {
     return AXES.flatMap((color, axis) => {
       const end = add(location, turned(turn, [0, 1, 2].map((k) => (k === axis ? 1.14 * arm : 0))));
@@ -69,7 +69,7 @@ export class Texts {
   }
 }
 
-/** Where a label stands beside its body, as another camera than the scene's sees it. */
+/** Returns the position of a label beside its body, for a camera other than the scene's. */
 function beside(text, view, space, at, width) {
   const [body, side] = text.beside;
   const location = at(body);

@@ -1,20 +1,20 @@
-// From where the scene is seen: by its own camera, or by one that the viewer turns.
+// The viewpoint of the picture: the scene's own camera, or a camera that the viewer controls.
 
 import { add, axes, length, lookAt, orthographic, perspective, product, sub, times, unit } from "./math.js";
 
 export class Viewpoint {
   constructor() {
-    /** Whether the viewer has taken the camera. */
+    /** True if the viewer controls the camera. */
     this.own = false;
     this.aim = [0, 0, 0];
     this.distance = 1;
-    /** Around the vertical, and above the horizon, radians. */
+    /** The angle of the camera around the vertical axis, and its angle above the horizon, radians. */
     this.around = 0.2;
     this.above = 0.2;
     this.tangent = Math.tan((20 * Math.PI) / 180);
   }
 
-  /** Takes the camera where the scene's stands. */
+  /** Places the viewer's camera where the scene's camera is. */
   take(camera) {
     if (this.own) return;
     this.own = true;
@@ -33,12 +33,12 @@ export class Viewpoint {
     this.above = Math.max(-1.55, Math.min(1.55, this.above + y));
   }
 
-  /** Comes nearer or goes away. */
+  /** Multiplies the distance of the camera from its target by a factor. */
   approach(factor) {
     this.distance *= factor;
   }
 
-  /** Shifts what is looked at, in parts of the height of the picture. */
+  /** Moves the target of the camera. `x` and `y` are fractions of the picture's height. */
   shift(x, y, aspect) {
     const { right, up } = axes(this.location, this.aim);
     const height = (2 * this.distance * this.tangent) / Math.max(aspect, 1e-6);
@@ -51,8 +51,8 @@ export class Viewpoint {
   }
 
   /**
-   * What is needed to draw: the picture is `width` x `height`, the film fits into it; `nearest(eye)` is how far it is to
-   * what is nearest, m.
+   * Computes the matrices and vectors for drawing. The picture has `width` x `height` pixels, and the film's rectangle fits into it.
+   * `nearest(eye)` returns the distance to the nearest object, m.
    */
   view(camera, { center, size }, width, height, film, nearest) {
     const [w, h] = film;
@@ -64,9 +64,9 @@ export class Viewpoint {
     const { right, up, back } = axes(location, aim);
     const eye = times(sub(location, center), 1 / size);
     const distance = Math.max(1e-6, length(sub(location, aim)) / size);
-    // How much is seen beside the film.
+    // The size of the whole picture relative to that of the film's rectangle.
     const [moreX, moreY] = [width / rectangle[2], height / rectangle[3]];
-    // What is near is seen as well, also where the camera looks far away.
+    // The near clipping plane follows from the nearest object, so that near objects are drawn even if the camera looks at a distant point.
     const near = Math.max(1e-6, Math.min(0.01 * distance, (0.3 * nearest(location)) / size));
     const flat = !this.own && camera.width;
     const reach = 240 + 4 * distance;
@@ -85,7 +85,7 @@ export class Viewpoint {
       tangentX: tangentX * moreX, tangentY: tangentY * moreY, filmTangents: [tangentX, tangentY],
       clip: product(projection, lookAt(eye, { right, up, back })),
       toward: flat ? back : [0, 0, 0],
-      // The length of 1 at distance 1, in pixels.
+      // The length in pixels of a unit length at unit distance.
       focal: width / 2 / (tangentX * moreX),
     };
   }
