@@ -1,4 +1,4 @@
-// From the start of `jabuka preview` to the first frame on the page, in a headless browser that is open already.
+// Measures the time from the start of `jabuka preview` to the first frame on the page, in a headless browser that is already open.
 //
 //   cargo build --release && tests/preview/browser ../../benches/preview.mjs target/release/jabuka scenes/parabola.toml
 

@@ -1,4 +1,4 @@
-/* Gravitation of N bodies as one writes it in C: every pair once. Prints the seconds of one evaluation of all forces. */
+/* A straightforward implementation of the gravitation of N bodies in C: every pair once. Prints the time of one evaluation of all forces, s. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

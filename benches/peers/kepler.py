@@ -1,4 +1,4 @@
-"""The orbits of `benches/kepler.rs` with REBOUND's IAS15: the same copies, the same figures, one thread.
+"""Runs the orbits of `benches/kepler.rs` with REBOUND's IAS15 on one thread, with the same rotated copies, and prints the same figures.
 
     python benches/peers/kepler.py
 """

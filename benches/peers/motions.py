@@ -1,10 +1,10 @@
-"""How well MuJoCo and SciPy solve the oscillator, the drag and the wing nut of docs/validation.md. Writes TOML.
+"""Measures the errors of MuJoCo and SciPy for the oscillator, the drag and the wing nut of docs/validation.md. Writes TOML.
 
     python motions.py > motions.toml
 
 Needs `pip install mujoco==4.0.0 scipy==1.17.1 numpy`. The oscillator is x'' = -4 x from (1, 0) at (0, 1), the drag x'' = (0, -2) - 2 x' from rest at the
-origin with the velocity (1, 0), both for 1 s; the error is that of the place. The nut has the moments 1, 2, 3 and turns by (0.001, 5, 0.001);
-the error is that of its angular velocity in its own frame after 10 s. Seconds are of the processor, the least of three runs.
+origin with the velocity (1, 0), both for 1 s; the error is that of the position. The nut has the moments of inertia 1, 2, 3 and the angular velocity (0.001, 5, 0.001);
+the error is that of its angular velocity in body axes after 10 s. `seconds` is processor time, the least of three runs.
 """
 
 import time
@@ -36,11 +36,11 @@ def by_mujoco(problem, integrator, step):
     )
     data = mujoco.MjData(model)
     if problem == "wing_nut":
-        # The velocities of a free joint: of the place, and of the turn in the body's frame.
+        # The velocities of a free joint: the linear velocity, and the angular velocity in body axes.
         data.qvel[3:] = 0.001, 5, 0.001
     elif problem == "oscillator":
         data.qpos[:], data.qvel[:] = (1, 0), (0, 1)
-        # A spring is at rest where the joint is zero.
+        # The rest position of a spring is where the joint coordinate is zero.
         assert (model.qpos_spring == 0).all()
     else:
         data.qvel[:] = 1, 0

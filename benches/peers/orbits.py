@@ -1,10 +1,10 @@
-"""How well SciPy's DOP853 and REBOUND's IAS15 and WHFast solve the problems of problems.py. Writes TOML.
+"""Measures the errors of SciPy's DOP853 and of REBOUND's IAS15 and WHFast for the problems of problems.py. Writes TOML.
 
     python orbits.py [PROBLEM…] > orbits.toml
 
-Needs `pip install rebound==5.2.2 scipy numpy`. `location_error` is the largest distance of a body from its exact place. For the planets, IAS15
-is the reference; DOP853 agrees with it as far as its tolerance lets it. Seconds are of the processor, the least of three runs, or of
-one that takes more than 5 s; `yardstick` is a plain loop of 10⁷ steps of Euler–Cromer for an oscillator in C by `cc -O2`, to compare machines.
+Needs `pip install rebound==5.2.2 scipy numpy`. `location_error` is the largest distance of a body from its exact position. For the planets, IAS15
+is the reference; DOP853 agrees with IAS15 within its tolerance. `seconds` is processor time, the least of three runs, or of
+a single run that takes more than 5 s; `yardstick` is a plain loop of 10⁷ steps of Euler–Cromer for an oscillator in C by `cc -O2`, to compare machines.
 """
 
 import subprocess
@@ -52,7 +52,7 @@ def energy(G, masses, places, velocities):
 def energy_error(problem, places, velocities):
     G, masses, start, moving = problem[:4]
     if masses[1] == 0:
-        # The energy of a body without mass is that of 1 kg in the field of the other.
+        # For a body without mass, the energy is that of 1 kg in the field of the other body.
         of = lambda x, v: 0.5 * (v[1] ** 2).sum() - G * masses[0] / numpy.linalg.norm(x[1] - x[0])
     else:
         of = lambda x, v: energy(G, masses, x, v)
@@ -122,7 +122,7 @@ def measure(name):
             if seconds[0] > 5:
                 break
         if end is None:
-            # The first one is the reference.
+            # The first result is the reference for the later results.
             end = places
         away = numpy.linalg.norm(places - end, axis=1).max()
         print("[[record]]")

@@ -1,4 +1,4 @@
-"""The planets of `benches/planets.rs` with REBOUND: WHFast with its corrector of 17th order, and IAS15; one thread.
+"""Runs the planets of `benches/planets.rs` with REBOUND on one thread: WHFast with its corrector of 17th order, and IAS15.
 
     python benches/peers/planets.py
 """

@@ -1,4 +1,4 @@
-"""The reference problems of orbits: masses, locations, velocities, time, and where the bodies are at the end, with G = 1 unless said otherwise.
+"""The reference problems of orbits: masses, locations, velocities, time, and the positions of the bodies at the end. G = 1 unless stated otherwise.
 
 Kepler returns to its start. The end of the Pleiades is that of the Test Set for IVP Solvers 2.4, problem PLEI, rounded to 16 digits. The
 figure eight is C. Simó's, as A. Chenciner and R. Montgomery print it (Ann. Math. 152 (2000) 881): its start has nine digits, so it returns
@@ -45,7 +45,8 @@ def figure_eight():
     return 1.0, numpy.ones(3), places, numpy.array([moves, moves, -2 * moves]), 6.32591398, places
 
 
-# a, e, inclination, mean longitude, longitude of the perihelion, of the ascending node; the sun's mass over theirs.
+# Semi-major axis, eccentricity, inclination, mean longitude, longitude of the perihelion, longitude of the ascending node, and the sun's mass
+# divided by the planet's mass.
 ELEMENTS = {
     "mercury": (0.38709927, 0.20563593, 7.00497902, 252.25032350, 77.45779628, 48.33076593, 6023600),
     "venus": (0.72333566, 0.00677672, 3.39467605, 181.97909950, 131.60246718, 76.67984255, 408523.71),

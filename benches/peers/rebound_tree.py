@@ -1,9 +1,9 @@
-"""Gravitation of many stars by REBOUND's tree, for `cargo bench --bench gravitation -- tree`.
+"""Computes the gravitation of many stars by REBOUND's tree, for `cargo bench --bench gravitation -- tree`.
 
     python rebound_tree.py STARS ANGLE SOFTENING STEPS OUT
 
-STARS holds seven numbers of 64 bits for each star: location, velocity, mass. Prints the version, and the seconds of processor time of a
-step of the leapfrog, the median of STEPS. Writes the accelerations to OUT. Needs `pip install rebound==5.2.2 numpy`; that build has no OpenMP.
+STARS holds seven numbers of 64 bits for each star: location, velocity, mass. Prints REBOUND's version, and the processor time of a
+leapfrog step in seconds, the median of STEPS steps. Writes the accelerations to OUT. Needs `pip install rebound==5.2.2 numpy`; that build has no OpenMP.
 """
 
 import sys
