@@ -39,7 +39,8 @@ fn no_text_names_an_option_or_a_command_that_there_is_not() {
     assert!(tree.len() > 10 && tree["render"].contains("video"), "{tree:?}");
     let mut known: BTreeSet<&str> = tree.values().flatten().map(String::as_str).collect();
     known.extend(FOREIGN.iter().flat_map(|(_, options)| *options));
-    let mut texts = vec![root().join("README.md"), root().join("templates/README.md")];
+    let mut texts =
+        vec![root().join("README.md"), root().join("CHANGELOG.md"), root().join("templates/README.md")];
     texts.extend(files(&root().join("src"), &[".rs", ".toml", ".html"]));
     texts.extend(
         ["explanations", "docs", "scenes"].map(|name| files(&root().join(name), &[".md", ".toml"])).concat(),
