@@ -89,7 +89,8 @@ impl Field<'_> {
 /// The errors of positions and speeds below this fraction of the typical values are measured relative to this fraction.
 const SMALL: f64 = 0.1;
 
-/// The smallest length and speed to which errors are relative. They follow from the size of the whole motion.
+/// Lower limits for the relative error of positions and speeds: errors of smaller values are divided by these limits. The limits follow
+/// from the size of the whole motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scales {
     /// A tenth of the root-mean-square distance of the bodies from their mean position, or of the largest radius of gyration of a body if

@@ -31,7 +31,7 @@ pub trait ForceLaw: Debug + Send + Sync {
 /// A force F(x, v, t) on each of some bodies, given by a [`ForceLaw`].
 ///
 /// A law with a potential U satisfies F(x, 0, t) = −∂U/∂x. The part F(x, v, t) − F(x, 0, t) that depends on the velocity has no potential,
-/// so its work is added to the accounts. For a law without a potential, the work of the whole force is added.
+/// so its work is added to the energy accounts. For a law without a potential, the work of the whole force is added.
 #[derive(Debug)]
 pub struct FormulaForce {
     bodies: Vec<BodyId>,

@@ -14,7 +14,7 @@ use super::{Force, Loads, Moment};
 /// *Methods of Celestial Mechanics*, ch. III.
 #[derive(Debug, Clone, PartialEq)]
 pub struct J2 {
-    /// The oblate planet.
+    /// The oblate planet whose bulge attracts the bodies.
     pub planet: BodyId,
     /// The bodies that feel the bulge's gravity and act back on the planet. The planet itself is not in the list.
     pub bodies: Vec<BodyId>,

@@ -110,7 +110,7 @@ fn of_mesh(mesh: &Mesh, scale: f64, up: DVec3, height: f64) -> Immersed {
 struct Cut {
     up: DVec3,
     tip: DVec3,
-    /// The sum of the pyramids, with the moment relative to `tip`.
+    /// The summed volumes and moments of the pyramids. The moments are relative to `tip`.
     sum: Immersed,
 }
 
