@@ -15,7 +15,7 @@ use super::file::{self, At};
 use super::{PART, SAVING};
 use crate::simulate::{Checkpoint, Store};
 
-/// The size up to which the pages of a run stay in memory, bytes.
+/// The size up to which the recorded pages of a run stay in memory, bytes.
 const IN_MEMORY: usize = 1 << 20;
 /// The disk space that is left free for other programs, bytes. A disk with less free space counts as full.
 const RESERVE: u64 = 32 << 20;
@@ -44,7 +44,7 @@ enum Page {
     InFile(usize, At),
 }
 
-/// A file that pages are written to.
+/// A file that the recorded pages of a run are written to.
 struct Part {
     file: File,
     /// The path of the file. `None` for a nameless temporary file.
@@ -122,8 +122,8 @@ impl Spill {
 }
 
 impl Inner {
-    /// Moves all pages into the named file. Returns its path and the positions of the pages. `None` if there is no named file, or the
-    /// pages are in several files.
+    /// Moves all recorded pages into the file in the cache folder. Returns the path of the file and the positions of the pages. `None` if
+    /// there is no such file, or the pages are in several files.
     fn settle(&mut self, folder: &Path, key: Key) -> io::Result<Option<(PathBuf, Vec<At>)>> {
         if self.files.is_empty() {
             self.files.push(Part::named(folder, key)?);

@@ -55,14 +55,14 @@ struct Form {
 enum Place {
     /// The center of the body, as a vector.
     Centre,
-    /// A matrix. The quaternion rotates the shape before the body's own orientation is applied.
+    /// A transform matrix. The quaternion rotates the shape before the orientation of the body is applied.
     Matrix(DQuat),
     /// The normal of a plane, and its distance from the origin. The vector is the normal in body axes.
     Plane(DVec3),
 }
 
 impl Block {
-    /// Plans the block of a scene. `materials` are in the order of the scene's materials.
+    /// Plans the text of all bodies in a scene. `materials` are in the order of the scene's materials.
     pub(super) fn new(scene: &Scene, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
         let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];

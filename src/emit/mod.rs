@@ -62,9 +62,9 @@ pub struct Emitter {
     names: Vec<Arc<str>>,
     /// The names of the particle emitters, by index in the scene.
     emitters: Vec<Arc<str>>,
-    /// The length of the longest block of bodies so far, bytes.
+    /// The length of the longest text of all bodies in a frame so far, bytes.
     longest: AtomicUsize,
-    /// The length of the longest block of other drawn objects so far, bytes.
+    /// The length of the longest text of all other drawn objects in a frame so far, bytes.
     longest_beside: AtomicUsize,
 }
 

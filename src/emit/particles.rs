@@ -29,7 +29,7 @@ pub(super) struct Particles {
 /// The looks of an emitter's particles. `streak` is the time of motion that each particle shows as a streak, s.
 struct Looks {
     name: Arc<str>,
-    /// The look of each age group, from birth to death.
+    /// The look of the particles in each age group, from birth to death.
     groups: Vec<Look>,
     streak: f64,
 }
@@ -43,7 +43,7 @@ struct Look {
 }
 
 impl Particles {
-    /// Prepares the text that is equal in all frames.
+    /// Prepares the part of the particles' text that is equal in all frames.
     pub(super) fn new(scene: &Scene, style: Style) -> Particles {
         let looks = |emitter: &Emitter| Looks {
             name: text::comment(&emitter.name).into(),

@@ -22,7 +22,7 @@ pub enum OutputError {
     Incomplete(PathBuf),
     /// A file or folder that jabuka writes to is a symbolic link, whose target may be anywhere.
     Link(PathBuf),
-    /// Another process writes into the folder.
+    /// Another jabuka process writes into the same folder.
     Locked(PathBuf),
     /// A file could not be read, written or removed.
     Io(PathBuf, io::Error),

@@ -10,7 +10,7 @@ use crate::render::RenderError;
 
 /// The reason why a request to the server fails.
 pub(super) enum Failed {
-    /// The run has been removed, or has no such frame or body.
+    /// The requested run has been removed, or has no such frame or body.
     Gone,
     /// The error report of a run, a scene or POV-Ray, as the terminal would show it.
     Report(Report),

@@ -13,7 +13,7 @@ pub(super) const HEAD: usize = 13;
 pub(super) const BODY: usize = 15;
 /// The count of numbers in a pose: a location and an orientation.
 const POSE: usize = 7;
-/// The size of a number, bytes.
+/// The size of an encoded number, bytes.
 const NUMBER: usize = 8;
 
 /// Returns the size of the poses of all bodies in one frame, bytes.

@@ -149,7 +149,7 @@ impl Frames {
 async fn events(
     State(server): State<Server>,
 ) -> Sse<impl Stream<Item = Result<Event, std::convert::Infallible>>> {
-    /// The smallest interval between two events.
+    /// The smallest interval between two events that the server sends to the page.
     const PAUSE: Duration = Duration::from_millis(30);
     let (sender, receiver) = mpsc::channel(1);
     tokio::spawn(async move {

@@ -50,7 +50,7 @@ pub(super) struct Outcome {
     pub(super) survey: Survey,
     /// The contents of the pictures: the plan of the main camera, then the plan of each view.
     pub(super) plans: Vec<Plan>,
-    /// The warnings about the run.
+    /// The warnings about the run, such as energy drift.
     pub(super) warnings: Report,
 }
 

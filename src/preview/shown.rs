@@ -29,7 +29,7 @@ pub(super) struct Shown {
     bar: Option<Bar>,
 }
 
-/// A camera at one time.
+/// The position, direction and lens of a camera at one time, for the page.
 #[derive(Serialize)]
 pub(super) struct Camera {
     location: Vector,
@@ -40,7 +40,7 @@ pub(super) struct Camera {
     width: Option<f64>,
 }
 
-/// A light at one time.
+/// The position and color of a light at one time, for the page.
 #[derive(Serialize)]
 pub(super) struct Light {
     location: Vector,
@@ -51,7 +51,7 @@ pub(super) struct Light {
     sun: bool,
 }
 
-/// A line of a grid.
+/// A line of the coordinate grid. `radius` is half its width, m.
 #[derive(Serialize)]
 pub(super) struct Line {
     from: Vector,
@@ -75,7 +75,7 @@ struct Axes {
     length: f64,
 }
 
-/// A part of a spring or of a joint.
+/// A part of a spring or a joint (coil, rod, rope or pin), for the page.
 #[derive(Serialize)]
 struct Link {
     #[serde(flatten)]

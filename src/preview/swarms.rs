@@ -12,7 +12,7 @@ use crate::simulate::Swarms;
 /// The approximate limit of drawn particles, over all emitters. The page draws all particles anew in each frame.
 const MOST: f64 = 10_000.0;
 
-/// The particles of a run. They are computed when a page first requests them.
+/// The computed particles of a run. `None` until a page requests them.
 #[derive(Default)]
 pub(super) struct Kept(Mutex<Option<Swarms>>);
 

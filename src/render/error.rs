@@ -24,7 +24,7 @@ pub enum RenderError {
     NotOurs(PathBuf),
     /// The path that jabuka would write to is a symbolic link.
     Link(PathBuf),
-    /// Another process renders into the folder.
+    /// Another jabuka process renders into the same folder.
     Locked(PathBuf),
     /// The disk has no space left for images.
     DiskFull(PathBuf),

@@ -26,7 +26,7 @@ pub struct Image {
     pub bytes: Vec<u8>,
 }
 
-/// An error of computing or writing the mean of images.
+/// An error of computing or writing the mean of several images.
 #[derive(Debug)]
 pub enum ImageError {
     /// The list of images is empty.

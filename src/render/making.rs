@@ -82,7 +82,7 @@ impl<'a> Making<'a> {
     fn failure(&mut self, unit: &Unit, said: &str) -> Result<(), RenderError> {
         /// If this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
         const HOPELESS: usize = 8;
-        // Other moments of the failed frame may still be rendered later. Their images are ignored.
+        // Other moments of the failed frame may still be rendered. Their images are ignored.
         self.exposures.remove(&unit.index);
         if !self.failed.insert(unit.index) {
             return Ok(());

@@ -166,7 +166,8 @@ impl<'a> Pool<'a> {
         let share = if is_first { 1 } else { self.share() };
         let mut units = Vec::new();
         while let Some(next) = self.queue.front() {
-            // After a crash, a picture gets a process of its own, since other pictures in the same process may have caused the crash.
+            // A script that uses POV-Ray's clock needs a process of its own. So does a picture after a crash, since another picture in the
+            // same process may have caused the crash.
             let alone = next.asks_clock || self.deaths.contains_key(next);
             if units.len() >= share || (alone && !units.is_empty()) {
                 break;

@@ -16,7 +16,8 @@ pub struct PovRay {
     path: PathBuf,
     version: String,
     confinement: Confinement,
-    /// POV-Ray's error message in the sandbox with limited read access. `None` if POV-Ray starts there; otherwise it may read all files.
+    /// The reason why POV-Ray may read all files: its error message when it was started with limited read access. `None` if it starts with
+    /// limited read access.
     unlimited: Option<String>,
 }
 

@@ -26,12 +26,12 @@ pub(super) struct Moment {
     /// The magnitudes of the changes of linear and angular momentum since the first frame: in the run, and in the run at half the
     /// timestep.
     pub(super) changed: [[f64; 2]; 2],
-    /// The mean-square differences between the run and its twin: of positions (m²), velocities (m²/s²) and orientations (rad²). `None`
-    /// after the end of the twin.
+    /// The mean-square differences between the run and a run from a slightly different start: of positions (m²), velocities (m²/s²) and
+    /// orientations (rad²). `None` after the end of either run.
     pub(super) apart: Option<[f64; 3]>,
 }
 
-/// The result of comparing a run with the same run at smaller timesteps and with its twin.
+/// The result of comparing a run with the same run at smaller timesteps, and with a run from a slightly different start (its twin).
 #[derive(Debug, Default)]
 pub(super) struct Compared {
     pub(super) moments: Vec<Moment>,
@@ -46,8 +46,8 @@ pub(super) struct Compared {
     pub(super) momenta: [f64; 2],
     /// The energy brought in by everything without a potential, at the last frame of the run.
     pub(super) accounts: Accounts,
-    /// The breakdowns of the four runs: at the timestep, at its half, at its quarter, and of the twin. `None` for a run that reached its
-    /// end.
+    /// The breakdowns of the four runs: at the timestep, at its half, at its quarter, and of the run from a slightly different start.
+    /// `None` for a run that reached its end.
     pub(super) ended: [Option<Ended>; 4],
     pub(super) steps: [u64; 3],
     /// The largest energy error in the run at half the timestep, relative to the largest kinetic energy.
@@ -75,7 +75,8 @@ struct Seen {
     energy_at_half: f64,
 }
 
-/// Simulates the run, the run at half and at a quarter of its timestep, and its twin side by side, and compares them frame by frame.
+/// Simulates four runs side by side, and compares them frame by frame: the scene's run, the run at half and at a quarter of its timestep,
+/// and a run from a slightly different start (its twin).
 pub(super) fn compare(
     scene: &Scene,
     own: Setting,

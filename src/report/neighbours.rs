@@ -11,10 +11,10 @@ use serde::Serialize;
 use super::measure::Measured;
 use crate::scene::Scene;
 
-/// The initial distance between the run and its twin, as a fraction of the size of the scene.
+/// The initial distance between two neighboring runs, as a fraction of the size of the scene.
 pub(super) const APART: f64 = 1e-9;
 
-/// The largest distance at which the run and its twin count as neighbors, as a fraction of the size of the scene.
+/// The largest distance at which two runs count as neighbors, as a fraction of the size of the scene.
 const FAR: f64 = 0.02;
 
 /// The largest mean of MEGNO's Y that does not indicate chaos. (A distance that grows like t² gives 4.)
@@ -26,28 +26,28 @@ const REGULAR: f64 = 3.5;
 /// The largest growth factor of the distance in regular motion. Beyond it, the motion is not regular, whatever the mean of Y.
 const LARGE: f64 = 1e4;
 
-/// How a run and its twin, which starts very close to it, separate.
+/// How two neighboring runs, whose starts differ very slightly, separate with time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Parting {
     /// The separation is unknown, because no body could be displaced or there were too few frames.
     Unknown,
-    /// The run and its twin separate no faster than in regular motion.
+    /// Neighboring runs separate no faster than in regular motion.
     Regular {
-        /// The ratio of the final distance between the run and its twin to the initial one.
+        /// The ratio of the final distance between the neighboring runs to the initial one.
         growth: f64,
     },
-    /// The run and its twin separate faster than in regular motion, but the run is too short to show chaos.
+    /// Neighboring runs separate faster than in regular motion, but the run is too short to show chaos.
     Unclear {
-        /// The ratio of the final distance between the run and its twin to the initial one.
+        /// The ratio of the final distance between the neighboring runs to the initial one.
         growth: f64,
     },
-    /// The run and its twin separate within a short time, by impacts.
+    /// Neighboring runs separate within a short time, by impacts.
     Sudden {
-        /// The time at which the run and its twin stop being neighbors, s.
+        /// The time at which the two runs are too far apart to count as neighbors, s.
         time: f64,
     },
-    /// The run and its twin separate exponentially: the motion is chaotic.
+    /// Neighboring runs separate exponentially: the motion is chaotic.
     Chaotic {
         /// The Lyapunov time, in which the distance grows by the factor e, s.
         lyapunov_time: f64,
@@ -56,8 +56,8 @@ pub enum Parting {
     },
 }
 
-/// Returns the scene of the twin: the bodies that forces move start at slightly different positions with slightly different velocities. In
-/// a scene with contacts, only the velocities differ, so that no bodies overlap. A plane motion stays in its plane.
+/// Returns the scene of a neighboring run: the bodies that forces move start at slightly different positions with slightly different
+/// velocities. In a scene with contacts, only the velocities differ, so that no bodies overlap. A plane motion stays in its plane.
 pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
     let mut twin = scene.clone();
     let starts = || scene.bodies.iter().map(|body| body.start.location);
@@ -122,8 +122,8 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
     (DVec3::new(around * cos, height, around * sin) * free).normalize_or_zero()
 }
 
-/// Classifies the separation of a run and its twin. `times` are in s; `distances` are fractions of the size of the scene. Also returns the
-/// mean of MEGNO's Y, 0 if unknown.
+/// Classifies the separation of two neighboring runs. `times` are in s; `distances` are fractions of the size of the scene. Also returns
+/// the mean of MEGNO's Y, 0 if unknown.
 pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
     /// The smallest number of frames from which the separation can be classified.
     const FEW: usize = 8;
@@ -191,7 +191,7 @@ mod tests {
     fn exponential_growth_is_told_from_powers_of_time() {
         assert!(matches!(of(|_| 1.0), Parting::Regular { growth: 1.0 }));
         assert!(matches!(of(|t| 1.0 + 50.0 * t), Parting::Regular { .. }));
-        // A planet's orbit: the distance between the twins grows in proportion to time, and is a hundred times larger near the sun.
+        // A planet's orbit: the distance between neighboring runs grows in proportion to time, and is a hundred times larger near the sun.
         let orbit = |t: f64| (1.0 + 30.0 * t) * (1.0 + 99.0 * libm::pow(libm::cos(t), 20.0));
         assert!(matches!(of(orbit), Parting::Regular { .. }), "{:?}", of(orbit));
         assert!(matches!(of(|t| 1.0 + 30.0 * t * t), Parting::Regular { .. } | Parting::Unclear { .. }));

@@ -285,7 +285,7 @@ fn broke_down(trial: &Trial) -> String {
     }
 }
 
-/// Describes the growth of the distance between a run and its twin. `growth` is the ratio of the final distance to the initial one.
+/// Describes the growth of the distance between two neighboring runs. `growth` is the ratio of the final distance to the initial one.
 fn apart(growth: f64) -> String {
     match growth {
         growth if growth < 2.0 => "neighbours stay together".to_owned(),

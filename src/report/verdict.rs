@@ -32,15 +32,15 @@ pub struct Verdict {
     pub bodies: Vec<BodyError>,
     /// The measured order of the method: how fast the error decreases with the timestep.
     pub order: Order,
-    /// The separation of the run and its twin: regular or chaotic.
+    /// How fast neighboring runs separate, which tells regular motion from chaos.
     pub neighbours: Parting,
-    /// MEGNO, the mean exponential growth of the distance between the run and its twin: 2 for most regular motion, 0 if unknown.
+    /// MEGNO, the mean exponential growth of the distance between two neighboring runs: 2 for most regular motion, 0 if unknown.
     pub megno: f64,
     /// The time until which the run reaches the requested accuracy.
     pub trusted: Trusted,
     /// The time until which no point has an error above 1 % of the size of the scene.
     pub trusted_to_a_percent: Trusted,
-    /// The runs that broke down: this run, its repetitions at smaller timesteps, and its twin.
+    /// The runs that broke down: this run, its repetitions at smaller timesteps, or the run from a slightly different start.
     pub broken: Vec<Broken>,
     /// The curves of a plot of the errors over time.
     #[serde(skip)]
@@ -56,8 +56,8 @@ pub(super) struct Curves {
     pub(super) drift: Vec<f64>,
     /// The largest error of any point at each frame, as a fraction of the size of the scene.
     pub(super) error: Vec<f64>,
-    /// The distance between the run and its twin at each frame, in phase space: positions relative to the size of the scene, velocities
-    /// relative to the largest speed, and angles in rad.
+    /// The distance to a run from a slightly different start at each frame, in phase space: positions relative to the size of the scene,
+    /// velocities relative to the largest speed, and angles in rad.
     pub(super) neighbours: Vec<f64>,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct Curves {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum Conserved {
-    /// All bodies have zero momentum during the whole run.
+    /// The momentum of every body is zero during the whole run.
     Still,
     /// External forces change the momentum: it changes equally at a smaller timestep.
     Changed,
@@ -118,7 +118,7 @@ pub enum Order {
     },
 }
 
-/// The time until which a run reaches an accuracy.
+/// The time until which a run reaches an accuracy, as a time and as a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Trusted {
     /// The time of the last accurate frame, s. `None` if even the first frame after the start is inaccurate.

@@ -7,7 +7,7 @@ use super::color;
 use crate::picture::{Link, LinkForm, Plan};
 use crate::simulate::Frame;
 
-/// Appends the springs and joints that a frame shows.
+/// Appends the SDL text of the springs and joints that a frame shows.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, style: Style) {
     plan.links(frame).iter().for_each(|its| link(out, its, style));
 }

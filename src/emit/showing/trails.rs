@@ -20,7 +20,7 @@ use crate::simulate::Frame;
 /// An include file with a stretch of a trail. Several scripts include it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrailFile {
-    /// The name of the file: `trail_5f0c1a2b3c4d5e6f.inc`.
+    /// The file name, which contains a digest of the text: `trail_5f0c1a2b3c4d5e6f.inc`.
     pub name: String,
     /// The SDL text of the file.
     pub text: String,
@@ -39,7 +39,7 @@ impl Trails {
         Trails { layout, style, words: Mutex::default() }
     }
 
-    /// Appends the trails up to a frame. `names` are the names of the bodies.
+    /// Appends the SDL text of the trails up to a frame. `names` are the names of the bodies.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         for trail in self.written(plan, frame) {
             self.trail(out, &trail, &names[trail.body]);

@@ -125,7 +125,7 @@ pub(super) struct Camera {
     pub(super) lens: CameraLens,
 }
 
-/// The projection of a camera.
+/// The projection of a camera: perspective or orthographic.
 #[derive(Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub(super) enum CameraLens {

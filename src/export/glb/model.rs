@@ -18,7 +18,7 @@ use crate::surface::{Detail, Form, Piece, pieces};
 /// The number of pieces of bodies above which each piece gets fewer triangles.
 const MANY: usize = 200;
 
-/// The name of the root node.
+/// The name of the root node, which contains all other nodes.
 const ROOT: &str = "jabuka";
 
 /// A glTF document under construction.
