@@ -38,7 +38,7 @@ impl Images {
         Ok(images)
     }
 
-    /// Returns the path of the folder.
+    /// Returns the path of the folder of images.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

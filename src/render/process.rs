@@ -18,7 +18,7 @@ use crate::sandbox::Needs;
 /// A picture for POV-Ray to render: a frame, or one moment of a frame with motion blur.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Unit {
-    /// The index of the frame's group within the job.
+    /// The index of the frame's group within the job. The frames of a group have equal scripts.
     pub(super) index: usize,
     /// The number of the frame within the film.
     pub(super) frame: usize,

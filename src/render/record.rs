@@ -59,7 +59,7 @@ pub struct Record {
 /// The parts of two records that must be equal for an image to be up to date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compare {
-    /// All parts.
+    /// All parts of the records.
     All,
     /// All parts except the version of POV-Ray, which is unknown if POV-Ray is not installed.
     NotPovray,

@@ -83,7 +83,7 @@ fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
 /// The budget of the search, in force evaluations, as a multiple of those of the run itself.
 const RUNS: f64 = 4.0;
 
-/// The smallest budget of the search, in force evaluations of a single body: about two seconds.
+/// The smallest budget of the search, in force evaluations of a single body. They take about two seconds.
 const EVALUATIONS: f64 = 6e6;
 
 /// The goal of the search for a method and a timestep.

@@ -101,19 +101,19 @@ pub enum Order {
     Unknown,
     /// The measured order agrees with the order of the method.
     Nominal {
-        /// The measured order.
+        /// The measured order of convergence.
         measured: f64,
     },
     /// The error decreases with the timestep, with another order than that of the method.
     Other {
-        /// The measured order.
+        /// The measured order of convergence.
         measured: f64,
     },
     /// The method is adaptive, and the error decreases with its tolerance.
     Adaptive,
     /// The differences between the runs do not decrease with the timestep, so the error is unknown.
     None {
-        /// The measured order.
+        /// The measured order of convergence.
         measured: f64,
     },
 }
