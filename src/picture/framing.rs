@@ -72,7 +72,7 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, 
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
-    // If a given aim lies far behind the bounds, even a distance of 0 would show all of the bounds. Keep the camera in front of its aim.
+    // If a given aim lies far in front of the bounds, even a distance of 0 shows all of them. Keep the camera away from its aim.
     let size = (bounds.max - bounds.min).length();
     rounded(aim, back, if distance > 1e-3 * size { distance } else { size })
 }
@@ -255,10 +255,16 @@ mod tests {
     }
 
     #[test]
-    fn an_aim_behind_everything_has_a_camera_before_it() {
+    fn the_camera_stands_in_front_of_an_aim_that_is_in_front_of_everything() {
         let bounds = Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) };
-        let aim = DVec3::new(-5000.0, 0.0, -9000.0);
-        let framing = perspective(bounds, Field::new(60.0, WIDE), Some(aim), DVec3::new(1.0, 1.0, 4.0));
-        assert!(framing.location.distance(framing.look_at) > 1.0, "{framing:?}");
+        let towards = DVec3::new(1.0, 1.0, 4.0);
+        let (right, up, back) = axes(towards);
+        let field = Field::new(60.0, WIDE);
+        let aim = back * 9000.0;
+        assert_eq!(distance(&corners(bounds), aim, (right, up, back), field), 0.0, "every distance will do");
+        let framing = perspective(bounds, field, Some(aim), towards);
+        let size = (bounds.max - bounds.min).length();
+        let ahead = (framing.location - framing.look_at).dot(back);
+        assert!((ahead / size - 1.0).abs() < 0.02, "{framing:?}");
     }
 }
