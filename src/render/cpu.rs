@@ -1,4 +1,4 @@
-//! Reads the CPU time of processes and the free memory from `/proc`, which only Linux has.
+//! Reads the CPU time of processes from `/proc`, which only Linux has.
 
 use std::collections::HashMap;
 use std::fs;
@@ -24,13 +24,6 @@ pub(super) fn seconds_by_group() -> Option<HashMap<i32, f64>> {
 /// Returns the CPU time that a process has used so far, s. `None` where the system does not report it.
 pub(super) fn seconds(process: u32) -> Option<f64> {
     group_and_seconds(&fs::read_to_string(format!("/proc/{process}/stat")).ok()?).map(|(_, seconds)| seconds)
-}
-
-/// Returns the memory that is available to new processes, bytes. `None` where the system does not report it.
-pub(super) fn available_memory() -> Option<u64> {
-    let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse().ok().map(|kilobytes: u64| kilobytes * 1024)
 }
 
 /// Reads a line of `/proc/PID/stat`. Returns the process group, and the CPU time (s) of the process and of its ended children; see

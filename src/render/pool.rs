@@ -39,8 +39,6 @@ pub(super) struct Pool<'a> {
     pub(super) images: &'a Images,
     /// The number of processes. `None` for as many as keep the processors busy.
     pub(super) jobs: Option<usize>,
-    /// The memory that one process may need, bytes.
-    pub(super) memory: u64,
     /// The number of new attempts for a picture after POV-Ray has crashed on it.
     pub(super) retries: u32,
     pub(super) time_limit: Option<Duration>,
@@ -62,7 +60,6 @@ impl<'a> Pool<'a> {
             setup,
             images,
             jobs: None,
-            memory: 0,
             retries: 2,
             time_limit: None,
             stop,
@@ -118,14 +115,14 @@ impl<'a> Pool<'a> {
         std::mem::take(&mut self.warnings)
     }
 
-    /// Returns the number of processes that keeps all processors busy and fits into memory.
+    /// Returns the number of processes that keeps all processors busy.
     fn wanted(&self) -> usize {
         if let Some(jobs) = self.jobs {
             return jobs;
         }
         let (images, cost, _) = self.measured;
         let processors = self.processors;
-        let busy = if images < processors {
+        if images < processors {
             FIRST * processors
         } else {
             #[allow(clippy::cast_precision_loss, reason = "numbers of images and processors are small")]
@@ -137,12 +134,7 @@ impl<'a> Pool<'a> {
             )]
             let busy = (processors * (1.0 + WAIT / each.max(1e-3))).min(1e3).ceil() as usize;
             busy.clamp(self.processors + 2, MOST * self.processors)
-        };
-        let room = cpu::available_memory().map_or(usize::MAX, |bytes| {
-            let more = bytes / 2 / self.memory.max(1);
-            usize::try_from(more).unwrap_or(usize::MAX).saturating_add(self.running.len())
-        });
-        busy.min(room.max(1))
+        }
     }
 
     /// Returns the number of pictures for a new process. It becomes small at the end of the job, so that all processes end at about the
