@@ -175,17 +175,12 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
 /// Returns a warning if the energy error of the simulation exceeds 5 %.
 fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 0.05;
-    let (drift, of, help) = match scene.simulation.contacts {
-        Some(ContactLaw::TimeStepping) => {
-            (survey.drift_of_turnover, "energy that was turned over", "take a smaller `simulation.step`")
-        }
-        _ => (
-            survey.drift,
-            "largest kinetic energy",
-            "take a smaller `simulation.step`, or an `integrator` of higher order",
-        ),
+    let help = match scene.simulation.contacts {
+        Some(ContactLaw::TimeStepping) => "take a smaller `simulation.step`",
+        _ => "take a smaller `simulation.step`, or an `integrator` of higher order",
     };
-    let message = format!("the energy drifts by {:.0} % of the {of}", drift * 100.0);
+    let Survey { drift, drift_scale, .. } = survey;
+    let message = format!("the energy drifts by {:.0} % of the {}", drift * 100.0, drift_scale.name());
     (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
 }
 

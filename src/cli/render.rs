@@ -122,7 +122,8 @@ fn write_scripts(
         let folder = Folder::open(path).map_err(|error| progress.failed(&error))?;
         let (warnings, drift);
         if let Some(manifest) = output::up_to_date(scene, *view, selection, path) {
-            (warnings, drift) = (manifest.warnings(), manifest.head.drift);
+            let head = &manifest.head;
+            (warnings, drift) = (manifest.warnings(), head.drift.map(|drift| (drift, head.drift_scale)));
         } else {
             let first = match run.take() {
                 Some(run) => run,
@@ -136,12 +137,13 @@ fn write_scripts(
             let written = output::write(run, &folder, selection, &step);
             progress.above(|| say::edits(&folder));
             written.map_err(|error| progress.failed(&error))?;
-            (warnings, drift) = (run.warnings(), Some(run.survey().drift));
+            let survey = run.survey();
+            (warnings, drift) = (run.warnings(), Some((survey.drift, survey.drift_scale)));
         }
         if folders.is_empty() {
             say::report(&Report { diagnostics: warnings, ..Report::default() });
         }
-        folders.push((folder, drift.map(summary::drift).unwrap_or_default()));
+        folders.push((folder, drift.map(|(drift, scale)| summary::drift(drift, scale)).unwrap_or_default()));
     }
     progress.finish();
     Ok(folders)

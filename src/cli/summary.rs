@@ -6,7 +6,7 @@ use std::time::Duration;
 use jabuka::diagnostic::visible_path;
 use jabuka::output::Written;
 use jabuka::scene::ContactLaw;
-use jabuka::simulate::ContactTotals;
+use jabuka::simulate::{ContactTotals, EnergyScale};
 use jabuka::{Run, Scene};
 
 use super::shell;
@@ -65,7 +65,7 @@ pub(super) fn summary(
             format!("{} s, {} a frame", short(survey.timestep), survey.steps_per_frame)
         },
         method = scene.simulation.method.name,
-        drift = drift(survey.drift),
+        drift = drift(survey.drift, survey.drift_scale),
         contacts = survey
             .contacts
             .zip(scene.simulation.contacts)
@@ -85,9 +85,9 @@ fn particles(scene: &Scene) -> String {
     if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }
 }
 
-/// Returns the line with the energy error of a run. `drift` is relative to the largest kinetic energy.
-pub(super) fn drift(drift: f64) -> String {
-    format!("drift     {} of the largest kinetic energy\n", percent(drift))
+/// Returns the line with the energy error of a run. `drift` is relative to the energy of `scale`.
+pub(super) fn drift(drift: f64, scale: EnergyScale) -> String {
+    format!("drift     {} of the {}\n", percent(drift), scale.name())
 }
 
 /// Returns the line that suggests `jabuka report`, with the user's settings. Empty if the energy drift is small.

@@ -87,6 +87,13 @@ impl Accounts {
     pub fn total(self) -> f64 {
         self.to_array().into_iter().sum()
     }
+
+    /// The energy that impacts and friction have taken from the bodies so far, J; negative if they have added energy.
+    #[must_use]
+    pub fn taken_by_contacts(self) -> f64 {
+        // The subtraction avoids a negative zero.
+        0.0 - (self.impacts + self.friction)
+    }
 }
 
 impl State {

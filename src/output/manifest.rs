@@ -12,6 +12,7 @@ use crate::Run;
 use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
 use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
+use crate::simulate::{EnergyScale, Survey};
 
 /// The file name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
@@ -209,9 +210,12 @@ pub struct Head {
     /// The number of moments that an image with motion blur is the mean of. `None` without motion blur.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
-    /// The largest energy error of the run, relative to the largest kinetic energy.
+    /// The largest energy error of the run, relative to the energy that `drift_scale` names.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
+    /// The energy that the drift is relative to. Manifests leave out the largest kinetic energy, which is the usual scale.
+    #[serde(default, skip_serializing_if = "EnergyScale::is_largest_kinetic")]
+    pub drift_scale: EnergyScale,
     /// The warnings of the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
@@ -225,7 +229,8 @@ impl Head {
     pub(super) fn new(run: &Run<'_>) -> Head {
         let head = Head::of(run.scene(), run.view(), run.shutter());
         let warnings = run.warnings().into_iter().map(Warning::of).collect();
-        Head { drift: Some(run.survey().drift), warnings, ..head }
+        let Survey { drift, drift_scale, .. } = run.survey();
+        Head { drift: Some(*drift), drift_scale: *drift_scale, warnings, ..head }
     }
 
     /// Makes a header from the scene alone, without the energy error and the warnings of its run.
@@ -248,6 +253,7 @@ impl Head {
             shutter: shutter.map(|shutter| shutter.open),
             samples: shutter.map(|shutter| shutter.samples),
             drift: None,
+            drift_scale: EnergyScale::default(),
             warnings: Vec::new(),
             planned: None,
         }

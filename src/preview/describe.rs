@@ -119,6 +119,8 @@ struct Stage {
     timestep: f64,
     steps_per_frame: u32,
     drift: f64,
+    /// The energy that the drift is relative to, in words.
+    drift_scale: &'static str,
     /// The trails, with the indices of their bodies. Colors are in sRGB.
     trails: Vec<Trail>,
     /// The lines of the grid for each camera. The list is empty for a camera that moves.
@@ -331,6 +333,7 @@ fn stage(run: &Simulation, outcome: &Outcome) -> Stage {
         timestep: survey.timestep,
         steps_per_frame: survey.steps_per_frame,
         drift: survey.drift,
+        drift_scale: survey.drift_scale.name(),
         trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
         grids: outcome
             .plans

@@ -9,6 +9,7 @@ use super::neighbours::displaced;
 use super::setting::Setting;
 use crate::dynamics::{Accounts, Snapshot};
 use crate::scene::Scene;
+use crate::simulate::EnergyError;
 
 /// The differences between the compared runs at one frame.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,7 +42,8 @@ pub(super) struct Compared {
     pub(super) size: f64,
     /// The largest speed of a body in the run, m/s.
     pub(super) fastest: f64,
-    pub(super) largest_kinetic: f64,
+    /// The largest energy error of the run.
+    pub(super) energy: EnergyError,
     /// The largest sum of the magnitudes of all bodies' momenta during the run: linear (kg m/s) and angular (kg m²/s).
     pub(super) momenta: [f64; 2],
     /// The energy brought in by everything without a potential, at the last frame of the run.
@@ -50,7 +52,7 @@ pub(super) struct Compared {
     /// `None` for a run that reached its end.
     pub(super) ended: [Option<Ended>; 4],
     pub(super) steps: [u64; 3],
-    /// The largest energy error in the run at half the timestep, relative to the largest kinetic energy.
+    /// The largest energy error in the run at half the timestep, relative to the energy of that run's scale.
     pub(super) drift_at_half: f64,
     /// The largest distance between equal points of a body in the runs at half and at a quarter of the timestep, m.
     pub(super) off_at_half: f64,
@@ -71,8 +73,7 @@ struct Seen {
     before: Vec<Option<DVec3>>,
     momenta: Option<[[DVec3; 2]; 2]>,
     boxes: [Option<[DVec3; 2]>; 3],
-    kinetic: [f64; 2],
-    energy_at_half: f64,
+    energy_at_half: EnergyError,
 }
 
 /// Simulates four runs side by side, and compares them frame by frame: the scene's run, the run at half and at a quarter of its timestep,
@@ -96,13 +97,12 @@ pub(super) fn compare(
         before: vec![None; measured.bodies.len()],
         momenta: None,
         boxes: [None; 3],
-        kinetic: [0.0; 2],
-        energy_at_half: 0.0,
+        energy_at_half: EnergyError::default(),
     };
     together(&mut tracks, scene, watch, &mut |moments| found.see(measured, &mut seen, moments))?;
     let size = |found: &[DVec3; 2]| (found[1] - found[0]).length();
     found.size = seen.boxes.iter().flatten().last().map_or(0.0, size);
-    found.drift_at_half = if seen.kinetic[1] > 0.0 { seen.energy_at_half / seen.kinetic[1] } else { 0.0 };
+    found.drift_at_half = seen.energy_at_half.drift(scene.simulation.contacts);
     found.steps = [0, 1, 2].map(|track| tracks[track].steps());
     let mut ended = tracks.into_iter().map(|track| track.ended);
     found.ended = std::array::from_fn(|_| ended.next().flatten());
@@ -121,18 +121,12 @@ impl Compared {
             };
         }
         if let Some(half) = half {
-            seen.kinetic[1] = seen.kinetic[1].max(half.balance.kinetic);
-            let error = half.balance.drift * seen.kinetic[1];
-            if error.abs() > seen.energy_at_half.abs() {
-                seen.energy_at_half = error;
-            }
+            seen.energy_at_half.add(&half.balance);
         }
         let Some(run) = run else { return };
-        seen.kinetic[0] = seen.kinetic[0].max(run.balance.kinetic);
-        self.largest_kinetic = seen.kinetic[0];
+        let energy = self.energy.add(&run.balance);
         self.accounts = run.balance.accounts;
-        let mut moment =
-            Moment { time: run.time, energy: run.balance.drift * seen.kinetic[0], ..Moment::default() };
+        let mut moment = Moment { time: run.time, energy, ..Moment::default() };
         self.see_ways(measured, seen, run);
         if let Some(half) = half {
             moment.off = Some(self.see_off(measured, [run, half]));

@@ -56,7 +56,11 @@ impl Assessment {
             };
             line(out, "broken", &format!("{}: {}; {kept}", broken.run, broken.why));
         }
-        line(out, "energy", &format!("drifts by {} of the largest kinetic energy", percent(verdict.drift)));
+        line(
+            out,
+            "energy",
+            &format!("drifts by {} of the {}", percent(verdict.drift), verdict.drift_scale.name()),
+        );
         if !verdict.accounts.is_empty() {
             let held = verdict.accounts.iter().map(|(name, held)| format!("{name} {} J", digits(*held, 3)));
             let held: Vec<String> = held.collect();

@@ -10,7 +10,7 @@ use super::setting::{Setting, refused};
 use super::verdict::Order;
 use crate::dynamics::Method;
 use crate::scene::Scene;
-use crate::simulate::evaluations;
+use crate::simulate::{EnergyError, evaluations};
 
 /// The result of a test run with one method and one timestep.
 #[derive(Clone, Debug, Serialize)]
@@ -32,7 +32,7 @@ pub struct Trial {
     pub evaluations: u64,
     /// The largest error of any point of a body, m, estimated from a run at half the timestep. `None` if one of the two runs broke down.
     pub error: Option<f64>,
-    /// The largest energy error of the test run, relative to the largest kinetic energy.
+    /// The largest energy error of the test run, relative to the energy of the verdict's scale.
     pub drift: f64,
     /// True if the test run reaches the requested accuracy.
     pub reaches: bool,
@@ -240,13 +240,11 @@ impl Goal<'_> {
         let track = |track: usize| Track::new(&scenes[track], settings[track].cost(scene) / frames);
         let mut tracks =
             [0, 1].map(|it| if setting.method.adaptive { track(it).of_at_most(most) } else { track(it) });
-        let (mut most, mut kinetic, mut energy, mut around) = (0.0_f64, 0.0_f64, 0.0_f64, None);
+        let (mut most, mut energy, mut around) = (0.0_f64, EnergyError::default(), None);
         together(&mut tracks, scene, watch, &mut |moments| {
             let [coarse, fine] = moments else { return };
             if let Some(coarse) = coarse {
-                kinetic = kinetic.max(coarse.balance.kinetic);
-                let error = coarse.balance.drift * kinetic;
-                energy = if error.abs() > energy.abs() { error } else { energy };
+                energy.add(&coarse.balance);
             }
             if let Some(fine) = fine {
                 let here = self.measured.around(fine);
@@ -275,7 +273,7 @@ impl Goal<'_> {
             steps,
             evaluations: steps * evaluations(setting.method),
             error: ended.is_none().then_some(most * factor),
-            drift: if kinetic > 0.0 { energy / kinetic } else { 0.0 },
+            drift: energy.drift(scene.simulation.contacts),
             reaches: false,
             ended,
             setting,

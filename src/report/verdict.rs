@@ -11,13 +11,15 @@ use super::setting::Setting;
 use super::trials::{Trial, factor};
 use crate::dynamics::{Accounts, Method};
 use crate::scene::Scene;
-use crate::simulate::evaluations;
+use crate::simulate::{EnergyScale, evaluations};
 
 /// The measured errors of an integrated run.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
-    /// The largest energy error of the run, relative to the largest kinetic energy.
+    /// The largest energy error of the run, relative to the energy that `drift_scale` names.
     pub drift: f64,
+    /// The energy that the drift is relative to.
+    pub drift_scale: EnergyScale,
     /// The energy that each influence without a potential has brought in by the end, by name, J. Negligible amounts are left out.
     pub accounts: Vec<(&'static str, f64)>,
     /// The conservation of the total linear momentum.
@@ -52,7 +54,7 @@ pub struct Verdict {
 pub(super) struct Curves {
     /// The times of the frames, s.
     pub(super) times: Vec<f64>,
-    /// The energy error at each frame, relative to the largest kinetic energy.
+    /// The energy error at each frame, relative to the scale of the verdict's drift.
     pub(super) drift: Vec<f64>,
     /// The largest error of any point at each frame, as a fraction of the size of the scene.
     pub(super) error: Vec<f64>,
@@ -198,10 +200,8 @@ impl Verdict {
     ) -> Verdict {
         let order = Order::of(compared, own.method);
         let (factor, size) = (order.factor(own.method), compared.size);
-        let kinetic = compared.largest_kinetic;
-        let relative = |error: f64| if kinetic > 0.0 { error / kinetic } else { 0.0 };
-        let energies = compared.moments.iter().map(|moment| moment.energy);
-        let drift = energies.fold(0.0_f64, |most, now| if now.abs() > most.abs() { now } else { most });
+        let contacts = scene.simulation.contacts;
+        let (drift_scale, energy) = compared.energy.scale(contacts);
         let mut bodies: Vec<(f64, BodyError)> = (measured.bodies.iter().zip(&compared.bodies))
             .map(|(&id, off)| {
                 let body = scene.bodies[id].name.to_string();
@@ -221,12 +221,15 @@ impl Verdict {
         let broken = runs.iter().zip(&compared.ended);
         let broken = broken.filter_map(|(run, ended)| Some(Broken::of(run, ended.as_ref()?)));
         let accounts = Accounts::NAMES.into_iter().zip(compared.accounts.to_array());
-        let curves = Curves::of(compared, factor);
+        let curves = Curves::of(compared, factor, energy);
         let ended = compared.ended[0].is_some();
         let (neighbours, megno) = parting(&curves.times, &curves.neighbours);
         Verdict {
-            drift: relative(drift),
-            accounts: accounts.filter(|(_, held)| held.abs() > 1e-11 * kinetic).collect(),
+            drift: compared.energy.drift(contacts),
+            drift_scale,
+            accounts: accounts
+                .filter(|(_, held)| held.abs() > 1e-11 * compared.energy.largest_kinetic)
+                .collect(),
             linear_momentum: conserved(compared, 0),
             angular_momentum: conserved(compared, 1),
             size,
@@ -313,8 +316,9 @@ impl Trusted {
 }
 
 impl Curves {
-    fn of(compared: &Compared, factor: f64) -> Curves {
-        let Compared { moments, size, fastest, largest_kinetic, .. } = compared;
+    /// The curves of a comparison. `factor` is that from a difference of two runs to the error; the drift is relative to `energy`, J.
+    fn of(compared: &Compared, factor: f64, energy: f64) -> Curves {
+        let Compared { moments, size, fastest, .. } = compared;
         let part = |of: f64, whole: f64| if whole > 0.0 { of / whole } else { 0.0 };
         let apart = |moment: &Moment| {
             let [place, faster, angle] = moment.apart?;
@@ -322,7 +326,7 @@ impl Curves {
         };
         Curves {
             times: moments.iter().map(|moment| moment.time).collect(),
-            drift: moments.iter().map(|moment| part(moment.energy, *largest_kinetic)).collect(),
+            drift: moments.iter().map(|moment| part(moment.energy, energy)).collect(),
             error: moments.iter().map_while(|moment| Some(part(factor * moment.off?, *size))).collect(),
             neighbours: moments.iter().map_while(apart).collect(),
         }

@@ -13,11 +13,12 @@
 //! | the frames in order, without a recording | `snapshots` |
 //! | the particles of emitters | `particles`, `swarms` |
 //! | the moments while a shutter is open | `exposure` |
-//! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `asked` |
+//! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `energy_error`, `asked` |
 
 mod asked;
 mod build;
 mod diagnose;
+mod energy_error;
 mod exposure;
 mod frame;
 mod frames;
@@ -50,6 +51,8 @@ use crate::scene::{ForceKind, Scene, in_string};
 
 pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSlider, AskedSpring, AskedTrail};
 pub use build::world;
+pub(crate) use energy_error::EnergyError;
+pub use energy_error::EnergyScale;
 pub use exposure::Exposure;
 pub use frame::Frame;
 pub use frames::{Frames, within};

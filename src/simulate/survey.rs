@@ -16,7 +16,7 @@ use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
-use super::{Bounds, Frame, Frames, SimulateError, Span, world};
+use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, SimulateError, Span, world};
 use crate::dynamics::BodySnapshot;
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
@@ -37,13 +37,11 @@ pub struct Survey {
     pub corrected: Option<Corrected>,
     /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders.
     pub asked: Asked,
-    /// The largest energy error, relative to the largest kinetic energy of the whole run. (The drift of a single
-    /// [`Balance`](crate::dynamics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from
-    /// rest.)
+    /// The largest energy error, relative to the energy that `drift_scale` names. (The drift of a single
+    /// [`Balance`](crate::dynamics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from rest.)
     pub drift: f64,
-    /// The largest energy error, relative to the converted energy: the largest kinetic energy, or the energy removed by contacts if that
-    /// is larger. When bodies only settle, little energy is kinetic, although a first-order method has an error of ½ Δt F·v.
-    pub drift_of_turnover: f64,
+    /// The energy that the drift is relative to.
+    pub drift_scale: EnergyScale,
     /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
@@ -113,9 +111,8 @@ pub struct Surveyor<'a> {
     /// The requested arrows of joints: the end where each begins, its quantity, and its scale if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
-    /// The energy error with the largest absolute value, J.
-    error: f64,
-    largest_kinetic: f64,
+    /// The largest energy error so far.
+    error: EnergyError,
 }
 
 impl Survey {
@@ -141,8 +138,7 @@ impl<'a> Surveyor<'a> {
             asked: Asked::new(scene),
             joint_arrows: joint_arrows(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
-            error: 0.0,
-            largest_kinetic: 0.0,
+            error: EnergyError::default(),
         }
     }
 
@@ -189,33 +185,16 @@ impl<'a> Surveyor<'a> {
             let joints = scene.joints.iter().filter_map(gap).fold(contacts.joints, f64::max);
             *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed, penetration, joints };
         }
-        self.largest_kinetic = self.largest_kinetic.max(frame.balance.kinetic);
-        let error_now = frame.balance.drift * self.largest_kinetic;
-        if error_now.abs() > self.error.abs() {
-            self.error = error_now;
-        }
+        self.error.add(&frame.balance);
     }
 
     /// Returns the survey after the last frame.
     pub fn finish(self) -> Survey {
-        let Surveyor {
-            scene,
-            spans,
-            planes,
-            overlaps,
-            clouds,
-            corrected,
-            asked,
-            contacts,
-            error,
-            largest_kinetic,
-            ..
-        } = self;
+        let Surveyor { scene, spans, planes, overlaps, clouds, corrected, asked, contacts, error, .. } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         // A scene without bodies still has particle steps.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
-        let taken = contacts.map_or(0.0, |totals| totals.lost + totals.rubbed);
-        let turnover = largest_kinetic.max(taken);
+        let law = scene.simulation.contacts;
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
@@ -223,9 +202,9 @@ impl<'a> Surveyor<'a> {
             overlap: overlaps.finish(),
             corrected,
             asked,
-            contacts: contacts.map(|contacts| contacts.rounded(largest_kinetic)),
-            drift: if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 },
-            drift_of_turnover: if turnover > 0.0 { error / turnover } else { 0.0 },
+            contacts: contacts.map(|contacts| contacts.rounded(error.largest_kinetic)),
+            drift: error.drift(law),
+            drift_scale: error.scale(law).0,
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,
         }

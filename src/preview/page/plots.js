@@ -192,10 +192,11 @@ export class Plots {
       return [term, what];
     });
     this.legend.replaceChildren(...rows);
-    const drifts = this.runs.map(({ run }) => run.description.stage?.drift).filter((drift) => drift !== undefined);
-    const percent = (drift) => `${short(100 * drift, 2)} %`;
-    this.drift.textContent = drifts.length ? `drift ${drifts.map(percent).join(" / ")}` : "";
-    this.drift.title = "The error of the energy where it is largest, relative to the largest kinetic energy";
+    const stages = this.runs.map(({ run }) => run.description.stage).filter(Boolean);
+    const percent = (stage) => `${short(100 * stage.drift, 2)} %`;
+    this.drift.textContent = stages.length ? `drift ${stages.map(percent).join(" / ")}` : "";
+    const scales = [...new Set(stages.map((stage) => stage.drift_scale))].join(" / ");
+    this.drift.title = `The largest energy error, relative to the ${scales}`;
   }
 }
 

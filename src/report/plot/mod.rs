@@ -175,7 +175,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
     let wanted = text::digits(assessment.accuracy, 2);
     vec![
         Panel {
-            title: "Drift of the energy, % of the largest kinetic energy".to_owned(),
+            title: format!("Drift of the energy, % of the {}", verdict.drift_scale.name()),
             times,
             values: drift.iter().map(|part| part * 100.0).collect(),
             is_logarithmic: false,

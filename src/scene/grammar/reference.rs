@@ -106,7 +106,7 @@ contacts, so thousands of bodies are possible: piles, towers and machines. All k
 | rolling friction | yes | refused |
 
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. The drift is relative to the largest kinetic
-  energy, so it may be large if bodies only settle: they hardly move.
+  energy, or to the energy that contacts took, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
   default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
   weight: 1/480 s for 10 cm, 1/1920 s for 1 cm.
@@ -400,8 +400,7 @@ impl Page {
                 let _ = write!(self.text, "Exactly one of {}.\n\n", quoted(names));
             }
         }
-        self.text
-            .push_str("| key | value | unit | without it | meaning |\n| --- | --- | --- | --- | --- |\n");
+        self.text.push_str("| key | value | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");
         table.keys.iter().for_each(|key| self.row(key));
         for key in table.keys {
             self.inner(path, key.name, &key.kind);
@@ -434,7 +433,7 @@ impl Page {
 
     fn row(&mut self, key: &Key) {
         let Key { name, kind, unit, default, meaning, required, .. } = key;
-        let default = if *required { "**must be there**".to_owned() } else { default.in_words() };
+        let default = if *required { "**required**".to_owned() } else { default.in_words() };
         let value = self.in_short(kind).replace('|', "\\|");
         let _ = writeln!(self.text, "| `{name}` | {value} | {unit} | {default} | {meaning} |");
     }
