@@ -50,7 +50,8 @@ pub struct World {
     collider: Option<Collider>,
     /// The bodies held at rest, with their contacts.
     rest: Rest,
-    /// The contacts of bodies under time-stepping. Only filled in the copy of a world from which a snapshot is taken.
+    /// The contacts of bodies in the crowd (the bodies that Moreau's scheme advances). Only filled in the copy of a world from which a
+    /// snapshot is taken.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
     /// Working memory for the forces and torques at one moment.

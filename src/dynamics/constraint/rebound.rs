@@ -1,4 +1,4 @@
-//! Impacts in the time-stepping of crowds: all impacts within one substep are solved together.
+//! Impacts in Moreau's scheme: all impacts within one substep are solved together.
 //!
 //! Poisson's law has two phases. In the first phase, bodies stop each other. In the second, each contact repeats its impulse, times its
 //! coefficient of restitution. For two bodies, this equals Newton's law. For many bodies it never gains energy, while Newton's law can.

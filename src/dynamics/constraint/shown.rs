@@ -1,4 +1,4 @@
-//! The contact forces that frames show for bodies advanced by time-stepping.
+//! The contact forces that frames show for bodies advanced by Moreau's scheme.
 
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ impl Solver {
         solver.contact_snapshots(model)
     }
 
-    /// Returns the contact forces that the Gauss–Seidel sweeps of the last substep of time-stepping have found.
+    /// Returns the contact forces that the Gauss–Seidel sweeps of the last substep of Moreau's scheme have found.
     pub(in crate::dynamics) fn last_forces(
         &self,
         contacts: Vec<Arc<Closed>>,

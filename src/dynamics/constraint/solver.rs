@@ -80,7 +80,7 @@ pub(in crate::dynamics) struct Solver {
     pub(super) columns: Columns,
     /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
     pub(super) warm: Warm,
-    /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of time-stepping.
+    /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of Moreau's scheme.
     pub(super) forced: f64,
     /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.
     pub(super) is_loose: bool,

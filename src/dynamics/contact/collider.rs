@@ -48,7 +48,7 @@ pub(in crate::dynamics) struct Collider {
     pub(super) impacts: Vec<Impact>,
     /// For each pair of bodies, the number of impacts in the current step.
     pub(super) hits: BTreeMap<[usize; 2], u32>,
-    /// The bodies advanced by time-stepping, because they have too many events in the current step.
+    /// The bodies advanced by Moreau's scheme, because they have too many events in the current step.
     pub(super) crowd: Crowd,
     /// The group of bodies that is being advanced; `None` while all bodies are advanced together.
     pub(super) focus: Option<Focus>,
@@ -99,7 +99,7 @@ impl Collider {
         touching.iter().flat_map(|pair| pair.bodies).filter(is_held).collect()
     }
 
-    /// Returns true if any bodies are advanced by time-stepping.
+    /// Returns true if any bodies are advanced by Moreau's scheme.
     pub(in crate::dynamics) fn is_crowded(&self) -> bool {
         !self.crowd.is_empty()
     }

@@ -1,7 +1,7 @@
-//! The crowd: bodies that have too many contact events in a step, so time-stepping advances them.
+//! The crowd: bodies that have too many contact events in a step, so Moreau's scheme advances them.
 //!
 //! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap that settles.
-//! Time-stepping advances them to the end of the step. If this happens repeatedly, they stay in the crowd for some more steps.
+//! Moreau's scheme advances them to the end of the step. If this happens repeatedly, they stay in the crowd for some more steps.
 
 mod course;
 mod heap;
@@ -17,33 +17,33 @@ use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::closed::Closed;
 use super::collider::{Collider, Touching};
 
-/// The largest number of further steps for which a body stays under time-stepping (in the crowd). Without further steps, a settling heap
-/// would collect thousands of events in each step before it joins the crowd again.
+/// The largest number of further steps for which a body stays in the crowd (the bodies that Moreau's scheme advances). Without further
+/// steps, a settling heap would collect thousands of events in each step before it joins the crowd again.
 const AGAIN: u32 = 16;
 
-/// The set of bodies that time-stepping advances, with their contacts and computed motion.
+/// The set of bodies that Moreau's scheme advances, with their contacts and computed motion.
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
     solver: Solver,
-    /// The motion of the crowd (the bodies under time-stepping) until the end of the step; `None` until it is computed.
+    /// The motion of the crowd (the bodies that Moreau's scheme advances) until the end of the step; `None` until it is computed.
     course: Option<Course>,
-    /// The contacts of the bodies under time-stepping (the crowd) at the end of the last step.
+    /// The contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
     places: Vec<Arc<Closed>>,
-    /// The impacts in the last substep of time-stepping.
+    /// The impacts in the last substep of Moreau's scheme.
     impacts: Vec<Impact>,
     /// The pairs of bodies with contact forces between them in the last substep.
     pushing: BTreeSet<[usize; 2]>,
-    /// For each body that joined the crowd (the bodies under time-stepping) recently, for how many further steps it stays there.
+    /// For each body that joined the crowd (the bodies that Moreau's scheme advances) recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
-    /// The bodies that time-stepping has advanced as part of a heap, that is, of many touching bodies.
+    /// The bodies that Moreau's scheme has advanced as part of a heap, that is, of many touching bodies.
     heaps: BTreeSet<usize>,
 }
 
-/// How long a body stays under time-stepping (in the crowd).
+/// How long a body stays in the crowd (the bodies that Moreau's scheme advances).
 #[derive(Clone, Copy, Default)]
 struct Again {
-    /// The remaining number of further steps under time-stepping (in the crowd).
+    /// The remaining number of further steps in the crowd (the bodies that Moreau's scheme advances).
     left: u32,
     /// The number of further steps that the body got when it last joined. It doubles if the body has to join again right after these
     /// steps.
@@ -53,12 +53,12 @@ struct Again {
 }
 
 impl Crowd {
-    /// Returns true if no bodies are under time-stepping (in the crowd).
+    /// Returns true if no bodies are in the crowd (the bodies that Moreau's scheme advances).
     pub(in crate::dynamics) fn is_empty(&self) -> bool {
         self.bodies.is_empty()
     }
 
-    /// Returns a copy of the crowd (the bodies under time-stepping) without its computed motion.
+    /// Returns a copy of the crowd (the bodies that Moreau's scheme advances) without its computed motion.
     pub(super) fn without_course(&self) -> Crowd {
         Crowd { course: None, ..self.clone() }
     }
@@ -67,7 +67,7 @@ impl Crowd {
         self.bodies.iter()
     }
 
-    /// Removes these bodies from the crowd (the bodies under time-stepping).
+    /// Removes these bodies from the crowd (the bodies that Moreau's scheme advances).
     pub(super) fn lose(&mut self, bodies: &[usize]) {
         for body in bodies {
             self.bodies.remove(body);
@@ -77,8 +77,8 @@ impl Crowd {
         self.course = None;
     }
 
-    /// Restricts the crowd (the bodies under time-stepping) to the given bodies, whose indices are in ascending order. Returns the bodies
-    /// that are set aside.
+    /// Restricts the crowd (the bodies that Moreau's scheme advances) to the given bodies, whose indices are in ascending order. Returns
+    /// the bodies that are set aside.
     pub(super) fn focus(&mut self, bodies: &[usize]) -> BTreeSet<usize> {
         let is_here = |body: &usize| bodies.binary_search(body).is_ok();
         let (here, others) = std::mem::take(&mut self.bodies).into_iter().partition(is_here);
@@ -87,13 +87,13 @@ impl Crowd {
         others
     }
 
-    /// Ends the restriction by `focus`: adds the bodies that were set aside to the crowd (the bodies under time-stepping) again.
+    /// Ends the restriction by `focus`: the bodies that were set aside join the crowd (the bodies that Moreau's scheme advances) again.
     pub(super) fn unfocus(&mut self, others: BTreeSet<usize>) {
         self.bodies.extend(others);
         self.course = None;
     }
 
-    /// Returns true if time-stepping handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
+    /// Returns true if Moreau's scheme handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
     /// immovable.
     pub(super) fn holds(&self, bodies: [usize; 2], model: &Model) -> bool {
         if self.bodies.is_empty() {
@@ -106,23 +106,24 @@ impl Crowd {
 }
 
 impl Collider {
-    /// Returns the indices of the bodies under time-stepping (in the crowd).
+    /// Returns the indices of the bodies in the crowd (the bodies that Moreau's scheme advances).
     pub(in crate::dynamics) fn crowded(&self) -> &BTreeSet<usize> {
         &self.crowd.bodies
     }
 
-    /// Returns true if at least one of two bodies is under time-stepping (in the crowd).
+    /// Returns true if at least one of two bodies is in the crowd (the bodies that Moreau's scheme advances).
     pub(in crate::dynamics) fn is_in_crowd(&self, bodies: [usize; 2]) -> bool {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Returns true if all bodies under time-stepping (the crowd) remain so for the next step. `places` are the contacts of the crowd.
+    /// Returns true if all bodies of the crowd (the bodies that Moreau's scheme advances) remain so for the next step. `places` are the
+    /// contacts of the crowd.
     pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
 
-    /// Returns the contacts of the crowd's bodies at the end of the last step, with the forces that time-stepping found.
+    /// Returns the contacts of the crowd's bodies at the end of the last step, with the forces that Moreau's scheme found.
     pub(in crate::dynamics) fn crowd_contacts(
         &self,
         model: &Model,
@@ -145,18 +146,19 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Returns true if a body is under time-stepping (in the crowd), has just left it, or has been in it as part of a heap.
+    /// Returns true if a body is in the crowd (the bodies that Moreau's scheme advances), has just left it, or has been in it as part of a
+    /// heap.
     pub(in crate::dynamics) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
-    /// Removes all bodies from the crowd (the bodies under time-stepping). The number of further steps of each body is kept.
+    /// Removes all bodies from the crowd (the bodies that Moreau's scheme advances). The number of further steps of each body is kept.
     pub(in crate::dynamics) fn dissolve(&mut self) {
         self.crowd.bodies.clear();
     }
 
-    /// Adds bodies to the crowd (the bodies under time-stepping) for this step and some further steps, with all bodies that touch them or
-    /// are joined to them. Returns true if the crowd has grown.
+    /// Adds bodies to the crowd (the bodies that Moreau's scheme advances) for this step and some further steps, with all bodies that
+    /// touch them or are joined to them. Returns true if the crowd has grown.
     pub(in crate::dynamics) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
@@ -164,8 +166,8 @@ impl Collider {
         has_grown
     }
 
-    /// Sets the number of further steps for the bodies that have joined the crowd (the bodies under time-stepping) since its set of bodies
-    /// was `before`. All of them get the largest number among them.
+    /// Sets the number of further steps for the bodies that have joined the crowd (the bodies that Moreau's scheme advances) since its set
+    /// of bodies was `before`. All of them get the largest number among them.
     fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
@@ -180,8 +182,8 @@ impl Collider {
         }
     }
 
-    /// Adds the bodies `seeds` to the crowd (the bodies under time-stepping), with all bodies that touch them or are joined to them.
-    /// Returns true if the crowd has grown.
+    /// Adds the bodies `seeds` to the crowd (the bodies that Moreau's scheme advances), with all bodies that touch them or are joined to
+    /// them. Returns true if the crowd has grown.
     pub(in crate::dynamics) fn gather(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut links: Vec<Vec<usize>> =
@@ -204,9 +206,9 @@ impl Collider {
         has_grown
     }
 
-    /// Updates the crowd (the bodies under time-stepping) at the beginning of a step of `dt` seconds. Counts down the further steps of the
-    /// bodies being advanced, drops bodies in free flight, and adds bodies that touch the remaining ones or may hit them. Returns true if
-    /// the crowd has more bodies than remained.
+    /// Updates the crowd (the bodies that Moreau's scheme advances) at the beginning of a step of `dt` seconds. Counts down the further
+    /// steps of the bodies being advanced, drops bodies in free flight, and adds bodies that touch the remaining ones or may hit them.
+    /// Returns true if the crowd has more bodies than remained.
     pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
@@ -221,7 +223,8 @@ impl Collider {
         }
         let mut held = self.leaning(model, state);
         held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
-        // Bodies in free flight leave time-stepping (the crowd), so that they rebound from the bodies that they hit.
+        // Bodies in free flight leave the crowd (the bodies that Moreau's scheme advances), so that they rebound from the bodies that they
+        // hit.
         let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
@@ -235,12 +238,12 @@ impl Collider {
         self.crowd.bodies.len() > seeds.len()
     }
 
-    /// Forgets for how many further steps bodies stay under time-stepping (in the crowd).
+    /// Forgets for how many further steps bodies stay in the crowd (the bodies that Moreau's scheme advances).
     pub(in crate::dynamics) fn release(&mut self) {
         self.crowd.again.clear();
     }
 
-    /// Returns all contact points of touching bodies, including those withunder time-stepping (in the crowd).
+    /// Returns all contact points of touching bodies, including those in the crowd (the bodies that Moreau's scheme advances).
     pub(super) fn touching_all(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         let bodies = std::mem::take(&mut self.crowd.bodies);
         let touching = self.touching(model, state);

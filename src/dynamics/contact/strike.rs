@@ -31,7 +31,7 @@ const OFTEN: f64 = 10.0;
 const MORE: f64 = 5.0;
 const MOST: f64 = 1000.0;
 
-/// After this many impacts of one pair within a step, or `TOGETHER` impacts of all pairs, time-stepping replaces the search for single
+/// After this many impacts of one pair within a step, or `TOGETHER` impacts of all pairs, Moreau's scheme replaces the search for single
 /// events.
 const TOO_OFTEN: f64 = 40.0;
 const TOGETHER: u32 = 1_000;

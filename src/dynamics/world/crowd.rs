@@ -1,17 +1,18 @@
-//! Bodies under time-stepping, because their events would not end within a step or because no consistent contact forces were found.
+//! Bodies in the crowd (the bodies that Moreau's scheme advances), because their events would not end within a step or because no
+//! consistent contact forces were found.
 
 use super::World;
 use super::event::Event;
 use crate::dynamics::energy::mechanical;
 
 impl World {
-    /// Returns true if two bodies touch in this event and at least one of them is under time-stepping.
+    /// Returns true if two bodies touch in this event and at least one of them is in the crowd (the bodies that Moreau's scheme advances).
     pub(super) fn is_in_crowd(&self, event: Event) -> bool {
         let Event::Touch(bodies) = event else { return false };
         self.collider.as_ref().is_some_and(|collider| collider.is_in_crowd(bodies))
     }
 
-    /// Advances these bodies, and all bodies that touch them, by time-stepping until the end of the step.
+    /// Advances these bodies, and all bodies that touch them, by Moreau's scheme until the end of the step.
     pub(super) fn crowd(&mut self, t: f64, bodies: &[usize]) {
         while self.let_touched_go() {}
         let Some(collider) = &mut self.collider else { return };
@@ -53,8 +54,8 @@ impl World {
             && (self.solver.is_unsolved() || self.solver.has_failed() || !is_finite() || t.is_nan())
     }
 
-    /// Returns to the start of the last piece, at time `t`, s, and lets time-stepping advance the bodies in contact from there. Returns
-    /// false, and changes nothing, if all of them already are under time-stepping.
+    /// Returns to the start of the last piece, at time `t`, s, and lets Moreau's scheme advance the bodies in contact from there. Returns
+    /// false, and changes nothing, if all of them already are in the crowd.
     pub(super) fn go_back(&mut self, t: f64) -> bool {
         let mut bodies: Vec<usize> =
             self.solver.contacts().iter().flat_map(|contact| contact.bodies).collect();
@@ -70,7 +71,7 @@ impl World {
         is_new
     }
 
-    /// Ends time-stepping at the end of a step, unless the bodies stay under it for further steps.
+    /// Ends Moreau's scheme at the end of a step, unless the bodies stay under it for further steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
         let places = match collider.end_course(&self.model, t, &mut self.state) {
@@ -112,8 +113,9 @@ mod tests {
     use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface};
     use super::*;
 
-    /// A ball under time-stepping approaches a wall at 1 m/s and hits it within a part of the step. It rebounds at that moment, with the
-    /// speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed form to within rounding errors.
+    /// A ball in the crowd (the bodies that Moreau's scheme advances) approaches a wall at 1 m/s and hits it within a part of the step. It
+    /// rebounds at that moment, with the speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed
+    /// form to within rounding errors.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {

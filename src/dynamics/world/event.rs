@@ -7,13 +7,13 @@ const CHANGES: u32 = 10_000;
 /// all of them in one step.
 const IMPACTS: u32 = 4_000_000;
 
-/// After this many events at the same instant, time-stepping advances their bodies until the end of the step.
+/// After this many events at the same instant, Moreau's scheme advances their bodies until the end of the step.
 const STAY: u32 = 10;
 
 /// A mode change counts as quick if the piece before it is shorter than this fraction of the remaining step.
 const QUICK: f64 = 1e-4;
 
-/// After this many mode changes within a step, time-stepping advances their bodies until the end of the step.
+/// After this many mode changes within a step, Moreau's scheme advances their bodies until the end of the step.
 const MANY: u32 = 100;
 
 /// More events at the same instant than this count as endless, since each event already resolves all impacts of its instant.
@@ -40,7 +40,7 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// Returns true if so many events have happened that the bodies of this event should be advanced by time-stepping.
+    /// Returns true if so many events have happened that the bodies of this event should be advanced by Moreau's scheme.
     pub(super) fn is_crowded(&self, event: Event) -> bool {
         self.at_once > STAY || (matches!(event, Event::Row(_)) && (self.changes > MANY || self.quick > STAY))
     }

@@ -3,7 +3,8 @@
 use super::rest::Rest;
 use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Loads, Model, Snapshot, State, System};
 
-/// Creates the snapshot of a state at `time`, s. `crowd` holds the contacts of bodies under time-stepping. `loads` is working memory.
+/// Creates the snapshot of a state at `time`, s. `crowd` holds the contacts of bodies in the crowd (the bodies that Moreau's scheme
+/// advances). `loads` is working memory.
 pub(super) fn picture(
     system: &mut System<'_>,
     time: f64,
@@ -25,7 +26,7 @@ pub(super) fn picture(
     Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
 }
 
-/// Adds the contact forces on bodies under time-stepping to their loads.
+/// Adds the contact forces on bodies in the crowd (the bodies that Moreau's scheme advances) to their loads.
 pub(super) fn push_crowd(contacts: &[ContactSnapshot], model: &Model, loads: &mut Loads) {
     for contact in contacts {
         let force = contact.force + contact.friction;

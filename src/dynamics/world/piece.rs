@@ -95,21 +95,21 @@ impl World {
     }
 
     /// Handles bodies that touch or separate: applies impacts to bodies that approach, and finds contacts that last. If no consistent
-    /// forces exist, time-stepping advances the bodies. Returns true if there was an impact.
+    /// forces exist, Moreau's scheme advances the bodies. Returns true if there was an impact.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
         let has_struck = self.meet_once(t, is_touch, true);
         self.crowd_undecided(t);
         has_struck
     }
 
-    /// Handles bodies that come to rest: decides the modes of all contacts, including those of heaps, which do not return to
-    /// time-stepping.
+    /// Handles bodies that come to rest: decides the modes of all contacts, including those of heaps, which do not return to Moreau's
+    /// scheme.
     pub(super) fn meet_at_rest(&mut self, t: f64) {
         self.meet_once(t, false, false);
         self.crowd_undecided(t);
     }
 
-    /// Decides the modes of all contacts at time `t`, s. If no consistent modes exist for some bodies, time-stepping advances these.
+    /// Decides the modes of all contacts at time `t`, s. If no consistent modes exist for some bodies, Moreau's scheme advances these.
     pub(super) fn decide_contacts(&mut self, t: f64) {
         self.is_decided = true;
         self.decide(t);

@@ -19,7 +19,7 @@ const CALM: u32 = 8;
 /// forces within a step.
 const STILL: f64 = 1e-8;
 
-/// The factor by which a body at rest may move faster if time-stepping has advanced it.
+/// The factor by which a body at rest may move faster if Moreau's scheme has advanced it.
 const CREEP: f64 = 100.0;
 
 /// Loads count as unchanged if their relative change is below this.
@@ -98,8 +98,8 @@ impl World {
         self.meet_at_rest(t);
     }
 
-    /// Holds groups of bodies that time-stepping brought to rest. Sweeps find their contact forces as well. To decide by events which of a
-    /// heap's many contacts push would take long, and would often fail.
+    /// Holds groups of bodies that Moreau's scheme brought to rest. Sweeps find their contact forces as well. To decide by events which of
+    /// a heap's many contacts push would take long, and would often fail.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         self.is_decided &= islands.is_empty();
         let make = |bodies: BTreeSet<usize>| {

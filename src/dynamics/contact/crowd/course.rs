@@ -1,4 +1,4 @@
-//! The motion of the crowd through a step, by time-stepping.
+//! The motion of the crowd through a step, by Moreau's scheme.
 //!
 //! A step is divided into a few equal substeps. In each, impulses stop or reverse approaching bodies; then the forces, the contacts and
 //! the friction act with the velocities in the middle of the substep. The energy that this takes is booked. The order of the method is 1.
@@ -40,8 +40,8 @@ const DEEP: f64 = 0.01;
 /// The largest number of attempts to separate jammed bodies. After them, the run fails.
 const REPAIRS: usize = 5;
 
-/// Bodies stay under time-stepping (in the crowd) while their gap to another body is below this fraction of the smaller body's size. Lower
-/// bounces do not count as free flight.
+/// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
+/// smaller body's size. Lower bounces do not count as free flight.
 const LEAN: f64 = 0.01;
 
 /// Times within a substep are equal if they differ by less than this fraction of it.
@@ -50,18 +50,18 @@ const SAME: f64 = 1e-12;
 /// Bodies touch if their gap is below this fraction of their coordinates.
 const NEAR: f64 = 1e-9;
 
-/// The motion of the crowd (the bodies under time-stepping) through a step, sampled at the ends of equal substeps.
+/// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
 #[derive(Clone, Default)]
 pub(super) struct Course {
     /// The time at which the motion begins, s.
     start: f64,
     /// The length of each substep, s.
     part: f64,
-    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd (the bodies under
-    /// time-stepping).
+    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd (the bodies that Moreau's
+    /// scheme advances).
     states: Vec<State>,
-    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd (not under
-    /// time-stepping), m/s.
+    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd (the bodies
+    /// that Moreau's scheme advances), m/s.
     first: State,
     velocity: Vec<DVec3>,
     /// The pairs of bodies that can meet during the motion.
@@ -74,8 +74,8 @@ pub(super) struct Course {
 }
 
 impl Collider {
-    /// Advances the crowd (the bodies under time-stepping) from time `t` by `dt` seconds. `rest` is the time from there to the end of the
-    /// step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion fails.
+    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. `rest` is the time from there to the
+    /// end of the step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion fails.
     pub(in crate::dynamics) fn advance_crowd(
         &mut self,
         model: &Model,
@@ -88,7 +88,8 @@ impl Collider {
         }
         let known = self.crowd.course.take().and_then(|mut course| {
             let now = self.moment(&mut course, t, model, loads);
-            // The computed motion is invalid if other bodies have hit the crowd (the bodies under time-stepping) in the meantime.
+            // The computed motion is invalid if other bodies have hit the crowd (the bodies that Moreau's scheme advances) in the
+            // meantime.
             let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
             is_here.then_some((course, now.accounts))
         });
@@ -110,8 +111,8 @@ impl Collider {
         failure
     }
 
-    /// Computes the motion of the crowd (the bodies under time-stepping) from the state `before`, for `span` seconds. Bodies outside the
-    /// crowd move at their velocities in `after`.
+    /// Computes the motion of the crowd (the bodies that Moreau's scheme advances) from the state `before`, for `span` seconds. Bodies
+    /// outside the crowd move at their velocities in `after`.
     fn course(
         &mut self,
         model: &Model,
@@ -138,7 +139,7 @@ impl Collider {
         course
     }
 
-    /// Reports the impacts of the crowd (the bodies under time-stepping) up to `time`, s, to which the crowd has been advanced.
+    /// Reports the impacts of the crowd (the bodies that Moreau's scheme advances) up to `time`, s, to which the crowd has been advanced.
     pub(in crate::dynamics) fn note_rebounds(&mut self, time: f64) {
         let Collider { crowd, impacts, .. } = self;
         let Some(course) = &mut crowd.course else { return };
@@ -146,7 +147,7 @@ impl Collider {
         impacts.extend(course.impacts.drain(..passed));
     }
 
-    /// Returns the state of the crowd (the bodies under time-stepping) at `time`, s.
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
     fn moment(&mut self, course: &mut Course, time: f64, model: &Model, loads: &mut Loads) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
@@ -169,8 +170,8 @@ impl Collider {
         found
     }
 
-    /// Returns the state of the crowd (the bodies under time-stepping) `part` seconds after the beginning of substep `k`, at or before its
-    /// end.
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) `part` seconds after the beginning of substep `k`, at or
+    /// before its end.
     fn advance_from(
         &mut self,
         course: &Course,
@@ -184,7 +185,7 @@ impl Collider {
         let time = course.start + passed;
         let mut now = course.first.clone();
         for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
-            // Bodies outside the crowd (not under time-stepping) move on at constant velocity.
+            // Bodies outside the crowd (the bodies that Moreau's scheme advances) move on at constant velocity.
             *location += passed * *velocity;
         }
         for (at, &body) in crowd.bodies.iter().enumerate() {
@@ -207,8 +208,8 @@ impl Collider {
         part
     }
 
-    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies under time-stepping)
-    /// handles.
+    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
+    /// advances) handles.
     fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
         let margin = |i: usize| match &self.solids[i] {
             Some(solid) if self.crowd.bodies.contains(&i) => {
@@ -227,8 +228,8 @@ impl Collider {
         pairs
     }
 
-    /// Returns the bodies under time-stepping (the crowd) that are not in free flight, because they are close to other bodies of the crowd
-    /// or to fixed bodies.
+    /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to other bodies of
+    /// the crowd or to fixed bodies.
     pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
         let mut all = BTreeSet::new();
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -253,7 +254,7 @@ impl Collider {
         self.crowd.bodies.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
     }
 
-    /// Returns the possible contacts of the bodies under time-stepping (the crowd) within `part` seconds.
+    /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds.
     fn crowd_places(&self, model: &Model, state: &State, pairs: &[Pair], part: f64) -> Vec<Arc<Closed>> {
         let mut all = Vec::new();
         for pair in pairs {
@@ -293,7 +294,7 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
     }
 
-    /// Separates bodies under time-stepping (the crowd) that overlap too deeply at the end of a step. Returns the contacts of the crowd.
+    /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the contacts of the crowd.
     ///
     /// # Errors
     ///
@@ -327,7 +328,8 @@ impl Collider {
         Err(Breakdown::Jammed { bodies, time })
     }
 
-    /// Returns the contacts of the bodies under time-stepping (the crowd), and two bodies that overlap too deeply, if there are any.
+    /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
+    /// any.
     fn touching_in_crowd(&self, model: &Model, state: &State) -> (Vec<Arc<Closed>>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -347,7 +349,7 @@ impl Collider {
 }
 
 impl Crowd {
-    /// Extracts the part of a state that belongs to the bodies under time-stepping (the crowd), with one entry for each body.
+    /// Extracts the part of a state that belongs to the crowd (the bodies that Moreau's scheme advances), with one entry for each body.
     fn part_of(&self, state: &State) -> State {
         State {
             location: self.bodies.iter().map(|&i| state.location[i]).collect(),
@@ -358,8 +360,8 @@ impl Crowd {
         }
     }
 
-    /// Advances the crowd (the bodies under time-stepping) by one substep of `part` seconds from time `t`. `closed` holds its possible
-    /// contacts.
+    /// Advances the crowd (the bodies that Moreau's scheme advances) by one substep of `part` seconds from time `t`. `closed` holds its
+    /// possible contacts.
     fn advance(
         &mut self,
         closed: Vec<Arc<Closed>>,
@@ -409,12 +411,12 @@ impl Crowd {
         separate(&mut self.solver, model, t + part, now);
     }
 
-    /// Moves the bodies under time-stepping (the crowd) freely for `time` seconds.
+    /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
     fn fly(&self, model: &Model, time: f64, now: &mut State) {
         self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
     }
 
-    /// Changes the momenta of the bodies under time-stepping (the crowd) by the loads, acting for `time` seconds.
+    /// Changes the momenta of the crowd (the bodies that Moreau's scheme advances) by the loads, acting for `time` seconds.
     fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
         for &i in &self.bodies {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];

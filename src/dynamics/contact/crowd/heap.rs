@@ -1,4 +1,4 @@
-//! Heaps: many touching bodies, which time-stepping advances from their first event until they rest.
+//! Heaps: many touching bodies, which Moreau's scheme advances from their first event until they rest.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -25,8 +25,8 @@ impl Collider {
         heap
     }
 
-    /// Adds touching bodies to the crowd (the bodies under time-stepping) again if they were advanced as a heap before. `places` are the
-    /// lasting contacts. A body that has just been hit is not among them, since it rebounds first.
+    /// Adds touching bodies to the crowd (the bodies that Moreau's scheme advances) again if they were advanced as a heap before. `places`
+    /// are the lasting contacts. A body that has just been hit is not among them, since it rebounds first.
     pub(in crate::dynamics) fn crowd_known_heaps(
         &mut self,
         model: &Model,

@@ -1,4 +1,4 @@
-//! Adds bodies that will hit the crowd (the bodies under time-stepping) within a step to the crowd from the step's beginning.
+//! Adds bodies that will hit the crowd (the bodies that Moreau's scheme advances) within a step to the crowd from the step's beginning.
 
 use super::super::super::{Model, State};
 use super::super::collider::Collider;
@@ -6,18 +6,17 @@ use super::super::nearest::nearest;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 
-/// Bodies hit a crowd (bodies under time-stepping) of at most this many bodies at the exact time. The crowd's motion is then computed
-/// again, at little cost.
+/// Bodies hit a crowd of at most this many bodies at the exact time. The crowd's motion is then computed again, at little cost.
 const FEW: usize = 6;
 
-/// Bodies join a crowd (bodies under time-stepping) if they could reach it by moving this many times their free distance, plus the
-/// fraction `NEARER` of their size. The margin is needed because impacts can make bodies faster within a step.
+/// Bodies join a crowd if they could reach it by moving this many times their free distance, plus the fraction `NEARER` of their size. The
+/// margin is needed because impacts can make bodies faster within a step.
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.02;
 
 impl Collider {
-    /// Adds bodies that may hit the crowd (the bodies under time-stepping) within `dt` seconds, then bodies that may hit these, and so on.
-    /// The motion of a large crowd is then computed once in a step, not after each hit.
+    /// Adds bodies that may hit the crowd (the bodies that Moreau's scheme advances) within `dt` seconds, then bodies that may hit these,
+    /// and so on. The motion of a large crowd is then computed once in a step, not after each hit.
     pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
         if self.crowd.bodies.len() <= FEW {
             return;
@@ -42,7 +41,7 @@ impl Collider {
         pairs.retain(|pair| pair.bodies.iter().all(|body| is_here(body) && can_move(body)));
         loop {
             let is_in = |body: &usize| self.crowd.bodies.contains(body);
-            // `halves` are pairs with one body under time-stepping (in the crowd), `others` pairs with none.
+            // `halves` are pairs with one body in the crowd (the bodies that Moreau's scheme advances), `others` pairs with none.
             let (halves, others): (Vec<Pair>, Vec<Pair>) = pairs
                 .into_iter()
                 .filter(|pair| !pair.bodies.iter().all(is_in))
