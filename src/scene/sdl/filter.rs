@@ -72,17 +72,21 @@ const MAX_REFUSALS: usize = 8;
 pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (Vec<Refusal>, Vec<&str>) {
     let mut filter =
         Filter { place, is_asset, open: Vec::new(), macros: 0, refusals: Vec::new(), includes: Vec::new() };
-    if let Some(at) = text.find('\0') {
-        filter.refuse(at..at + 1, Why::Nul);
-    }
+    let nul = text.find('\0');
     let mut tokens = Tokens::of(text);
     let (mut before, mut end) = (None, 0..0);
     while let Some((token, range)) = tokens.next() {
         filter.token(token, &range, before, &tokens);
         if filter.refusals.len() >= MAX_REFUSALS {
-            return (filter.refusals, filter.includes);
+            if let Some(at) = nul.filter(|&at| at < range.start) {
+                filter.refuse(at..at + 1, Why::Nul);
+            }
+            return (first(filter.refusals), filter.includes);
         }
         (before, end) = (Some(token), range);
+    }
+    if let Some(at) = nul {
+        filter.refuse(at..at + 1, Why::Nul);
     }
     if before == Some(Token::Symbol('#')) {
         filter.refuse(end, Why::Hash);
@@ -95,8 +99,14 @@ pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (V
     for (word, range) in std::mem::take(&mut filter.open).into_iter().take(MAX_REFUSALS) {
         filter.refuse(range, Why::Open(word));
     }
-    filter.refusals.sort_by_key(|refusal| refusal.range.start);
-    (filter.refusals, filter.includes)
+    (first(filter.refusals), filter.includes)
+}
+
+/// Sorts refusals by their positions in the text, and keeps the first ones.
+fn first(mut refusals: Vec<Refusal>) -> Vec<Refusal> {
+    refusals.sort_by_key(|refusal| refusal.range.start);
+    refusals.truncate(MAX_REFUSALS);
+    refusals
 }
 
 struct Filter<'a, F> {
@@ -291,6 +301,18 @@ mod tests {
     }
 
     #[test]
+    fn the_first_refusals_are_reported_in_the_order_of_the_text() {
+        let starts = |text: &str| -> Vec<usize> {
+            refusals(text, Where::Top, |_| false).0.iter().map(|refusal| refusal.range.start).collect()
+        };
+        let first: Vec<usize> = (0..MAX_REFUSALS).map(|i| 6 * i).collect();
+        assert_eq!(starts(&("fopen ".repeat(9) + "\0")), first);
+        assert_eq!(starts(&("\0 ".to_owned() + &"fopen ".repeat(9)))[..2], [0, 2]);
+        assert_eq!(starts(&("#if (1) ".repeat(9) + &"fopen ".repeat(7))).len(), MAX_REFUSALS);
+        assert_eq!(starts("fopen \0 #if (1) fopen"), [0, 6, 9, 16]);
+    }
+
+    #[test]
     fn the_words_are_sorted_and_each_has_one_place() {
         let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED, &OTHERS];
         for list in lists {
@@ -317,7 +339,9 @@ mod tests {
         ) {
             let text = words.concat();
             for place in [Where::Top, Where::Inside] {
-                for refusal in refusals(&text, place, |name| name == "a.inc").0 {
+                let refused = refusals(&text, place, |name| name == "a.inc").0;
+                assert!(refused.len() <= MAX_REFUSALS && refused.is_sorted_by_key(|refusal| refusal.range.start));
+                for refusal in refused {
                     assert!(text.get(refusal.range.clone()).is_some(), "{text:?} at {refusal:?}");
                 }
             }
