@@ -228,8 +228,8 @@ impl Collider {
         pairs
     }
 
-    /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to other bodies of
-    /// the crowd or to fixed bodies.
+    /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to
+    /// other bodies of the crowd or to fixed bodies.
     pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
         let mut all = BTreeSet::new();
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -294,7 +294,8 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
     }
 
-    /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the contacts of the crowd.
+    /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the
+    /// contacts of the crowd.
     ///
     /// # Errors
     ///
