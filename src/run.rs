@@ -129,7 +129,8 @@ impl<'a> Run<'a> {
     /// simulation is replaced by its beginning or end.
     ///
     /// # Errors
-    /// If the motion becomes non-finite, or the recording cannot be read.
+    /// If the motion becomes non-finite, or the recording cannot be read. Also if [`Recorded::of`] made the run, and the moment was not
+    /// recorded.
     pub fn at(&self, time: f64) -> Result<Exposure, RunError> {
         Ok(self.recorded.at(time)?)
     }

@@ -22,6 +22,8 @@ pub struct Recorded<'a> {
     breakdown: Option<SimulateError>,
     /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     resumed: Option<f64>,
+    /// Whether the caller's own dynamics made the run, so that the scene's dynamics must not add moments to it.
+    of_own_dynamics: bool,
 }
 
 impl<'a> Recorded<'a> {
@@ -37,8 +39,7 @@ impl<'a> Recorded<'a> {
     }
 
     /// Simulates a scene with the caller's own dynamics, which must be at time 0. The bodies of the dynamics have the indices of the
-    /// scene. Only the moments that the scene requests are recorded: for any other moment, [`at`](Self::at) runs the scene's own forces
-    /// and method.
+    /// scene. Only the moments that the scene requests are recorded: for any other moment, [`at`](Self::at) returns an error.
     ///
     /// # Errors
     /// If the run becomes non-finite.
@@ -46,12 +47,12 @@ impl<'a> Recorded<'a> {
         let simulation = Simulation::of(scene, Moments::of(scene), dynamics);
         let mut recorder = Recorder::of(scene, simulation, Box::<MemoryStore>::default());
         while recorder.advance()?.is_some() {}
-        recorder.finish()
+        Ok(Recorded { of_own_dynamics: true, ..recorder.finish()? })
     }
 
     /// Combines a scene with the recording and the survey of its complete run.
     pub fn of_parts(scene: &'a Scene, recording: Arc<Recording>, survey: Survey) -> Recorded<'a> {
-        Recorded { scene, recording, survey, breakdown: None, resumed: None }
+        Recorded { scene, recording, survey, breakdown: None, resumed: None, of_own_dynamics: false }
     }
 
     /// Surveys a recorded run, and calls `seen` with every frame. The survey depends on the look of the scene, so it is computed again
@@ -172,7 +173,8 @@ impl<'a> Recorded<'a> {
     /// first or last moment. If the moment was not recorded, the run is simulated again.
     ///
     /// # Errors
-    /// If the run becomes non-finite before that time, or the recording cannot be read.
+    /// If the run becomes non-finite before that time, or the recording cannot be read. Also if the moment was not recorded and the run
+    /// is one of the caller's own dynamics ([`of`](Self::of)): the scene's dynamics would give another motion.
     pub fn at(&self, time: f64) -> Result<Exposure, SimulateError> {
         let time = within(self.scene, time);
         let moments = Moments::of(self.scene).with(time);
@@ -180,6 +182,11 @@ impl<'a> Recorded<'a> {
             && moments.times_of(time).all(|time| self.recording.moment_at(time).is_some())
         {
             return exposure(self.scene, &self.recording, moment);
+        }
+        if self.of_own_dynamics {
+            let message =
+                format!("t = {time} s was not recorded, and a run of your own dynamics cannot be repeated");
+            return Err(SimulateError::Recording(message));
         }
         let store = Box::<MemoryStore>::default();
         let mut recorder = Recorder::new(self.scene, moments, &Effort::default(), store);
@@ -352,6 +359,6 @@ impl<'a> Recorder<'a> {
     fn finish_after(self, breakdown: Option<SimulateError>) -> Result<Recorded<'a>, SimulateError> {
         let Recorder { scene, surveyor, recording, resumed, .. } = self;
         recording.index()?;
-        Ok(Recorded { scene, recording, survey: surveyor.finish(), breakdown, resumed })
+        Ok(Recorded { breakdown, resumed, ..Recorded::of_parts(scene, recording, surveyor.finish()) })
     }
 }

@@ -63,6 +63,18 @@ fn a_compound_tumbles_as_the_solid_that_it_makes_up() {
 }
 
 #[test]
+fn a_run_of_the_callers_own_dynamics_is_not_simulated_again_with_those_of_the_scene() {
+    let text = "simulation = { duration = 1, frame_rate = 10 }\n[body.ball]\nshape.sphere.radius = 1";
+    let scene = Scene::parse(text).unwrap();
+    let moving = Scene::parse(&format!("{text}\nvelocity = [1, 0, 0]")).unwrap();
+    let recorded = Recorded::of(&scene, Box::new(world(&moving))).unwrap();
+    assert_eq!(recorded.at(0.5).unwrap().frame.bodies[0].velocity.x, 1.0);
+    let refused = recorded.at(0.55).map(|exposure| exposure.frame.bodies[0].location);
+    assert!(matches!(refused, Err(SimulateError::Recording(_))), "{refused:?}");
+    assert!(Recorded::new(&scene).unwrap().at(0.55).is_ok());
+}
+
+#[test]
 fn frames_know_their_time_and_the_forces() {
     let scene = Scene::parse(TUMBLE).unwrap();
     let last = Frames::new(&scene).last().unwrap().unwrap();
