@@ -1,4 +1,4 @@
-//! `jabuka batch` and `jabuka status`, without any engine.
+//! Tests of `jabuka batch` and `jabuka status` that need no cluster software.
 
 use std::fs;
 
@@ -9,20 +9,19 @@ const SLURM: [&str; 2] = ["--engine", "slurm"];
 
 #[test]
 fn a_scene_that_is_changed_keeps_the_images_that_are_up_to_date() {
-    // It turns where it stands: camera, lights and ground follow what the whole motion takes up, so a way that is longer
-    // would change every script.
+    // The ball spins in place. A ball that moved farther in the longer film would change camera, lights and ground, and so every script.
     let scene = |frames| {
         scene(frames)
             .replace("velocity = [1, 0, 0]", "angular_velocity = [0, 3, 0]\nmaterial.like = 'beach_ball'")
     };
     let job = Job::new(&scene(3), &SLURM);
     assert!(job.chunk(&["0", "2"]).status.success());
-    // Longer, and the same up to there.
+    // The longer film begins with the same frames.
     let longer = scene(5);
     let output = job.batch(&longer, &SLURM);
     assert!(stdout(&output).contains("\nimages    3 of 5 are there\n"), "{}", stdout(&output));
     assert_eq!(job.missing(), "3-4");
-    // Another size is another image.
+    // Images of another size must be rendered again.
     let output = job.batch(&longer, &[&SLURM[..], &["--size", "32x18"]].concat());
     assert!(stdout(&output).contains("\nimages    0 of 5 are there\n"), "{}", stdout(&output));
     assert_eq!(job.missing(), "0-4");
@@ -75,7 +74,7 @@ fn a_folder_of_scripts_makes_the_same_job_as_its_scene() {
     for name in ["job.conf", "render-chunk", "scripts/frame_0002.pov", "scripts/manifest.json"] {
         assert_eq!(fs::read_to_string(job.join(name)).unwrap(), of_scene.read(name), "{name}");
     }
-    // A script that is gone goes.
+    // The second compilation has fewer frames, and removes the scripts of the last ones.
     fs::write(&toml, scene(2)).unwrap();
     compile(&toml, &scripts, &[]);
     assert!(stdout(&batch(&[])).contains("images    0 of 2 are there"));
@@ -169,7 +168,7 @@ fn status_reads_the_folder_of_a_render_too() {
     let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
     assert_eq!(json(&stdout(&status()))["missing"], serde_json::json!([0, 1, 2]));
 
-    // The same images, as a job makes them.
+    // Take the images of a job instead: they are equal to those that a render makes.
     let job = Job::new(&scene(3), &SLURM);
     assert!(job.chunk(&["0", "1"]).status.success());
     fs::rename(job.join("images"), out.join("images")).unwrap();

@@ -1,4 +1,4 @@
-//! `render-chunk`, which every engine calls.
+//! Tests of `render-chunk`, the script of a job folder that every cluster engine calls to render a chunk of frames.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -24,7 +24,7 @@ fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
     assert_eq!(job.missing(), "0-4");
     assert_eq!(job.status(), ("done     3 of 8\nmissing  5: 0-4\nfilm     not made\n".to_owned(), false));
 
-    // The text is the one that jabuka expects, to the byte.
+    // The record that the bash script writes must equal, byte for byte, the record that the library expects.
     let version = Command::new("povray").arg("--version").output().unwrap();
     let version = stderr(&version) + &stdout(&version);
     let version = version.split("POV-Ray ").nth(1).unwrap().split_whitespace().next().unwrap();
@@ -41,7 +41,7 @@ fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
     assert_eq!(job.leftovers(), [""; 0]);
     assert!(job.status().1);
 
-    // An image that is cut off, one without a record, and one of another script are rendered again.
+    // Three images must be rendered again: a truncated one, one without a record, and one whose script has changed.
     fs::write(job.join("images/frame_0001.png"), "cut off").unwrap();
     fs::remove_file(job.join("images/.jabuka/frame_0003.txt")).unwrap();
     let text = job.read("scripts/frame_0005.pov");
@@ -54,7 +54,7 @@ fn a_chunk_is_rendered_once_and_jabuka_reads_its_records() {
 
 #[test]
 fn scripts_that_know_their_number_see_it() {
-    // The sky is white from frame 2 on, by its number, and black before.
+    // The background is black up to frame 1 and white from frame 2 on, depending on the frame's number and clock.
     let sdl = "background { rgb (frame_number > 1) * (clock > 0.07) } // clock of a longer film";
     let text = format!("environment = 'space'\n[povray]\nsdl = '{sdl}'\n") + &scene(4);
     for layout in ["self-contained", "shared"] {
@@ -85,7 +85,7 @@ fn equal_scripts_are_rendered_once() {
     assert_eq!(job.missing(), "");
     let images = |frame: usize| fs::read(job.join(format!("images/frame_{frame:04}.png"))).unwrap();
     assert_eq!(images(0), images(5));
-    // Equal scripts fail equally.
+    // Two equal scripts are rendered once, and a failure counts for both frames.
     for frame in [0, 1] {
         job.break_frame(frame);
     }
@@ -108,7 +108,7 @@ fn a_broken_frame_stops_no_other_and_says_where_it_is_broken() {
     assert_eq!(job.status(), (status, false));
     assert!(job.read("images/.jabuka/failed/frame_0003.txt").starts_with(&why));
 
-    // Mended, it has not failed any more: it is missing.
+    // After the script is repaired, its frame counts as missing, no longer as failed.
     std::thread::sleep(Duration::from_millis(20));
     let good = job.read("scripts/frame_0002.pov");
     fs::write(job.join("scripts/frame_0003.pov"), good.replace("<0.08", "<0.12")).unwrap();
@@ -131,17 +131,17 @@ fn a_frame_that_takes_too_long_is_given_up() {
 #[test]
 fn what_is_stopped_in_the_middle_leaves_nothing_half() {
     let job = Job::new(&scene(40), &SLURM);
-    // Some frames never end.
+    // Two frames get scripts that never end.
     for frame in [5, 6] {
         let endless = format!("// frame {frame}\n#version 3.7;\n#while (1) #declare X = {frame}; #end\n");
         fs::write(job.join(format!("scripts/frame_{frame:04}.pov")), endless).unwrap();
     }
     for signal in ["TERM", "INT", "KILL"] {
         let mut command = job.command("/usr/bin/env");
-        // What runs the tests in the background may have them ignore it, and bash cannot trap what it was told to ignore.
+        // A test runner in the background may make its children ignore SIGINT, and bash cannot trap a signal that it ignored at its start.
         command.arg("--default-signal=INT").arg(job.join("render-chunk"));
         let mut chunk = Running(command.args(["0", "39"]).env("PROCESSES", "3").spawn().unwrap());
-        // A third worker renders the others meanwhile.
+        // Two workers render the endless frames; the third renders all other frames meanwhile.
         wait_until("the frames that never end are being rendered", LONG, || {
             let running = job.running();
             running.contains(&5) && running.contains(&6)
@@ -150,7 +150,7 @@ fn what_is_stopped_in_the_middle_leaves_nothing_half() {
         assert!(kill.unwrap().success());
         let code = chunk.0.wait().unwrap().code();
         if signal == "KILL" {
-            // It could not tidy up. What it has left in the way of processes is ended by hand.
+            // A killed script cannot clean up, so the test ends the remaining processes.
             end_endless_frames(&job);
         } else {
             assert_eq!(code, Some(143));
@@ -161,7 +161,7 @@ fn what_is_stopped_in_the_middle_leaves_nothing_half() {
             assert!(bytes.ends_with(b"IEND\xae\x42\x60\x82"), "{image} is half");
         }
     }
-    // A marker that nobody touches is not taken for work for ever.
+    // A `running` marker that has not been touched for three minutes no longer counts as work in progress.
     wait_until("workers end", LONG, || {
         let markers = names(&job.join("images/.jabuka/running"));
         let old = |marker: &String| {
@@ -172,7 +172,7 @@ fn what_is_stopped_in_the_middle_leaves_nothing_half() {
     });
 }
 
-/// A chunk that is being rendered. Frames that never end would outlive a test that fails.
+/// A running `render-chunk`. Dropping it ends the process, so that endless frames do not outlive a failed test.
 struct Running(Child);
 
 impl Drop for Running {
@@ -184,7 +184,7 @@ impl Drop for Running {
     }
 }
 
-/// Ends the workers of a chunk that was killed, and their POV-Rays: all processes that work in the folder of the job.
+/// Kills all processes whose working directory is in the job folder: the workers of a killed chunk and their POV-Ray processes.
 fn end_endless_frames(job: &Job) {
     let folder = fs::canonicalize(job.path()).unwrap();
     let send = |signal: &str| {
@@ -198,7 +198,7 @@ fn end_endless_frames(job: &Job) {
         }
         found
     };
-    // First all are stopped: a worker that sees its POV-Ray end would note a failure, and begin the next frame.
+    // Stop all processes first: a worker that sees its POV-Ray process end would record a failure and begin the next frame.
     send("-STOP");
     send("-STOP");
     wait_until("all have ended", LONG, || !send("-KILL"));
@@ -214,7 +214,7 @@ fn two_machines_may_render_the_same_frames() {
     assert!(job.status().1, "{}", job.status().0);
 }
 
-/// A program in place of another.
+/// Writes a bash script with this text into the job folder, to be called in place of a real program.
 fn stand_in(job: &Job, name: &str, text: &str) -> std::path::PathBuf {
     let path = job.join(name);
     fs::write(&path, format!("#!/usr/bin/env bash\n{text}\n")).unwrap();
@@ -237,7 +237,7 @@ fn an_image_that_is_not_whole_is_none() {
     assert_eq!(job.chunk(&["0"]).status.code(), Some(139));
     assert!(job.status().0.contains("frame 0: POV-Ray ended with code 139"), "{}", job.status().0);
 
-    // Another POV-Ray makes other images, wherever there is one to ask.
+    // Images made by another version of POV-Ray must be rendered again, but only where a POV-Ray is available to report its version.
     fs::remove_file(job.join("local.conf")).unwrap();
     assert!(job.chunk(&["0", "1"]).status.success());
     fs::write(job.join("local.conf"), format!("POVRAY={}\n", job.join("povray").display())).unwrap();
@@ -282,7 +282,7 @@ fn a_blurred_frame_is_the_average_of_its_moments() {
          #ifndef (Shutter_Sample) #declare Shutter_Sample = frame_number; #end\n#switch (Shutter_Sample)\n{moments}#end\n{body}"
     );
     fs::write(job.join("scripts/shutter_0001.pov"), blurred).unwrap();
-    // The first image stands for the average, and it is noted what was to be averaged.
+    // This stand-in for the averaging program copies the first image, and records how many arguments it got.
     let stand_in = stand_in(
         &job,
         "average",
@@ -303,7 +303,7 @@ fn a_blurred_frame_is_the_average_of_its_moments() {
         "its frame_number is that of a moment"
     );
     assert!(job.status().1, "{}", job.status().0);
-    // The sharp script is of no account then.
+    // With motion blur, the sharp script of a frame is not used, so breaking it changes nothing.
     job.break_frame(1);
     assert_eq!(job.missing(), "");
 }
@@ -323,7 +323,7 @@ fn a_scene_with_motion_blur_is_a_job_of_as_many_images_as_frames() {
     assert!(job.command("render-video").status().unwrap().success());
     assert_eq!(film(&job.join("film.mp4")).0, 3);
     assert_eq!(job.status(), ("done     3 of 3\nfilm     made\n".to_owned(), true));
-    // As a folder of scripts and images, without the settings of a job.
+    // Read the folder of scripts and images directly, without the settings of the job.
     let scripts = job.join("scripts");
     let output = jabuka().arg("status").arg(scripts).output().unwrap();
     assert!(stdout(&output).starts_with("done     0 of 3\n"), "{}", stdout(&output));
@@ -344,7 +344,7 @@ fn a_script_that_writes_elsewhere_fails_where_a_node_has_jabuka() {
     assert!(said.starts_with("sandbox: Landlock, ABI "), "{said}");
     assert!(said.contains("Cannot open user file"), "{said}");
     assert_eq!(job.images(), ["frame_0001.png"]);
-    // Where it is not, nothing enforces this, and that is said.
+    // On a node without jabuka, no sandbox confines POV-Ray, and the output must say so.
     let output = job.command("render-chunk").arg("1").env("PATH", path_without_jabuka()).output().unwrap();
     assert!(stdout(&output).starts_with("sandbox: Landlock"), "local.conf names it");
     fs::remove_file(job.join("local.conf")).unwrap();

@@ -1,4 +1,4 @@
-//! Names and texts that a shell would take for commands reach a job as names and texts.
+//! Names and texts that contain shell commands must reach a job unchanged, and must never be executed.
 
 use std::fs;
 use std::os::unix::fs::MetadataExt;
@@ -10,14 +10,14 @@ use sha2::{Digest, Sha256};
 use super::job::{Job, names, scene};
 use super::support::{jabuka, root, stderr, stdout};
 
-/// The file that would be there if a name had been run.
+/// The file that exists if a shell has executed one of the hostile names.
 const MARK: &str = "PWNED";
 
-/// The name of a scene file, without `.toml`.
+/// The name of the hostile scene file, without `.toml`. It holds shell commands, placeholders of templates, and control characters.
 pub(crate) const SCENE_NAME: &str =
     "-film@files@$(touch PWNED)`touch PWNED`';touch PWNED;'\"x@options@\n{{Param.Frames}}, \u{202e}\u{1b}[2J";
 
-/// A scene whose title, body and asset have hostile names.
+/// Returns the text of a scene whose title, body and asset have hostile names.
 pub(crate) fn hostile_scene(frames: usize) -> String {
     let shell = "$(touch PWNED)`touch PWNED`';touch PWNED;'@options@ # \\u001b[2J\\u202e";
     format!(
@@ -26,7 +26,7 @@ pub(crate) fn hostile_scene(frames: usize) -> String {
     )
 }
 
-/// Writes the hostile scene and its asset into a folder, and its job; returns the job and what was said.
+/// Writes the hostile scene, its asset and its job into a folder. Returns the path of the job folder and the output of `jabuka batch`.
 pub(crate) fn hostile_job(folder: &Path, frames: usize, arguments: &[&str]) -> (PathBuf, String) {
     let scene = folder.join(format!("{SCENE_NAME}.toml"));
     fs::write(&scene, hostile_scene(frames)).unwrap();
@@ -37,7 +37,7 @@ pub(crate) fn hostile_job(folder: &Path, frames: usize, arguments: &[&str]) -> (
     (folder.join("out").join(format!("{SCENE_NAME}-job")), stdout(&output))
 }
 
-/// Fails if something was run, in any folder below this one.
+/// Asserts that this folder and its subfolders contain no [`MARK`] file, so that no hostile name was executed.
 pub(crate) fn assert_nothing_was_run(folder: &Path) {
     for name in names(folder) {
         assert_ne!(name, MARK, "in {}", folder.display());
@@ -49,7 +49,7 @@ pub(crate) fn assert_nothing_was_run(folder: &Path) {
     assert!(!root().join(MARK).exists());
 }
 
-/// The files of a job that bash reads.
+/// Returns the names of the files in a job folder that bash runs or sources.
 fn scripts_of_bash(job: &Path) -> Vec<String> {
     let of_bash = |name: &String| {
         let text = fs::read(job.join(name)).unwrap_or_default();
@@ -78,7 +78,7 @@ fn shellcheck_finds_nothing_in_any_file_of_a_job() {
 fn a_hostile_scene_is_rendered_and_nothing_in_it_is_run() {
     let folder = tempfile::tempdir().unwrap();
     let (job, said) = hostile_job(folder.path(), 2, &["--engine", "slurm"]);
-    // The commands that are suggested lead to the job.
+    // The commands that `jabuka batch` suggests must work as printed.
     assert!(!said.chars().any(|c| c == '\u{202e}' || c.is_control() && c != '\n'), "{said}");
     let command = said.lines().find_map(|line| line.strip_prefix("send      ")).unwrap();
     let render =
@@ -118,7 +118,7 @@ fn a_forged_manifest_puts_no_line_into_the_settings() {
         let output = Command::new(folder.path().join("job/render-chunk")).arg("--missing").output().unwrap();
         assert_eq!(stdout(&output), "0-1\n", "{}", stderr(&output));
     }
-    // A name of a file that the settings cannot hold.
+    // The settings file cannot hold a file name that contains a line break.
     fs::create_dir(forged.join("assets")).unwrap();
     fs::write(forged.join("assets/a\nPOVRAY=touch"), "x").unwrap();
     let mut command = jabuka();
@@ -146,7 +146,7 @@ fn options_of_the_engine_are_words() {
                 .arg("-o")
                 .arg(folder.path().join("job"));
             let output = command.arg(format!("{option}={value}")).output().unwrap();
-            // A leading dash is part of a value, which Slurm judges.
+            // A leading dash is part of the value; Slurm decides whether the value is valid.
             let harmless = value == "-x" && option != "--modules";
             assert_eq!(output.status.code(), Some(if harmless { 0 } else { 2 }), "{option}={value}");
             assert!(!stderr(&output).contains('\u{202e}'));
@@ -157,7 +157,7 @@ fn options_of_the_engine_are_words() {
 #[test]
 fn another_users_comment_in_the_queue_is_not_run() {
     let job = Job::new(&scene(2), &["--engine", "slurm"]);
-    // What names of files and frames a comment leads to is not computed with.
+    // Bash arithmetic would execute the command in these numbers. They come from files that the comment of the queued job points to.
     fs::write(job.join("evil"), "0+LINENO[$(touch PWNED)]\n").unwrap();
     fs::create_dir_all(job.join("logs")).unwrap();
     fs::write(job.join("logs/chunks-7.txt"), "0+LINENO[$(touch PWNED)]\n").unwrap();
@@ -215,7 +215,7 @@ fn an_image_of_which_a_byte_has_changed_is_found_and_not_copied() {
     let changed = "done     2 of 4\nchanged  2: 1-2, since they were rendered\nfilm     made\n";
     assert_eq!(verified(), (changed.to_owned(), Some(1)));
 
-    // A frame that is equal to a damaged one is not copied from it.
+    // A frame whose script equals that of a damaged image is rendered, not copied from the damaged image.
     fs::remove_file(job.join("images/frame_0003.png")).unwrap();
     let before = fs::metadata(job.join("images/frame_0002.png")).unwrap().ino();
     assert!(stdout(&job.chunk(&["3"])).contains("frame_0003 rendered in"));
@@ -229,7 +229,7 @@ fn an_image_of_which_a_byte_has_changed_is_found_and_not_copied() {
     assert_eq!(stdout(&job.chunk(&["--verify"])), "");
     assert_eq!(verified().0, "done     4 of 4\nfilm     not made\n", "the film was made of damaged images");
 
-    // As an earlier version has written it.
+    // Write the record in the format of an earlier version, which had no digest of the image.
     let record = job.read("images/.jabuka/frame_0001.txt");
     let old: String = record.split_inclusive('\n').take(6).collect();
     fs::write(job.join("images/.jabuka/frame_0001.txt"), old).unwrap();

@@ -1,4 +1,4 @@
-//! A job folder for a test, and what is done with it.
+//! A job folder for tests, and helpers that run its commands and read its files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 
 use super::support::{jabuka, stderr, stdout};
 
-/// A job folder; its path has a space and a letter beyond ASCII.
+/// A temporary folder with a job. Its path contains a space and a non-ASCII letter.
 pub(crate) struct Job {
     folder: tempfile::TempDir,
 }
 
-/// A ball that flies, in so many small frames.
+/// Returns the text of a scene with one moving ball and this number of small frames.
 pub(crate) fn scene(frames: usize) -> String {
     format!(
         "[simulation]\nduration = {}\nframe_rate = 25\n[output]\nsize = [65, 37]\n\
@@ -22,7 +22,7 @@ pub(crate) fn scene(frames: usize) -> String {
 }
 
 impl Job {
-    /// The job of a scene.
+    /// Writes a scene and its job with `jabuka batch`, and asserts success.
     pub(crate) fn new(scene: &str, arguments: &[&str]) -> Job {
         let job = Job { folder: tempfile::Builder::new().prefix("a jöb ").tempdir().unwrap() };
         let output = job.batch(scene, arguments);
@@ -30,7 +30,7 @@ impl Job {
         job
     }
 
-    /// Writes the job, again, of a scene.
+    /// Writes the scene and runs `jabuka batch` on it again, into the same job folder. Returns the output of the command.
     pub(crate) fn batch(&self, scene: &str, arguments: &[&str]) -> Output {
         let path = self.folder.path().join("x.toml");
         fs::write(&path, scene).unwrap();
@@ -49,10 +49,10 @@ impl Job {
         fs::read_to_string(self.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// A command of the folder.
+    /// Returns a command that runs the script of this name in the job folder.
     pub(crate) fn command(&self, name: &str) -> Command {
         let mut command = Command::new(self.join(name));
-        // Another folder than that of the job, and another language than ours.
+        // Run it from another directory and in a fixed locale, to show that it depends on neither.
         command.current_dir(self.folder.path()).env("LC_ALL", "C.UTF-8").env_remove("POVRAY");
         command
     }
@@ -61,21 +61,21 @@ impl Job {
         self.command("render-chunk").args(arguments).output().unwrap()
     }
 
-    /// The frames that `render-chunk` finds missing.
+    /// Returns the frames that `render-chunk --missing` lists, as text such as `1,3-5`.
     pub(crate) fn missing(&self) -> String {
         let output = self.chunk(&["--missing"]);
         assert!(output.status.success(), "{}", stderr(&output));
         stdout(&output).trim_end().to_owned()
     }
 
-    /// What `jabuka status` says, and whether all is done.
+    /// Returns the output of `jabuka status`, and true if the command reports that everything is done.
     pub(crate) fn status(&self) -> (String, bool) {
         let output = jabuka().arg("status").arg(self.path()).output().unwrap();
         assert_eq!(stderr(&output), "");
         (stdout(&output), output.status.success())
     }
 
-    /// The frames that are being rendered, as `jabuka status` says it to programs.
+    /// Returns the frames that are being rendered, from the JSON output of `jabuka status`.
     pub(crate) fn running(&self) -> Vec<u64> {
         let output = jabuka().args(["status", "--format", "json"]).arg(self.path()).output().unwrap();
         let status: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
@@ -83,7 +83,7 @@ impl Job {
         running.iter().map(|running| running["frame"].as_u64().unwrap()).collect()
     }
 
-    /// Replaces the line of the ball by one that POV-Ray does not take; returns its number.
+    /// Replaces the line of the ball in a frame's script by invalid SDL. Returns the number of that line.
     pub(crate) fn break_frame(&self, frame: usize) -> usize {
         let path = self.join(format!("scripts/frame_{frame:04}.pov"));
         let text = fs::read_to_string(&path).unwrap();
@@ -94,12 +94,12 @@ impl Job {
         line + 1
     }
 
-    /// The names of the images, in their order.
+    /// Returns the names of the PNG images of the job, sorted.
     pub(crate) fn images(&self) -> Vec<String> {
         names(&self.join("images")).into_iter().filter(|name| name.ends_with(".png")).collect()
     }
 
-    /// What is in the hidden folder that is no record, and in its folders.
+    /// Returns the names of all temporary files in the hidden folder of the images: everything but the records of images and film.
     pub(crate) fn leftovers(&self) -> Vec<String> {
         let hidden = self.join("images/.jabuka");
         let mut found = Vec::new();
@@ -114,7 +114,7 @@ impl Job {
     }
 }
 
-/// The names in a folder, in their order.
+/// Returns the names of the entries of a folder, sorted.
 pub(crate) fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
@@ -122,7 +122,7 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Waits until something is so; a machine may be slow.
+/// Waits until a condition is true, and panics after the time limit. `what` names the condition in the panic's message.
 pub(crate) fn wait_until(what: &str, limit: Duration, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
     while !is_so() {
@@ -131,7 +131,7 @@ pub(crate) fn wait_until(what: &str, limit: Duration, mut is_so: impl FnMut() ->
     }
 }
 
-/// The number of frames of a film, and its pixel format, by another program than the one that made it.
+/// Returns the number of frames of a film, and its size and pixel format as ffprobe prints them.
 pub(crate) fn film(path: &Path) -> (usize, String) {
     let show = ["-v", "error", "-count_frames", "-select_streams", "v", "-show_entries"];
     let what = "stream=nb_read_frames,pix_fmt,width,height";

@@ -1,7 +1,7 @@
-//! Rendering on many machines: `jabuka batch`, what it writes, and `jabuka status`.
+//! Tests of rendering on many machines: `jabuka batch`, the job folders that it writes, and `jabuka status`.
 //!
-//! They need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, shellcheck, and Python for Open Job Description; `tests/run` installs
-//! them.
+//! These tests need bash, POV-Ray, ffmpeg, Slurm and munge, GNU parallel, shellcheck, and Python for Open Job Description; `tests/run`
+//! installs them.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

@@ -1,4 +1,4 @@
-//! The bundle of an Open Job Description, by its reference implementation.
+//! Tests of the job bundle for Open Job Description, checked and run by `openjd`, its reference implementation.
 
 use std::process::Command;
 

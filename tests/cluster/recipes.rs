@@ -1,4 +1,4 @@
-//! What docs/cluster.md shows is real.
+//! Tests that run the commands and jobs shown in `docs/cluster.md`.
 
 use std::fs;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use super::job::{Job, film, scene};
 use super::support::{root, stderr, stdout};
 
-/// The blocks of a language below a heading of the page.
+/// Returns the code blocks of one language below a heading of `docs/cluster.md`.
 fn blocks(heading: &str, language: &str) -> Vec<String> {
     let page = fs::read_to_string(root().join("docs/cluster.md")).unwrap();
     let section = page.split(&format!("\n## {heading}\n")).nth(1).unwrap_or_else(|| panic!("no {heading}"));
@@ -64,12 +64,12 @@ fn the_job_of_kubernetes_is_whole() {
     let spec = &job["spec"];
     assert_eq!((&spec["completionMode"], &spec["completions"]), (&"Indexed".into(), &24.into()));
     let pod = &spec["template"]["spec"];
-    // `backoffLimitPerIndex` wants it so.
+    // Kubernetes requires this value for a job with `backoffLimitPerIndex`.
     assert_eq!(pod["restartPolicy"], "Never");
     let container = &pod["containers"][0];
     assert_eq!(container["volumeMounts"][0]["name"], pod["volumes"][0]["name"]);
 
-    // What a pod runs.
+    // Run the command of the pod's container here, for each index of the job.
     let job = Job::new(&scene(5), &["--engine", "openjd", "--chunk", "3"]);
     let command: Vec<&str> =
         container["command"].as_array().unwrap().iter().map(|word| word.as_str().unwrap()).collect();

@@ -1,4 +1,4 @@
-//! A real Slurm of two nodes, and faults.
+//! Tests on a real Slurm with two nodes, including failures of a node and of the controller.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Output, Stdio};
@@ -8,10 +8,10 @@ use super::hostile::{assert_nothing_was_run, hostile_job};
 use super::job::{Job, film, scene, wait_until};
 use super::support::{jabuka, root, stderr, stdout};
 
-/// What takes seconds may take minutes on a machine that is busy.
+/// The time limit for each wait. A step that takes seconds may take minutes on a busy machine.
 const LONG: Duration = Duration::from_secs(600);
 
-/// A Slurm that ends with this.
+/// A running Slurm cluster on this machine. Dropping it shuts the cluster down.
 struct Slurm {
     folder: tempfile::TempDir,
     process: Child,
@@ -41,7 +41,7 @@ impl Slurm {
         assert_eq!(said, line);
     }
 
-    /// Has a fault happen, or mends it.
+    /// Tells the cluster to cause or to end a failure, such as `down` for the controller, and waits for its reply.
     fn order(&mut self, order: &str) {
         self.input.as_mut().unwrap().write_all(format!("{order}\n").as_bytes()).unwrap();
         self.expect("ok\n");
@@ -51,7 +51,7 @@ impl Slurm {
         command.env("SLURM_CONF", self.folder.path().join("slurm.conf")).output().unwrap()
     }
 
-    /// Sends a job by the command that `jabuka batch` has suggested, in a folder.
+    /// Runs in this folder the command that `jabuka batch` suggested, and so submits the job.
     fn send(&self, command: &str, folder: &std::path::Path) -> Output {
         self.command(Command::new("bash").args(["-c", command]).current_dir(folder))
     }
@@ -62,7 +62,8 @@ impl Slurm {
         stdout(&output)
     }
 
-    /// What is in the queue. An answer that does not come, on a machine that is busy, is no empty queue.
+    /// Returns the jobs in Slurm's queue. On a busy machine `squeue` may fail; a failure does not count as an empty queue, so it is
+    /// repeated.
     fn queue(&self) -> String {
         let mut queue = String::new();
         wait_until("Slurm says what is in the queue", LONG, || {
@@ -94,7 +95,7 @@ fn a_hostile_scene_is_rendered_by_the_cluster_and_nothing_in_it_is_run() {
     let output = slurm.send(command, folder.path());
     assert!(output.status.success(), "{command}\n{}{}", stdout(&output), stderr(&output));
     assert!(first_line(&stdout(&output)).starts_with("sent 3 frames in 2 chunks: job "));
-    // It finds its own jobs in the queue.
+    // A second submission finds the jobs of the first in the queue, and submits nothing.
     let again = slurm.send(command, folder.path());
     assert!(stdout(&again).ends_with("nothing was sent\n"), "{}{}", stdout(&again), stderr(&again));
     wait_until("the film is made", LONG, || job.join("film.mp4").exists());
@@ -120,7 +121,7 @@ fn a_node_dies_on_the_way_and_the_film_is_made() {
     wait_until("all images are there", LONG, || job.missing().is_empty());
     wait_until("the film is made", LONG, || job.status().0.contains("film     made"));
     assert_eq!(job.status(), ("done     240 of 240\nfilm     made\n".to_owned(), true));
-    // 65 by 37 pixels are no even size.
+    // The images have 65 by 37 pixels. This pixel format needs even sizes, so the film has 64 by 36.
     assert_eq!(film(&job.join("film.mp4")), (240, "64,36,yuv420p".to_owned()));
 
     wait_until("the queue is empty", LONG, || slurm.queue().is_empty());
@@ -149,15 +150,16 @@ fn a_broken_frame_is_named_and_after_its_repair_only_it_is_sent() {
     assert!(said.contains(&format!("frame_0013.pov:{line}: ")) && said.contains("(body `ball`)"), "{said}");
     assert!(!job.join("film.mp4").exists(), "a film waits for all frames");
 
-    // Without a controller nothing is known, so nothing is sent. It saves what it knows within five seconds.
+    // Without the controller the state of the queue is unknown, so nothing is submitted. The controller saves its state every five
+    // seconds.
     std::thread::sleep(Duration::from_secs(7));
     slurm.order("down");
     let output = slurm.command(job.command("submit").env("SLURM_CLIENT_TIMEOUT", "1"));
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("nothing was sent"), "{}", stderr(&output));
     slurm.order("up");
-    // Should it have died before it saved what happened last, it sends the jobs that have ended since again by itself, which
-    // does no harm but takes minutes. Until they have ended too, the frame is in the queue.
+    // If the controller died before it saved its latest state, it runs the jobs that have ended since then again. This does no harm but
+    // takes minutes, and the frame stays in the queue until these jobs end.
     wait_until("the controller is back and the queue is empty", LONG, || slurm.queue().is_empty());
     assert_eq!(job.missing(), "13", "it is not mended yet");
 
@@ -167,7 +169,7 @@ fn a_broken_frame_is_named_and_after_its_repair_only_it_is_sent() {
     wait_until("the film is made", LONG, || job.status().0.contains("film     made"));
     assert_eq!(film(&job.join("film.mp4")).0, 20);
 
-    // The film alone is made again.
+    // If only the film is missing, only the film is submitted.
     wait_until("the queue is empty", LONG, || slurm.queue().is_empty());
     std::fs::remove_file(job.join("film.mp4")).unwrap();
     let said = slurm.submit(&job);

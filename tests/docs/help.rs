@@ -1,4 +1,4 @@
-//! What helps in writing scenes: `jabuka list` and its kin.
+//! Tests of the commands that help to write scenes, such as `jabuka list` and `jabuka new`.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::support::{self, commands, jabuka, root, stderr, stdout};
 use jabuka::catalog::CATEGORIES;
 
-/// Options of other programs that texts name.
+/// Options of other programs that the project's texts mention, by program.
 const FOREIGN: [(&str, &[&str]); 8] = [
     ("cargo", &["features", "path", "release", "open", "example", "locked", "test", "no-default-features"]),
     ("docker", &["workdir"]),
@@ -19,7 +19,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("setpriv", &["pdeathsig"]),
 ];
 
-/// All files below a folder whose names end so.
+/// Returns all files below a folder whose names have one of these endings.
 fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -55,7 +55,7 @@ fn no_text_names_an_option_or_a_command_that_there_is_not() {
                 say(format!("there is no option --{option}"));
             }
         }
-        // In prose, a command stands between backquotes; in an example, it stands behind `$ `.
+        // In prose, a command stands between backquotes; in an example, it stands after `$ `.
         for (at, start) in ["`jabuka ", "$ jabuka "].iter().flat_map(|start| text.match_indices(start)) {
             let end = if start.starts_with('`') { '`' } else { '\n' };
             let command = text[at + start.len()..].split([end, '\n', '|', '&', '#', ';']).next().unwrap();
@@ -147,7 +147,7 @@ fn check_takes_settings_and_says_what_a_run_would() {
     let output = check(&["--set", "body.right.mass=-1"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("--set:1:17"), "{}", stderr(&output));
-    // What is noticed of the run is there for editors, too.
+    // Editors get the warnings about the run as JSON, too.
     let said = stdout(&check(&["--run", "--format", "json"]));
     assert!(said.contains("\"overlap\""), "{said}");
 }
@@ -176,7 +176,7 @@ fn a_new_scene_compiles_without_a_warning() {
     let output = support::compile(&scene, &folder.path().join("out"), &[]);
     assert_eq!(stderr(&output), "");
 
-    // What is there stays, whatever the name it is called by.
+    // An existing file is never overwritten, with or without the ending `.toml` in the argument.
     std::fs::write(&scene, "mine").unwrap();
     for name in ["first", "first.toml"] {
         let output = new(name);

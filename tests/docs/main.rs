@@ -1,4 +1,4 @@
-//! The documentation: its pages are true, up to date, and name only what there is.
+//! Tests of the documentation: every page is correct and up to date, and names only existing commands, options and files.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test stops at the first surprise")]
 
 mod help;

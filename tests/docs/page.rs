@@ -1,8 +1,8 @@
-//! Pages whose every scene, command, output and picture is real.
+//! Checks that every scene, command, output and picture of a page is real.
 //!
-//! A `toml` block is written to the file that its first line names; of a `console` block every command is run, in the
-//! order of the page, and must print what stands below it. A picture that the commands have made must be the one that the
-//! page shows. With `JABUKA_UPDATE_DOCS` set, what is different is written into the page, and beside it.
+//! Each `toml` block is written to the file that its first line names. Each command of a `console` block is run, in the order of the page,
+//! and must print the lines below it. A picture made by the commands must look like the picture that the page shows. With
+//! `JABUKA_UPDATE_DOCS` set, differing outputs are written into the page, and differing pictures replace the old files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,16 +10,16 @@ use std::process::Command;
 
 use crate::support::root;
 
-/// A page, after its commands have been run.
+/// A page of the documentation whose commands have been run.
 pub(crate) struct Page {
-    /// Its path in the project.
+    /// The path of the page, relative to the root of the project.
     path: &'static str,
-    /// The folder with what its commands have made.
+    /// The folder that the commands of the page run in; it holds the files that they made.
     folder: tempfile::TempDir,
 }
 
 impl Page {
-    /// Checks everything on a page but its pictures. Its commands may use the scenes of other pages, too.
+    /// Runs all commands of a page, and checks everything but its pictures. The commands may also use scenes from the pages `scenes_of`.
     pub(crate) fn check(path: &'static str, scenes_of: &[&str]) -> Page {
         let page = Page { path, folder: tempfile::tempdir().unwrap() };
         let copy = Command::new("cp").arg("-r").arg(root().join("scenes")).arg(page.folder.path()).status();
@@ -37,7 +37,7 @@ impl Page {
         page
     }
 
-    /// Checks the pictures that the page shows and its commands have made, and returns the names of the others.
+    /// Compares the pictures of the page with those that its commands made. Returns the paths of the pictures that no command made.
     pub(crate) fn check_pictures(&self) -> Vec<PathBuf> {
         let text = fs::read_to_string(root().join(self.path)).unwrap();
         let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link);
@@ -55,7 +55,7 @@ impl Page {
         others
     }
 
-    /// The page as it should be.
+    /// Runs the page's commands and returns the page with their real outputs.
     fn real(&self, shown: &str) -> String {
         let mut real = String::new();
         let mut rest = shown;
@@ -82,22 +82,22 @@ impl Page {
         });
     }
 
-    /// Writes a scene to the file that its first line names: `# ball.toml`.
+    /// Writes a scene to the file that its first line names, such as `# ball.toml`. Returns the scene's text.
     fn write_scene(&self, text: &str) -> String {
         let name = text.lines().next().and_then(|line| line.strip_prefix("# "));
         fs::write(self.folder.path().join(name.expect("a scene names its file")), text).unwrap();
         text.to_owned()
     }
 
-    /// Runs the commands of a block, and returns it as it should be.
+    /// Runs the commands of a block, and returns the block with their real outputs.
     fn run_commands(&self, block: &str) -> String {
         let bin = Path::new(env!("CARGO_BIN_EXE_jabuka")).parent().unwrap();
         let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
         let commands = block.lines().filter_map(|line| line.strip_prefix("$ "));
         let run = |command: &str| {
-            // The binary is built already; building it in the folder of the test would need the whole project.
+            // Use the existing binary: `cargo run` would need the whole project in the folder of the test.
             let short = command.replace("cargo run --release --", "jabuka");
-            // What serves until somebody ends it is ended, and leaves the browser alone.
+            // `jabuka preview` serves until it is interrupted, so the test interrupts it after a second. It must not open a browser.
             let short = match short.starts_with("jabuka preview") {
                 true => format!("timeout --signal=INT 1 {short} --no-open"),
                 false => short,
@@ -119,14 +119,14 @@ fn is_update() -> bool {
     std::env::var_os("JABUKA_UPDATE_DOCS").is_some()
 }
 
-/// Asserts that the picture or the film that a page shows looks like the one that its command has made, however it is encoded.
+/// Asserts that a picture or film of a page looks like the one that its command made. The encodings of the two files may differ.
 fn assert_same_picture(made: &Path, shown: &Path) {
     let (new, old) = (pixels(made), pixels(shown));
     assert!(!new.is_empty(), "{} is no picture", made.display());
     let differs = |(a, b): &(&u8, &u8)| a.abs_diff(**b) > 32;
     let different = new.iter().zip(&old).filter(differs).count();
-    // The palette of a GIF, and another version of POV-Ray, leave a pixel here and there undecided; a ball that is
-    // elsewhere is more.
+    // The palette of a GIF or another version of POV-Ray may change a few pixels. A body at another place changes more than 0.1 % of the
+    // color values.
     let same = new.len() == old.len() && different * 1000 < new.len();
     if !same && is_update() {
         fs::copy(made, shown).unwrap();
@@ -135,7 +135,7 @@ fn assert_same_picture(made: &Path, shown: &Path) {
     }
 }
 
-/// Red, green and blue of every pixel of every frame.
+/// Decodes an image or a film with ffmpeg. Returns red, green and blue of every pixel of every frame.
 fn pixels(path: &Path) -> Vec<u8> {
     let decode = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"];
     let output =
@@ -143,7 +143,7 @@ fn pixels(path: &Path) -> Vec<u8> {
     output.unwrap().stdout
 }
 
-/// The lines of a page, without the seconds that a run took and what depends on them, and without addresses.
+/// Returns the lines of a page without times, network addresses and other parts that differ between runs.
 fn untimed(page: &str) -> Vec<&str> {
     page.lines().map(untimed_line).collect()
 }
@@ -154,7 +154,7 @@ fn untimed_line(line: &str) -> &str {
     DIFFERENT.into_iter().find(is_different).unwrap_or_else(|| unclocked(line))
 }
 
-/// A line without the seconds at its end.
+/// Returns a line without the seconds at its end: `done in 1.2 s` becomes `done`.
 fn unclocked(line: &str) -> &str {
     match str::strip_suffix(line, " s").and_then(|line| line.rsplit_once(" in ")) {
         Some((what, seconds)) if seconds.parse::<f64>().is_ok() => what,
@@ -162,7 +162,7 @@ fn unclocked(line: &str) -> &str {
     }
 }
 
-/// Asserts that two pages are equal, and says where they are not.
+/// Asserts that two versions of a page are equal; the message names the first differing line.
 fn assert_same(path: &str, page: &[&str], real: &[&str]) {
     for (i, (line, real)) in page.iter().zip(real).enumerate() {
         assert_eq!(line, real, "{path}, line {}", i + 1);

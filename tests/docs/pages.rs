@@ -1,5 +1,5 @@
-//! Pages of `docs/` whose commands need jabuka alone, and the links of all pages. To see what the pages should say:
-//! `JABUKA_UPDATE_DOCS=1 cargo test --test docs pages`.
+//! Tests of the pages in `docs/` whose commands need no program but jabuka, and of the links of all pages. This command writes the real
+//! outputs into the pages: `JABUKA_UPDATE_DOCS=1 cargo test --test docs pages`.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -42,7 +42,7 @@ fn the_workflow_tests_the_oldest_rust_that_the_manifest_allows() {
     assert!(read(".github/workflows/ci.yml").contains(&format!("rust: {line}\n")), "not tested: {line}");
 }
 
-/// The names that GitHub gives to the headings of a page, for links.
+/// Returns the anchors that GitHub derives from the headings of a page, as links use them.
 fn headings(page: &str) -> BTreeSet<String> {
     let is_kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
     let name =

@@ -1,6 +1,6 @@
-//! Pages of the documentation that are made from what they describe.
+//! Tests of the pages that are generated from the code: keys, materials, and SDL without trust.
 //!
-//! After a change: `JABUKA_UPDATE_DOCS=1 cargo test --test docs reference`.
+//! After a change of the code, this command writes the pages again: `JABUKA_UPDATE_DOCS=1 cargo test --test docs reference`.
 
 use jabuka::scene::MATERIALS;
 

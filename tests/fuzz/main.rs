@@ -1,8 +1,8 @@
-//! Inputs that are almost right, in great number: nothing panics, and every error has its text.
+//! Tries many inputs that are almost valid. None may cause a panic, and every error must have a message.
 //!
-//! By default each target gets a few hundred inputs. For a long run, `JABUKA_FUZZ=1000000 cargo test --test fuzz -- --nocapture`
-//! tries so many on each, `JABUKA_FUZZ_SEED` begins elsewhere, and `JABUKA_FUZZ_SLOW=2` names every input that takes more than
-//! 2 s. A failure names the seed of its input. `fuzz/` tries the same targets by cargo-fuzz.
+//! By default each target gets 150 inputs. For a long run, `JABUKA_FUZZ=1000000 cargo test --test fuzz -- --nocapture` tries that number
+//! on each target, `JABUKA_FUZZ_SEED` sets the first seed, and `JABUKA_FUZZ_SLOW=2` prints every input that takes more than 2 s. A failure
+//! prints the seed of its input. `fuzz/` runs the same targets with cargo-fuzz.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, reason = "this is a test program")]
 
 mod mutator;
@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 use mutator::{Random, mutate, mutate_text};
 use targets::{FILES, PLACES};
 
-/// Tries a target with many inputs, each made from a seed.
+/// Runs a target with many inputs, each made from its own seed, and names the seed of an input that fails.
 fn fuzz(name: &str, mut target: impl FnMut(&mut Random)) {
     let number = |variable: &str| std::env::var(variable).ok().and_then(|text| text.parse::<u64>().ok());
     let (count, first) = (number("JABUKA_FUZZ").unwrap_or(150), number("JABUKA_FUZZ_SEED").unwrap_or(1));
@@ -41,7 +41,7 @@ fn fuzz(name: &str, mut target: impl FnMut(&mut Random)) {
     println!("{name}: {count} inputs, the slowest {:.3} s (seed {})", slowest.0.as_secs_f64(), slowest.1);
 }
 
-/// Files of the project with an ending.
+/// Returns the project's files with this extension, to be mutated as inputs.
 fn files(ending: &str) -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folders =
@@ -105,7 +105,7 @@ fn files_that_scenes_name() {
     fuzz("meshes, heightfields, tables", |random| {
         let (ending, scene, inputs) = random.choose(&inputs);
         let (seed, other) = (random.choose(inputs).clone(), random.choose(inputs));
-        // Some go through as they are: else nothing would be read to its end.
+        // One input in eight stays unchanged; otherwise no file would be read to its end.
         let bytes = if random.below(8) == 0 { seed } else { mutate(random, &seed, other) };
         read += usize::from(targets::file(folder.path(), (ending, scene), &bytes));
     });

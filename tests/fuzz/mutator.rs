@@ -1,6 +1,6 @@
-//! Inputs that are almost right: texts and files of the project, changed at some places.
+//! Makes inputs that are almost valid, by random changes to texts and files of the project.
 
-/// Random numbers that are the same on every machine. Source: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable
+/// A random number generator with the same sequence on every machine. Source: G. L. Steele, D. Lea, C. H. Flood, *Fast splittable
 /// pseudorandom number generators*, OOPSLA 2014 (SplitMix64).
 pub(crate) struct Random(u64);
 
@@ -17,7 +17,7 @@ impl Random {
         bits ^ (bits >> 31)
     }
 
-    /// A number below a limit; 0 if that is 0.
+    /// Returns a random number below a limit; 0 if the limit is 0.
     pub(crate) fn below(&mut self, limit: usize) -> usize {
         usize::try_from(self.next() % (limit.max(1) as u64)).unwrap()
     }
@@ -27,7 +27,8 @@ impl Random {
     }
 }
 
-/// What breaks programs: numbers at the edge, letters of several bytes, signs of the languages that are read.
+/// Fragments that often break parsers: extreme numbers, characters of several bytes, keywords and punctuation of the languages that jabuka
+/// reads.
 const TOKENS: [&str; 69] = [
     "0",
     "-1",
@@ -100,7 +101,7 @@ const TOKENS: [&str; 69] = [
     "e",
 ];
 
-/// Changes bytes at one to eight places; what is inserted may come from another input.
+/// Changes an input at one to eight random places, and returns the result. Some changes insert a part of `other`.
 pub(crate) fn mutate(random: &mut Random, input: &[u8], other: &[u8]) -> Vec<u8> {
     let mut bytes = input.to_vec();
     for _ in 0..=random.below(8) {
@@ -127,7 +128,7 @@ pub(crate) fn mutate(random: &mut Random, input: &[u8], other: &[u8]) -> Vec<u8>
     bytes
 }
 
-/// The same for a text: it stays UTF-8.
+/// Changes a text at random places like [`mutate`], and returns valid UTF-8.
 pub(crate) fn mutate_text(random: &mut Random, input: &str, other: &str) -> String {
     String::from_utf8_lossy(&mutate(random, input.as_bytes(), other.as_bytes())).into_owned()
 }

@@ -1,5 +1,5 @@
-//! What is tried with an input: the tests beside this file make inputs that are almost right, and `fuzz/` lets cargo-fuzz look
-//! for them. A panic is a failure; so is an answer that contradicts itself.
+//! The fuzz targets: each function runs one part of jabuka on an input. The tests beside this file call them with mutated inputs, and
+//! `fuzz/` calls them from cargo-fuzz. A panic or a contradictory result is a failure.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use jabuka::scene::{Color, Options, Override};
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
-/// Where strings of other languages stand in a scene, and one that is right there.
+/// Places of a scene whose string holds a formula, a label or SDL: a fragment of TOML with `TEXT` for the string, and a valid string.
 pub const PLACES: [(&str, &str); 8] = [
     ("location = [TEXT, 0, 0]", "2*sin(3*t)^2 + min(1, abs(t - 3)) % (1 + exp(-t))"),
     ("[variables]\na = TEXT\nb = \"a + 1\"", "sqrt(2) * pi / (1 - 0.5)"),
@@ -26,7 +26,7 @@ pub const PLACES: [(&str, &str); 8] = [
     ("material = TEXT", "brass"),
 ];
 
-/// The endings of files that a scene names, and the scene that does.
+/// Extensions of the files that a scene can name, each with a fragment of a scene that names `FILE`.
 pub const FILES: [(&str, &str); 4] = [
     ("obj", "shape.mesh.file = 'FILE'"),
     ("stl", "shape.mesh.file = 'FILE'"),
@@ -34,33 +34,33 @@ pub const FILES: [(&str, &str); 4] = [
     ("csv", "shape.sphere.radius = 1\nmotion.trajectory.file = 'FILE'"),
 ];
 
-/// The text of a scene.
+/// Parses a text as a scene, and checks its diagnostics.
 pub fn scene(text: &str) {
     say(&Scene::parse(text));
 }
 
-/// A string at one of [`PLACES`].
+/// Parses a scene with a string at one of [`PLACES`].
 pub fn string(place: &str, text: &str) {
     let quoted = serde_json::to_string(text).unwrap().replace('\u{7f}', "");
     scene(&format!("[body.ball]\nshape.sphere.radius = 1\n{}", place.replace("TEXT", &quoted)));
 }
 
-/// A formula, wherever one may stand.
+/// Parses scenes with a text at each place that takes a formula.
 pub fn formula(text: &str) {
     [0, 1, 5, 6].into_iter().for_each(|place: usize| string(PLACES[place].0, text));
 }
 
-/// The text of a label.
+/// Parses a scene with this text as a label.
 pub fn label(text: &str) {
     string(PLACES[2].0, text);
 }
 
-/// POV-Ray's own words, which the filter looks through.
+/// Parses scenes with a text at the places that take SDL, POV-Ray's scene language, which is filtered.
 pub fn sdl(text: &str) {
     [3, 4].into_iter().for_each(|place: usize| string(PLACES[place].0, text));
 }
 
-/// A text of the command line: an override, frames, a color, a name that is shown.
+/// Parses a text as each kind of command-line argument: an override, a selection of frames, a color. Checks that it is shown safely.
 pub fn argument(text: &str) {
     let options = Options { overrides: vec![Override::new(text)], ..Options::default() };
     say(&Scene::parse_with("[body.ball]\nshape.sphere.radius = 1", &options));
@@ -68,7 +68,8 @@ pub fn argument(text: &str) {
     assert!(!visible(text).contains('\u{202e}') && !visible_lines(text).contains('\u{202e}'));
 }
 
-/// A file of one of [`FILES`], in a folder that is there for it. Says whether it is one.
+/// Writes a file of one of the kinds of [`FILES`] into a folder for this test, and reads a scene that names it. Returns true if the file
+/// is valid.
 pub fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool {
     let name = format!("input.{ending}");
     fs::write(folder.join(&name), bytes).unwrap();
@@ -79,7 +80,7 @@ pub fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool 
     scene.is_ok()
 }
 
-/// A manifest, in a folder that is there for it. Says whether it is one.
+/// Writes a manifest into a folder for this test, and reads it. Returns true if it is valid.
 pub fn manifest(folder: &Path, bytes: &[u8]) -> bool {
     fs::write(folder.join(MANIFEST), bytes).unwrap();
     let manifest = Manifest::read(folder);
@@ -89,7 +90,7 @@ pub fn manifest(folder: &Path, bytes: &[u8]) -> bool {
     manifest.is_some()
 }
 
-/// The record of an image, in a folder that is there for it. Says whether it is one.
+/// Writes the record of an image into a folder for this test, and reads it. Returns true if it is valid.
 pub fn record(folder: &Path, bytes: &[u8]) -> bool {
     let path = Record::path(folder, "frame_0001");
     fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -97,7 +98,7 @@ pub fn record(folder: &Path, bytes: &[u8]) -> bool {
     Record::read(folder, "frame_0001").is_some()
 }
 
-/// A manifest as jabuka writes it.
+/// Returns a valid manifest, as jabuka writes it.
 pub fn a_manifest(folder: &Path) -> Vec<u8> {
     let scene = Scene::parse("simulation.duration = 0.04\n[body.ball]\nshape.sphere.radius = 1").unwrap();
     let run = Run::new(&scene).unwrap();
@@ -106,7 +107,7 @@ pub fn a_manifest(folder: &Path) -> Vec<u8> {
     fs::read(folder.join(MANIFEST)).unwrap()
 }
 
-/// A record as jabuka writes it.
+/// Returns a valid record of an image, as jabuka writes it.
 pub fn a_record() -> Vec<u8> {
     let digest = "0123456789abcdef".repeat(4);
     let lines = format!(
@@ -115,7 +116,7 @@ pub fn a_record() -> Vec<u8> {
     lines.into_bytes()
 }
 
-/// Whatever is said of an input can be said.
+/// Formats all diagnostics of a result as text and as JSON, and checks that they are consistent with it.
 fn say(result: &Result<Scene, Report>) {
     let report = result.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
     assert_eq!(result.is_ok(), report.errors() == 0);

@@ -1,4 +1,4 @@
-//! No text stops the program: every public function that takes one is given texts of all kinds.
+//! Tests that every public function with a text argument accepts any text without a panic.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -19,7 +19,7 @@ use jabuka::scene::{Color, Finish, LibraryMaterial, Options, Override, Preset};
 use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
-/// The public functions that take a text and are tried here, as `file: name`.
+/// The public functions with a text argument that are tried here, as `file: name`.
 const TRIED: [&str; 36] = [
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -59,8 +59,8 @@ const TRIED: [&str; 36] = [
     "scene/source/tree.rs: get_mut",
 ];
 
-/// Those that take the name of a thing of jabuka's own making, and no text of anybody's: the names of frames, files and
-/// meshes, and options of POV-Ray.
+/// Public functions whose text argument is made by jabuka itself and never by a user: names of frames, files and meshes, and options of
+/// POV-Ray.
 const NAMES: [&str; 14] = [
     "dynamics/shape/mesh/mod.rs: new",
     "dynamics/shape/mesh/mod.rs: surface",
@@ -78,7 +78,7 @@ const NAMES: [&str; 14] = [
     "render/record.rs: write",
 ];
 
-/// Texts of any letters, and of what scenes, formulas, labels and SDL are made of.
+/// Generates texts of arbitrary characters, and texts of words from scenes, formulas, labels and SDL.
 fn texts() -> impl Strategy<Value = String> {
     let word = prop::sample::select(vec![
         "[body.a]",
@@ -138,7 +138,7 @@ fn texts() -> impl Strategy<Value = String> {
     prop_oneof![".{0,80}", "(?s).{0,40}", prop::collection::vec(word, 0..14).prop_map(|words| words.concat())]
 }
 
-/// That of a small scene.
+/// The accuracy report of a small scene.
 static ASSESSMENT: LazyLock<Assessment> = LazyLock::new(|| {
     let text = "simulation.duration = 0.2\n[body.a]\nshape.sphere.radius = 1\nvelocity = [1, 0, 0]\n";
     assess(&Scene::parse(text).unwrap(), 1e-3, &mut |_, _| true).unwrap()
@@ -197,7 +197,7 @@ proptest! {
     }
 }
 
-/// The public functions of a folder that take a text, as `file: name`.
+/// Adds to `found` the public functions below a folder that take a text, as `file: name`.
 fn functions(folder: &Path, root: &Path, found: &mut BTreeSet<String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -224,7 +224,7 @@ fn every_public_function_that_takes_a_text_is_tried() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = BTreeSet::new();
     functions(&root, &root, &mut found);
-    // The functions of the command line and of the preview are no part of the library.
+    // The functions of the command line and of the preview are not part of the library's interface.
     found.retain(|function| !function.starts_with("cli/") && !function.starts_with("preview/"));
     let listed: BTreeSet<String> = TRIED.iter().chain(&NAMES).map(|&function| function.to_owned()).collect();
     let untried: Vec<&String> = found.difference(&listed).collect();

@@ -1,7 +1,7 @@
-//! Bad scenes and what is said of them.
+//! Tests of the diagnostics for bad scenes.
 //!
-//! Every scene in tests/bad holds one mistake, or one kind of mistake. What `jabuka check` says of it is held against
-//! the snapshot of its name, so adding a test is dropping a file.
+//! Every scene in `tests/bad` holds one mistake, or one kind of mistake. The output of `jabuka check` on it is compared with the snapshot
+//! of the same name, so a new scene in the folder is a new test.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::process::Output;
 use crate::support::{self, jabuka, root, stderr, stdout};
 use jabuka::diagnostic::Code;
 
-/// Codes that no scene alone can show: each with the place of its test.
+/// Error codes that no scene file alone can cause, each with the name of its test.
 const ELSEWHERE: [(Code, &str); 8] = [
     (Code::NoTemplates, "a_folder_without_templates_is_said_to_be_so"),
     (Code::CannotRead, "a_missing_file_is_said_to_be_missing"),
@@ -22,7 +22,7 @@ const ELSEWHERE: [(Code, &str); 8] = [
     (Code::BadSet, "a_setting_is_refused_at_its_place_in_the_argument"),
 ];
 
-/// Every scene, what is said of it to people, and that an error fails the command.
+/// Compares the messages for every bad scene with its snapshot, and checks that an error makes the command fail.
 #[test]
 fn every_bad_scene_is_told_what_is_wrong_with_it() {
     insta::glob!("../bad", "*.toml", |path| {
@@ -34,7 +34,7 @@ fn every_bad_scene_is_told_what_is_wrong_with_it() {
     });
 }
 
-/// Some scenes, and what is said of them to editors.
+/// Compares the JSON diagnostics of some bad scenes, which editors read, with their snapshots.
 #[test]
 fn editors_are_told_the_same_as_data() {
     insta::glob!(
@@ -167,7 +167,7 @@ fn a_huge_file_is_refused_before_it_is_read() {
     assert!(said.starts_with("error[file-too-large]: ") && said.contains("64 MiB"), "{said}");
 }
 
-/// A scene for each kind of file that it can name, and the name.
+/// A scene for each kind of file that a scene can name, and the name of that file.
 const NAMING: [(&str, &str); 6] = [
     ("include = ['x.toml']", "x.toml"),
     ("povray.include = ['x.inc']", "x.inc"),
@@ -177,7 +177,7 @@ const NAMING: [(&str, &str); 6] = [
     ("[body.b]\nshape.heightfield = { file = 'x.png', size = [1, 1, 1] }", "x.png"),
 ];
 
-/// What is said of a file that is checked; a check that blocks is ended, and fails.
+/// Returns the messages of `jabuka check` on a file. A check that takes too long is killed, and the test fails.
 #[cfg(unix)]
 fn check_soon(path: &Path) -> String {
     let mut child = jabuka()
@@ -200,7 +200,7 @@ fn check_soon(path: &Path) -> String {
     stderr(&output)
 }
 
-/// A named pipe has no end until somebody writes to it, so opening it would block for ever.
+/// Opening a named pipe blocks until another process writes to it, so jabuka must refuse it first.
 #[cfg(unix)]
 #[test]
 fn a_named_pipe_is_refused_wherever_a_scene_names_a_file() {
@@ -229,7 +229,7 @@ fn a_named_pipe_is_refused_wherever_a_scene_names_a_file() {
     assert!(check_soon(Path::new("/dev/zero")).contains("`/dev/zero` is a device, not a scene file"));
 }
 
-/// The files have a length and take no room on the disk.
+/// The files are sparse: they have their length but occupy no disk space.
 #[test]
 fn files_of_five_gigabytes_are_refused_with_the_number_of_their_bound() {
     let folder = tempfile::tempdir().unwrap();
@@ -240,7 +240,7 @@ fn files_of_five_gigabytes_are_refused_with_the_number_of_their_bound() {
         std::fs::File::create(&file).unwrap().set_len(5 << 30).unwrap();
         let output = check(&scene, &[]);
         let said = stderr(&output);
-        // An asset is copied piece by piece, and takes no memory.
+        // An asset has no size limit, because it is copied in pieces and never held in memory.
         let is_refused = output.status.code() == Some(1) && said.contains("scene.toml:");
         assert!(bound.is_empty() || is_refused && said.contains(bound), "{text}: {said}");
         std::fs::remove_file(file).unwrap();
@@ -346,12 +346,12 @@ fn ten_thousand_mistakes_are_all_told() {
     }
 }
 
-/// A scene of the folder, by its name.
+/// Returns the path of the bad scene of this name.
 fn bad(name: &str) -> PathBuf {
     root().join("tests/bad").join(name).with_extension("toml")
 }
 
-/// Checks a scene; those of the project are called by their path in it, so that messages are the same everywhere.
+/// Runs `jabuka check` on a scene. Scenes of the project are given by their relative path, so that messages are the same on every machine.
 fn check(scene: &Path, arguments: &[&str]) -> Output {
     let root = root().canonicalize().unwrap();
     let scene = scene.strip_prefix(&root).or_else(|_| scene.strip_prefix(support::root())).unwrap_or(scene);

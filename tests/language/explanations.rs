@@ -1,4 +1,4 @@
-//! Every code is explained, and what its explanation shows is true.
+//! Tests that every error code has an explanation, and that the examples of the explanations do what the text says.
 
 use std::fs;
 
@@ -8,7 +8,8 @@ use jabuka::explain::explanations;
 use jabuka::output::OutputError;
 use jabuka::{Run, Scene};
 
-/// That every code has a file, the compiler sees to.
+/// Checks that `src/` uses every code, and that every file of `explanations/` belongs to a code. The compiler ensures that every code has
+/// a file.
 #[test]
 fn every_code_is_made_somewhere_and_every_file_is_of_a_code() {
     let made = support::codes(&root().join("src"));
@@ -53,7 +54,7 @@ fn what_an_explanation_calls_wrong_gets_the_code_and_what_it_calls_right_gets_no
     }
 }
 
-/// All that is said of a scene from its text to its last script.
+/// Returns all diagnostics of a scene: those of the check, of the run, and of its scripts.
 fn diagnostics(scene: &str) -> Vec<Diagnostic> {
     let failure = |error: OutputError| vec![Diagnostic::error(error.code(), error.to_string())];
     let scene = match Scene::parse(scene) {
@@ -122,7 +123,7 @@ fn every_command_of_an_explanation_is_one_that_jabuka_has() {
             for command in text.lines().filter_map(|line| line.strip_prefix("$ ")).flat_map(commands::of_line)
             {
                 let Err(why) = commands::parses(&command) else { continue };
-                // A value may be what is wrong; an option that there is not never is.
+                // The value of an option may be the mistake that the example shows; an unknown option never is.
                 let about_a_value = why.starts_with("error: invalid value");
                 assert!(!is_right && about_a_value, "explanations/{}.md: `{command}`: {why}", entry.code);
             }

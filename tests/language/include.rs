@@ -1,4 +1,4 @@
-//! Scenes of several files.
+//! Tests of scenes that include other files.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use jabuka::Scene;
 use jabuka::diagnostic::{Code, Report};
 use jabuka::scene::{Options, Override};
 
-/// Writes files below a folder.
+/// Writes files into a folder. Each entry holds a relative path and the text.
 fn write(folder: &Path, files: &[(&str, &str)]) {
     for (name, text) in files {
         let path = folder.join(name);
@@ -16,7 +16,7 @@ fn write(folder: &Path, files: &[(&str, &str)]) {
     }
 }
 
-/// The scene `scene.toml` among some files.
+/// Writes the files into a temporary folder, and reads `scene.toml` with the overrides `sets`, as `--set` gives them.
 fn read(files: &[(&str, &str)], sets: &[&str]) -> Result<Scene, Report> {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), files);

@@ -1,4 +1,4 @@
-//! The language of scenes: what is right, what is wrong, and what is said of it.
+//! Tests of the language of scenes: valid scenes, mistakes, and the diagnostics for them.
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
 
 mod diagnostics;

@@ -1,12 +1,12 @@
-//! The mistakes of newcomers: each gets the text that should have been written, and with that the scene is right.
+//! Tests of common beginners' mistakes: the diagnostics suggest replacements, and these make the scene valid.
 //!
-//! To add one, drop a scene into tests/mistakes.
+//! Each scene in `tests/mistakes` is a test case.
 
 use crate::support::{jabuka, stderr, stdout};
 use jabuka::Scene;
 use jabuka::diagnostic::Diagnostic;
 
-/// So many times what is suggested may be taken over: one mistake can hide another.
+/// The largest number of rounds of suggested replacements. One mistake can hide another, so a scene may need several.
 const ROUNDS: usize = 4;
 
 #[test]
@@ -32,7 +32,7 @@ fn each_mistake_is_mended_by_what_is_suggested() {
     });
 }
 
-/// What `jabuka check --format json` gives to editors is enough to mend a scene.
+/// Checks that the output of `jabuka check --format json` contains all that an editor needs to apply a replacement.
 #[test]
 fn editors_get_the_text_and_its_place() {
     let folder = tempfile::tempdir().unwrap();

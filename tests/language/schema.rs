@@ -1,4 +1,4 @@
-//! The JSON Schema of scenes says of keys and values what the check of a scene says, by a validator of other hands.
+//! Tests that the JSON Schema of scenes and `jabuka check` agree about keys and values, according to the crate `jsonschema`.
 
 use std::path::{Path, PathBuf};
 
@@ -8,12 +8,12 @@ use jabuka::diagnostic::{Code, Diagnostic};
 use serde_json::{Value, json};
 use toml::de::{DeTable, DeValue};
 
-/// Bad scenes with a mistake that the check finds by a code of the schema's, and the schema cannot know: JSON has no dates, and
-/// what a string comes to as a formula is not for a schema to say.
+/// Bad scenes that the check rejects with one of the [`STRUCTURAL`] codes and the schema cannot reject: JSON has no dates, and a schema
+/// cannot compute the value of a formula.
 const BEYOND: [&str; 4] =
     ["axis_without_angle", "date_and_time", "formula_not_finite", "formula_with_a_value_out_of_range"];
 
-/// The codes of mistakes that a key or a value alone makes.
+/// Codes of mistakes that are visible in a single key or value, so that a schema can find them.
 const STRUCTURAL: [Code; 14] = [
     Code::UnknownKey,
     Code::MissingKey,
@@ -46,7 +46,7 @@ fn bad_scenes_are_invalid_where_a_key_or_a_value_alone_is_wrong() {
     let validator = validator();
     let (mut valid, mut invalid, mut surprises) = (0, 0, Vec::new());
     for path in scenes("tests/bad") {
-        // What is no TOML is not for a schema to judge.
+        // A file that is not valid TOML cannot be validated by a schema.
         let Some(scene) = json(&path) else { continue };
         let name = path.file_stem().unwrap().to_str().unwrap();
         let found = match Scene::from_path(&path) {
@@ -64,7 +64,7 @@ fn bad_scenes_are_invalid_where_a_key_or_a_value_alone_is_wrong() {
 }
 
 fn is_structural(diagnostic: &Diagnostic) -> bool {
-    // A word of the language is known to the schema, the name of a body is not.
+    // The schema knows the names that the language defines, but not the names of bodies.
     STRUCTURAL.contains(&diagnostic.code) || diagnostic.message.starts_with("unknown ")
 }
 
@@ -87,7 +87,7 @@ fn the_schema_tells_what_a_key_means() {
     assert_eq!(integrator["default"], "euler-cromer");
 }
 
-/// Colors are known by names in any case, and by three digits or six.
+/// Checks that schema and check accept the same colors: names in upper or lower case, and three or six hexadecimal digits.
 #[test]
 fn the_schema_knows_a_color_as_the_check_does() {
     let validator = validator();
@@ -107,7 +107,7 @@ fn the_schema_knows_a_color_as_the_check_does() {
     }
 }
 
-/// The schema as the command prints it.
+/// Returns the schema that `jabuka schema` prints.
 fn schema() -> Value {
     let output = jabuka().arg("schema").output().unwrap();
     assert!(output.status.success());
@@ -128,7 +128,7 @@ fn scenes(folder: &str) -> Vec<PathBuf> {
     paths
 }
 
-/// A scene as JSON, if it is TOML.
+/// Returns a TOML scene as JSON, or `None` if the file is not valid TOML.
 fn json(path: &Path) -> Option<Value> {
     let text = std::fs::read_to_string(path).unwrap();
     DeTable::parse(&text).ok().map(|table| of_table(table.get_ref()))
@@ -142,7 +142,7 @@ fn of_value(value: &DeValue<'_>) -> Value {
     match value {
         DeValue::String(text) => json!(text),
         DeValue::Integer(digits) => json!(digits.as_str().parse::<i64>().unwrap_or(i64::MAX)),
-        // What is not finite becomes `null`.
+        // JSON has no infinity and no NaN; these become `null`.
         DeValue::Float(digits) => json!(digits.as_str().parse::<f64>().unwrap()),
         DeValue::Boolean(value) => json!(value),
         DeValue::Datetime(time) => json!(time.to_string()),

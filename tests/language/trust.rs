@@ -1,4 +1,4 @@
-//! Hostile SDL is refused without `--trust`. `tests/povray/trust.rs` holds what is refused against POV-Ray itself.
+//! Tests that hostile SDL is refused without `--trust`. `tests/povray/trust.rs` checks with POV-Ray that the refused SDL is dangerous.
 
 use std::fs;
 use std::path::Path;
@@ -6,10 +6,10 @@ use std::process::Output;
 
 use crate::support::{jabuka, stderr};
 
-/// A scene: what the error names, the table with the SDL, and files beside the scene.
+/// A hostile scene: the word that the error must quote, the TOML with the SDL, and the files beside the scene as names and texts.
 type Hostile = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
-/// Scenes whose SDL would overwrite, include or read files of their user.
+/// Scenes whose SDL would overwrite, include or read files of the user.
 const HOSTILE: [Hostile; 13] = [
     ("`include`", "[povray]\nsdl = '''\n  include \"VICTIM\"\n'''", &[]),
     ("`#`", "[povray]\nsdl = '#macro A() # #end A() include \"VICTIM\"'", &[]),

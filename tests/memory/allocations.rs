@@ -1,4 +1,4 @@
-//! What runs in an inner loop allocates nothing. The crate `allocation-counter` counts for the whole test program.
+//! Tests that inner loops allocate no memory. The crate `allocation-counter` counts the allocations of the whole test program.
 
 use std::hint::black_box;
 
@@ -8,7 +8,7 @@ use jabuka::scene::expression::{Program, Scope};
 fn a_million_evaluations_of_a_formula_allocate_nothing() {
     let mut scope = Scope::default();
     ["x", "v", "t"].into_iter().for_each(|name| _ = scope.slot(name));
-    // The last one needs more than the small stack.
+    // The last formula needs more values than the evaluator's small stack holds.
     let tree = (0..6).fold("(x + sin(t))".to_owned(), |tree, _| format!("({tree} - v*{tree})"));
     for text in ["-4*x - 0.5*v", "if(x < 0, 0.5*sin(2*pi*t), max(x, v, t^3))", &tree] {
         let program = Program::compile(text, &scope).unwrap();

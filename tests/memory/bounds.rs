@@ -1,4 +1,4 @@
-//! What a small scene asks for is a small thing, or refused: no few lines fill the memory, or keep a machine busy for minutes.
+//! Tests that a short scene needs little memory and time, or is refused: no scene of a few lines may fill the memory or run for minutes.
 
 use std::fs;
 
@@ -8,22 +8,22 @@ use jabuka::scene::Options;
 
 const BALL: &str = "[body.a]\nshape.sphere.radius = 1\n";
 
-/// The bytes that are in use at most while a scene is read, whether or not it is right.
+/// Returns the peak memory while a scene is read, bytes. The scene may be invalid.
 fn bytes(text: &str) -> u64 {
     allocation_counter::measure(|| drop(Scene::parse(text))).bytes_max
 }
 
-/// The number of allocations while a scene is read: a count of work.
+/// Returns the number of allocations while a scene is read, as a measure of work that is independent of time.
 fn work(text: &str) -> u64 {
     allocation_counter::measure(|| drop(Scene::parse(text))).count_total
 }
 
-/// What is said of a scene, errors or warnings.
+/// Returns the diagnostics of a scene: its errors, or its warnings if it is valid.
 fn said(text: &str) -> Report {
     Scene::parse(text).map_or_else(|report| report, |scene| scene.warnings)
 }
 
-/// The code of the only thing that is said of a scene, and its line.
+/// Returns the code, the line and the label of the only diagnostic in a report.
 fn only(report: &Report) -> (&'static str, usize, String) {
     let [diagnostic] = report.diagnostics.as_slice() else { panic!("{report}") };
     let span = diagnostic.span().unwrap();
@@ -46,14 +46,14 @@ fn a_copy_takes_less_than_a_kilobyte() {
         "[force.pull.constant]\non = ['a']\nforce = [1, 0, 0]",
         "[force.chain.spring]\nbetween = ['a']\nstiffness = 1",
     ] {
-        // A shape of its own takes the place of the ball's.
+        // If `more` gives a shape, it replaces the ball's.
         let body = if more.starts_with("shape") { "[body.a]\n" } else { BALL };
         let each = (of(25_000, body, more) - of(5000, body, more)) / 20_000;
-        // A formula gives each copy a table of its own, which is an eighth of a kilobyte for each of its keys.
+        // A formula gives each copy its own table, which takes 128 bytes for each key.
         let most = if more.starts_with("location") { 1400 } else { 1000 };
         assert!(each < most, "{each} bytes for each copy with `{more:.60}`");
     }
-    // What each copy has of its own counts, and is limited.
+    // The data that each copy holds for itself are counted and limited.
     let text = |n: usize| format!("{BALL}repeat = {n}\nmotion.keyframes.at = [{}]", keyframes.join(", "));
     assert_eq!(said(&text(20_000)).diagnostics.len(), 0);
     let (code, line, _) = only(&said(&text(21_000)));
@@ -70,7 +70,7 @@ fn copies_with_formulas_are_refused_before_they_are_made() {
         ("too-many-copies", 4, "at most 97847 copies of this body are made")
     );
     assert!(work(&text) < 10_000, "{}", work(&text));
-    // Formulas of the time are kept, with their derivatives.
+    // Formulas of the time are stored with their derivatives, once for each copy.
     let text = format!("{BALL}motion.formula.location = ['sin(t + i)', 'cos(2*t)', 0]\nrepeat = 500000\n");
     assert_eq!(only(&said(&text)).0, "too-many-copies");
     assert!(work(&text) < 10_000, "{}", work(&text));
@@ -105,7 +105,7 @@ fn what_many_copies_have_wrong_is_said_once() {
         let report = said(&text(2000));
         assert_eq!(report.diagnostics.iter().filter(|it| it.code.name() == code).count(), 1, "{report}");
         assert!(report.diagnostics.len() <= 2, "{report}");
-        // Ten times as many copies are not more than ten times the work.
+        // Ten times as many copies may cost at most about ten times the work.
         let (few, many) = (work(&text(2000)), work(&text(20_000)));
         assert!(many < 11 * few, "{more}: {few} allocations become {many}");
     }
@@ -113,7 +113,7 @@ fn what_many_copies_have_wrong_is_said_once() {
 
 #[test]
 fn a_long_formula_and_many_frames_are_looked_at_in_part() {
-    // A million frames and five thousand operations: all of them would take minutes.
+    // The run has a million frames, and the formula five thousand operations: evaluating all of them would take minutes.
     let formula = ["t"; 2400].join(" + ");
     let text = |rate: &str| {
         format!(
@@ -122,7 +122,7 @@ fn a_long_formula_and_many_frames_are_looked_at_in_part() {
     };
     let report = said(&text("999"));
     assert_eq!(report.diagnostics.len(), 0, "{report}");
-    // The first and the last frame are always looked at.
+    // The first and the last frame are always evaluated.
     let text = text("999").replace("['t +", "['1/(t - 1000) + t +");
     assert_eq!(only(&said(&text)).0, "division-by-zero");
 }

@@ -1,5 +1,5 @@
-//! Memory: inner loops allocate nothing, and small scenes take little. An allocator that counts stands behind all of
-//! this program, so it holds no other tests.
+//! Tests of memory: inner loops allocate nothing, and short scenes need little. A counting allocator serves the whole program, so other
+//! tests must not run in it.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests")]
 
 mod allocations;

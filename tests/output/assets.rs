@@ -1,4 +1,4 @@
-//! `povray.assets`: copies of files that scripts read.
+//! Tests of `povray.assets`, the files that scripts read and that are copied to the output folder.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -8,7 +8,7 @@ use jabuka::output::Manifest;
 
 use crate::support::{compile, contents, jabuka, stderr};
 
-/// A folder with a scene of these assets, and two files beside it.
+/// Writes a scene with these assets, and two image files beside it, into a folder. Returns the scene's path.
 fn scene(folder: &Path, assets: &str) -> std::path::PathBuf {
     let scenes = folder.join("scenes");
     fs::create_dir_all(scenes.join("maps")).unwrap();
@@ -34,11 +34,11 @@ fn assets_are_copied_and_listed_and_found() {
     let manifest = Manifest::read(&out).unwrap();
     let listed: Vec<_> = manifest.files.iter().map(|file| (file.name.as_str(), file.bytes)).collect();
     assert_eq!(listed[2..4], [("assets/maps/earth.png", 5), ("assets/wood.png", 4)], "{listed:?}");
-    // As `printf wood | sha256sum` says.
+    // The digest that `printf wood | sha256sum` prints.
     let digest = "99f7855eb789dfecf9ea66df3221a743f4ab8be59ae6b9c503499c1940a90fd5";
     assert_eq!(manifest.files[3].hex(), digest);
 
-    // A changed file is copied anew, and no half file stays behind.
+    // A changed file is copied again, and no temporary file remains.
     fs::write(path.with_file_name("wood.png"), "other wood").unwrap();
     compile(&path, &out, &["--frames", "0"]);
     assert_eq!(fs::read_to_string(out.join("assets/wood.png")).unwrap(), "other wood");
@@ -65,11 +65,11 @@ fn a_file_from_elsewhere_needs_trust_and_is_copied_under_its_name() {
     compile(&path, &out, &["--trust"]);
     assert_eq!(contents(&out.join("assets")), [("metal.png".to_owned(), b"metal".to_vec())]);
 
-    // A link that leads out is no different.
+    // A symbolic link that points out of the scene's folder needs trust, too.
     symlink(folder.path().join("metal.png"), path.with_file_name("link.png")).unwrap();
     refused(&scene(folder.path(), "['link.png']"));
 
-    // One file by two names is one file.
+    // Two paths to one file are the same asset.
     let path = scene(folder.path(), "['wood.png', '../scenes/maps/../wood.png']");
     compile(&path, &out, &["--trust"]);
 }

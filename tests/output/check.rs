@@ -1,4 +1,4 @@
-//! `compile --check`: scripts held against those of a folder.
+//! Tests of `compile --check`, which compares the scripts of a folder with those that the scene gives.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ fn check(folder: &Path, arguments: &[&str]) -> Output {
 fn passes_on_what_was_compiled_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     compile(&scene("damped_spring"), folder.path(), &[]);
-    // The manifest does not count, nor does its absence: people may keep only the scripts.
+    // The manifest is not compared and may be missing: users may keep only the scripts.
     fs::remove_file(folder.path().join("manifest.json")).unwrap();
     fs::remove_file(folder.path().join(".jabuka-lock")).unwrap();
     let before = contents(folder.path());
@@ -45,7 +45,7 @@ fn fails_where_a_script_is_missing_or_too_many() {
     let said = stdout(&output);
     assert!(said.contains("frame 7: frame_0007.pov is missing\n"), "{said}");
     assert!(said.contains("frame 151: frame_0151.pov is not a script of this scene\n"), "{said}");
-    // Of selected frames, only those count.
+    // With `--frames`, only the selected frames are compared.
     assert_eq!(check(folder.path(), &["--frames", "0-6"]).status.code(), Some(0));
 }
 

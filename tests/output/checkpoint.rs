@@ -1,4 +1,4 @@
-//! A run that is stopped goes on from its last checkpoint, to the same bytes.
+//! Tests that an interrupted run continues from its last checkpoint and gives the same bytes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::support::{contents, jabuka, signal, stderr};
 
-/// Balls, boxes and a pendulum; some come while others go, and moments between frames are seen.
+/// A scene with balls, boxes and a pendulum. Some bodies appear while others disappear, and an open shutter needs moments between frames.
 const PILE: &str = "
     [simulation]
     duration = 2
@@ -56,7 +56,7 @@ impl Place {
         self.0.path().join("cache")
     }
 
-    /// A command that compiles the pile. It is saved after each frame, and kept however fast it is.
+    /// Returns a command that compiles [`PILE`]. It writes a checkpoint after each frame, and caches even a short run.
     fn compile(&self, out: &Path, threads: &str) -> Command {
         let mut command = jabuka();
         command
@@ -76,7 +76,7 @@ impl Place {
         self.compile(out, "2").stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
     }
 
-    /// The scripts of a run that nothing disturbs. No run is kept after it.
+    /// Compiles the scene without interruption, empties the cache, and returns the names and bytes of the scripts.
     fn undisturbed(&self) -> Vec<(String, Vec<u8>)> {
         let out = self.0.path().join("undisturbed");
         assert!(self.compile(&out, "2").output().unwrap().status.success());
@@ -84,14 +84,14 @@ impl Place {
         contents(&out)
     }
 
-    /// The files of the cache that end so.
+    /// Returns the paths of the cache's files with this extension.
     fn files(&self, ending: &str) -> Vec<PathBuf> {
         let Ok(folder) = fs::read_dir(self.cache()) else { return Vec::new() };
         let paths = folder.map(|entry| entry.unwrap().path());
         paths.filter(|path| path.extension().is_some_and(|found| found == ending)).collect()
     }
 
-    /// The largest checkpoint so far, bytes: it grows as the run goes on.
+    /// Returns the size of the largest partial recording that has a checkpoint, bytes. It grows during a run.
     fn saved(&self) -> u64 {
         let sizes = self.files("part").into_iter().filter_map(|path| {
             path.with_extension("checkpoint").exists().then(|| fs::metadata(path).ok())?
@@ -99,7 +99,7 @@ impl Place {
         sizes.map(|about| about.len()).max().unwrap_or(0)
     }
 
-    /// Kills a run when a checkpoint is farther than `before`.
+    /// Kills a run as soon as its partial recording with a checkpoint is larger than `before` bytes.
     fn kill_behind(&self, child: &mut Child, before: u64) {
         while child.try_wait().unwrap().is_none() && self.saved() <= before {
             sleep(Duration::from_micros(200));
@@ -128,14 +128,14 @@ fn killed_at_ten_moments_it_goes_on_to_the_same_bytes() {
     assert_eq!(place.files("run").len(), 1);
 }
 
-/// Each process has pages and checkpoints of its own; one that comes later takes up those that nobody has.
+/// Checks that two processes use separate recordings and checkpoints. A later process continues from those that no running process uses.
 #[test]
 fn two_processes_at_once_do_not_harm_each_other() {
     let place = Place::new();
     let expected = place.undisturbed();
     let [one, two] = ["one", "two"].map(|name| place.0.path().join(name));
     let mut first = place.start(&one);
-    // However busy the machine is, the first is in the middle of its run while the second makes its own.
+    // Stop the first process in the middle of its run, however busy the machine is, while the second process completes its own run.
     while place.saved() <= 20_000 {
         assert!(first.try_wait().unwrap().is_none(), "the first run has ended");
         sleep(Duration::from_micros(200));

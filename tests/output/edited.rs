@@ -1,4 +1,4 @@
-//! What somebody has edited in an output folder is kept, and said.
+//! Tests that files edited by the user in an output folder are kept, and reported.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ const SCENE: &str = "
     velocity = [1, 0, 0]
     ";
 
-/// A folder with a scene that was compiled into `out`.
+/// Makes a temporary folder with a scene that has been compiled into `out`.
 fn place() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
@@ -25,7 +25,7 @@ fn place() -> tempfile::TempDir {
     folder
 }
 
-/// What `compile` says of edits.
+/// Compiles the scene again. Returns the messages on stderr, which report edited files.
 fn again(folder: &Path, arguments: &[&str]) -> String {
     let output = compile(&folder.join("scene.toml"), &folder.join("out"), arguments);
     stderr(&output)
@@ -40,7 +40,7 @@ fn an_edited_script_is_kept_beside_the_new_one() {
     for name in ["frame_0002.pov", "common.inc", "animation.ini", "assets/wall.txt"] {
         fs::write(at(name), format!("my {name}")).unwrap();
     }
-    // One digit is another, so that its length stays.
+    // The edit keeps the length of the file.
     let script = fs::read_to_string(at("frame_0004.pov")).unwrap();
     fs::write(at("frame_0004.pov"), script.replace("sphere", "SPHERE")).unwrap();
     let said = again(folder.path(), &[]);
@@ -66,7 +66,7 @@ fn an_edit_is_kept_also_where_the_scene_has_changed_or_the_frame_was_not_asked_f
     let folder = place();
     let at = |name: &str| folder.path().join("out").join(name);
     fs::write(at("frame_0002.pov"), "first").unwrap();
-    // Not asked for: it stays as it is, and is known as edited later.
+    // A frame that is not selected stays as it is. A later compilation still detects the edit.
     assert_eq!(again(folder.path(), &["--frames", "0,1"]), "");
     assert_eq!(fs::read_to_string(at("frame_0002.pov")).unwrap(), "first");
     let said = again(folder.path(), &["--set", "body.ball.shape.sphere.radius=2"]);
@@ -107,7 +107,7 @@ fn a_job_keeps_edited_scripts_too() {
     assert_eq!([kept("frame_0002.edited.pov"), kept("frame_0002.edited-2.pov")], ["scene.toml", "out"]);
 }
 
-/// The files of a folder, without the folders in it.
+/// Returns the names and bytes of a folder's files, without its subfolders.
 fn contents_of_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let copy = tempfile::tempdir().unwrap();
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {

@@ -1,4 +1,4 @@
-//! Whose folder it is: nothing is overwritten or removed that jabuka did not write, and no link is followed.
+//! Tests that jabuka overwrites and removes only files that it wrote, and follows no symbolic link in an output folder.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -8,7 +8,7 @@ use jabuka::output::Manifest;
 
 use crate::support::{compile, contents, jabuka, scene, stderr};
 
-/// Compiles, which must be refused with exit code 1 and the given words.
+/// Compiles into a folder, and asserts that this is refused with exit code 1 and a message with these words.
 fn refused(folder: &Path, words: &str) {
     let output = jabuka().arg("compile").arg(scene("damped_spring")).arg("-o").arg(folder).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
@@ -20,7 +20,7 @@ fn a_folder_of_somebody_elses_is_refused_and_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("frame_0000.pov"), "years of work").unwrap();
     refused(folder.path(), "is not empty, and jabuka did not make it");
-    // A manifest that is not ours does not make it ours.
+    // A manifest that jabuka did not write does not make the folder an output folder of jabuka.
     for manifest in ["{}", "[]", "not json", "{\"generator\": \"another program\", \"state\": \"complete\"}"]
     {
         fs::write(folder.path().join("manifest.json"), manifest).unwrap();
@@ -91,7 +91,7 @@ fn links_are_replaced_or_refused_and_never_followed() {
     compile(&scene("damped_spring"), &out, &["--frames", "0-2"]);
     assert!(plain == contents(&out), "the links are replaced by files");
 
-    // Through these two the folder would be read as ours, or a file elsewhere be opened for writing.
+    // With these two links, jabuka would take the folder for its own, or would open a file elsewhere for writing.
     for name in ["manifest.json", ".jabuka-lock"] {
         let original = fs::read(out.join(name)).unwrap();
         fs::rename(out.join(name), folder.path().join("moved")).unwrap();
@@ -118,7 +118,7 @@ fn a_scene_that_is_wrong_writes_nothing() {
 fn a_run_that_diverges_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let wild = folder.path().join("wild.toml");
-    // ω dt = 100: every step multiplies the amplitude by about as much.
+    // With angular frequency ω and step dt, ω dt = 100. Each step of the explicit Euler method multiplies the amplitude by about 100.
     let text = "
         [simulation]
         duration = 100
@@ -141,7 +141,7 @@ fn a_run_that_diverges_writes_nothing() {
     assert!(!folder.path().join("out").exists());
 }
 
-/// A ball between two walls that close in, which are 0.5 m from it: they have it at 0.5 s.
+/// A scene with a ball between two closing walls. The walls start 0.5 m from the ball and jam it at 0.5 s.
 const JAMMED: &str = "
     [simulation]
     duration = 1
@@ -185,7 +185,7 @@ fn a_run_that_jams_keeps_the_frames_before() {
     assert_eq!(names(&out).len(), 5);
     assert!(Manifest::read(&out).unwrap().is_complete());
 
-    // What is kept can be compared, and a table has as many times.
+    // The kept frames can be compared with `--check`, and a table has a row for each of them.
     let check = compile(&["--check"]);
     assert_eq!(check.status.code(), Some(1));
     assert!(
@@ -198,13 +198,14 @@ fn a_run_that_jams_keeps_the_frames_before() {
     assert!(stderr(&export).contains("; 5 frames before are kept"), "{export:?}");
     assert_eq!(fs::read_to_string(&table).unwrap().lines().count(), 1 + 5 * 3);
 
-    // Where no frame before is asked for, nothing is written.
+    // If no selected frame comes before the failure, nothing is written.
     let none = compile(&["--frames", "7-9", "-o", "none"]);
     assert_eq!(none.status.code(), Some(1));
     assert!(stderr(&none).contains("; no frame before that was asked for"), "{none:?}");
     assert!(!folder.path().join("none").exists());
 
-    // A frame counts if all of its open shutter was simulated: that of frame 4 is open until 0.49 s, that of frame 5 too long.
+    // A frame is kept only if its whole exposure was simulated. The shutter of frame 4 closes at 0.49 s, before the failure; that of frame
+    // 5 closes after it.
     fs::write(&scene, format!("{JAMMED}[camera]\nshutter = 0.09\nsamples = 4\n")).unwrap();
     let blurred = compile(&["-o", "blurred"]);
     assert!(stderr(&blurred).contains("; 5 frames before are kept"), "{blurred:?}");

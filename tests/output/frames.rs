@@ -1,4 +1,4 @@
-//! `--frames`: some of the frames, as the full run would write them.
+//! Tests of `--frames`: the selected frames have the same bytes as in a full run.
 
 use crate::support::{compile, contents, jabuka, scene, stderr, stdout};
 

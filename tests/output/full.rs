@@ -1,4 +1,4 @@
-//! A disk that takes no more: nothing is left half-written, and each command says what is there.
+//! Tests of a full disk: no file is left half-written, and each command reports the state of the folder.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 
 use crate::support::{compile, jabuka, stderr, stdout};
 
-/// Runs `jabuka` in a folder where no file may be longer than so many kB: what a full disk does, on any machine.
+/// Runs `jabuka` in a folder with a limit on the size of each written file, kB. The limit acts like a full disk on any machine.
 fn limited(folder: &Path, kilobytes: u32, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit -f {kilobytes}; exec \"$@\"");
     Command::new("bash")
@@ -38,14 +38,14 @@ fn a_folder_that_ran_out_of_space_is_called_so_by_every_command() {
     let scene = folder.path().join("scene.toml");
     fs::write(&scene, "simulation.duration = 8\n[body.ball]\nshape.sphere.radius = 1\n").unwrap();
     compile(&scene, &folder.path().join("out/scene"), &[]);
-    // The scripts fit in, and the list of 201 of them does not.
+    // The scripts are smaller than the limit; the manifest, which lists 201 of them, is larger.
     let change = ["compile", "scene.toml", "--set", "title='changed'"];
     let output = limited(folder.path(), 16, &change);
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).starts_with("error[cannot-write]: "), "{}", stderr(&output));
 
     let run = |arguments: &[&str]| jabuka().current_dir(folder.path()).args(arguments).output().unwrap();
-    // A POV-Ray that tells its version and is not asked for more.
+    // A stand-in for POV-Ray that only prints its version; the commands need no more.
     let povray = folder.path().join("povray");
     fs::write(&povray, "#!/bin/sh\necho 'POV-Ray 3.7.0.10'\n").unwrap();
     fs::set_permissions(&povray, fs::Permissions::from_mode(0o755)).unwrap();
@@ -63,7 +63,7 @@ fn a_folder_that_ran_out_of_space_is_called_so_by_every_command() {
     assert!(
         stdout(&run(&["status", "out/scene", "--format", "json"])).contains("\"unfinished_scripts\": true")
     );
-    // With room again, the same command makes it good.
+    // Without the limit, the same command succeeds and completes the folder.
     assert!(run(&change).status.success());
     assert!(stdout(&run(&["status", "out/scene"])).starts_with("done     0 of 201\n"));
 }

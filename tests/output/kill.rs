@@ -1,11 +1,11 @@
-//! A run that is killed at any moment is made good by running it again.
+//! Tests that a run killed at any moment is completed by running it again.
 
 use std::path::Path;
 use std::process::Stdio;
 
 use crate::support::{compile, contents, jabuka, scene};
 
-/// How much of its scripts a run has written: `None` while the manifest is still that of the run before.
+/// Returns the written fraction of a run's scripts, 0 to 1. `None` while the manifest is still that of the previous run.
 fn progress(folder: &Path, manifest_before: &str) -> Option<f64> {
     let manifest = std::fs::read_to_string(folder.join("manifest.json")).unwrap_or_default();
     if manifest == manifest_before {
@@ -30,10 +30,10 @@ fn killed_at_any_moment_and_run_again_the_folder_is_the_undisturbed_one() {
 
     let disturbed = folder.path().join("disturbed");
     let (mut killed, mut unfinished) = (0, 0);
-    // Twenty moments from the start of a run to its end, in an order that jumps about.
+    // Twenty moments, spread over the whole run, in a shuffled order.
     for round in 0..20 {
         let moment = f64::from((round * 7) % 20) / 20.0;
-        // Each run is of another scene than the one before, so that kills also fall on the removal of its scripts.
+        // Each run has another scene than the previous run, so that some kills happen while the old scripts are removed.
         let mass = if round % 2 == 0 { "body.ball.mass=2" } else { "body.ball.mass=3" };
         let before = std::fs::read_to_string(disturbed.join("manifest.json")).unwrap_or_default();
         let mut child = jabuka()
@@ -70,7 +70,7 @@ fn killed_while_some_frames_are_written_the_others_stay() {
     let folder = tempfile::tempdir().unwrap();
     compile(&scene("damped_spring"), folder.path(), &[]);
     let expected = contents(folder.path());
-    // What a kill leaves: the manifest of the first moment, and a half-written file.
+    // Build by hand the state that a kill leaves: the manifest from the beginning of the writing, and a temporary file.
     let manifest = std::fs::read_to_string(folder.path().join("manifest.json")).unwrap();
     let (head, _) = manifest.split_once(",\n  \"files\"").unwrap();
     let writing = head.replace("complete", "writing") + ",\n  \"planned\": \"3\",\n  \"files\": [\n  ]\n}\n";

@@ -1,4 +1,4 @@
-//! The output folder: the same bytes whatever happens, and nothing touched that is not ours.
+//! Tests of the output folder: the same scene always gives the same bytes, and jabuka changes no files of others.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 #[path = "../support/mod.rs"]

@@ -1,11 +1,11 @@
-//! Memory does not grow with the number of frames.
+//! Tests that memory does not grow with the number of frames.
 
 use std::process::{Child, Stdio};
 
 use crate::support::{jabuka, scene};
 
-/// The most memory that a process has used by the time it ends, in bytes: its high-water mark only ever rises, so the
-/// last look before the end is the one that counts.
+/// Returns the peak memory of a process, bytes. The kernel's high-water mark never falls, so the last value read before the process ends
+/// counts.
 pub(crate) fn peak(mut child: Child) -> u64 {
     let status = format!("/proc/{}/status", child.id());
     let mut peak = 0;
@@ -14,7 +14,7 @@ pub(crate) fn peak(mut child: Child) -> u64 {
         let mark = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let kibibytes = mark.and_then(|mark| mark.trim().strip_suffix(" kB")?.trim().parse::<u64>().ok());
         peak = kibibytes.map_or(peak, |kib| kib * 1024).max(peak);
-        // The look itself must not take the machine away from what is looked at.
+        // Pause, so that this loop takes no processor time from the measured process.
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     assert!(child.wait().unwrap().success());
@@ -47,8 +47,8 @@ fn compare(frames: u32, arguments: &[&str]) {
     };
     let (few, many) = (compile(100), compile(frames));
     assert!(few > 1_000_000, "a process needs more than {few} bytes: nothing was measured");
-    // Of each frame, the size and the digest are kept, 40 bytes, and where its state is, some 12. The first peak may be seen
-    // too early, by a megabyte.
+    // Each frame keeps 40 bytes for its size and digest, and about 12 for the position of its state. The last reading of the first peak
+    // may be about 1 MB too low.
     let most = few as f64 * 1.1 + 1e6 + 60.0 * f64::from(frames);
     assert!(many as f64 <= most, "100 frames need {few} bytes, {frames} frames {many}");
 }

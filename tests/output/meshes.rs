@@ -1,4 +1,4 @@
-//! Meshes: written once, small scripts, little memory.
+//! Tests of meshes: each mesh is written once, scripts stay small, and compiling takes little memory.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,7 +8,7 @@ use std::process::Stdio;
 use crate::memory::peak;
 use crate::support::{compile, jabuka};
 
-/// Writes a torus of so many triangles as an OBJ such as programs write, and gives the length of the file.
+/// Writes a torus with about this number of triangles as an OBJ file. Returns the length of the file, bytes.
 fn torus(path: &Path, triangles: u32) -> u64 {
     let n = (f64::from(triangles) / 2.0).sqrt().round() as u32;
     let mut text = String::new();
@@ -27,7 +27,7 @@ fn torus(path: &Path, triangles: u32) -> u64 {
     text.len() as u64
 }
 
-/// A scene of two bodies of one mesh.
+/// Writes a scene with two bodies that share one mesh, in this layout. Returns its path.
 fn scene(folder: &Path, layout: &str) -> PathBuf {
     let path = folder.join("scene.toml");
     let body = |name: &str, x: f64| {
@@ -67,7 +67,7 @@ fn a_script_that_is_complete_holds_its_mesh_once() {
     assert_eq!(script.matches("object { Mesh_part ").count(), 2);
 }
 
-/// What was compiled from another mesh is not up to date, though the scene's text is the same.
+/// Checks that a changed mesh changes the scene's digest, so that old scripts count as out of date although the scene's text is the same.
 #[test]
 fn another_mesh_is_another_scene() {
     let folder = tempfile::tempdir().unwrap();
@@ -98,7 +98,7 @@ fn takes_little(triangles: u32, layout: &str) {
     let scene = scene(folder.path(), layout);
     let mut command = jabuka();
     command.arg("compile").arg(scene).arg("-o").arg(&out);
-    // Each thread holds the script that it writes, so that complete ones take more with each.
+    // Each thread holds the script that it writes, so memory grows with the number of threads in the self-contained layout.
     let child = command.env("RAYON_NUM_THREADS", "2").stdout(Stdio::null()).spawn();
     let used = peak(child.unwrap());
     assert!(used > length, "nothing was measured");

@@ -1,4 +1,4 @@
-//! Exports that are refused.
+//! Tests of exports that are refused.
 
 use std::fs;
 

@@ -1,5 +1,5 @@
-//! A run is simulated once, and kept between commands: each step is taken once, and whatever happens to what is kept, the
-//! scripts are the same bytes.
+//! Tests of the cache of runs: a run is simulated once and kept between commands. Whatever happens to the kept files, the scripts have the
+//! same bytes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ use jabuka::simulate::{Moments, Recorded, Selection};
 
 use crate::support::{self, contents, stderr};
 
-/// The steps that have been taken by [`COUNTED`].
+/// The number of integration steps taken by the method [`COUNTED`].
 static STEPS: AtomicU64 = AtomicU64::new(0);
 
-/// The default method, which counts its steps.
+/// The default integration method, extended to count its steps.
 static COUNTED: Method = Method {
     name: "counted",
     order: 1,
@@ -95,7 +95,7 @@ fn each_step_is_taken_once_and_the_second_time_none() {
     let cache = Cache::new(folder.path().join("cache"), 1 << 30).keeping_all();
     let run = || cache.run(&scene, Moments::of(&scene), &Effort::default(), |_| {}).unwrap();
     write_all(run(), &folder.path().join("first"));
-    // Five intervals of 40 ms; the shutter is open for half a sixth one.
+    // There are five intervals of 40 ms, and the shutter stays open for half an interval after the last frame.
     assert_eq!(STEPS.swap(0, Ordering::Relaxed), 60);
     write_all(run(), &folder.path().join("second"));
     assert_eq!(STEPS.load(Ordering::Relaxed), 0);
@@ -107,7 +107,7 @@ fn each_step_is_taken_once_and_the_second_time_none() {
     }
 }
 
-/// A scene whose run takes a while, in a folder with a cache of its own.
+/// A temporary folder with a scene that takes a while to simulate, and with its own cache.
 struct Kept {
     folder: tempfile::TempDir,
 }
@@ -235,7 +235,7 @@ fn a_killed_run_leaves_nothing_that_matters_and_two_at_once_do_not_disturb_each_
     assert_eq!((kept.files("run").len(), kept.files("part").len()), (1, 0));
 }
 
-/// Runs a command with a cache folder on a disk of 2 MB, in a world of its own: none where that is not allowed.
+/// Runs a command whose cache folder is a disk of 2 MB, in its own mount namespace. Returns `None` on systems that do not allow this.
 fn on_a_small_disk(kept: &Kept, command: &Command) -> Option<Output> {
     fs::create_dir_all(kept.cache()).unwrap();
     let mut small = Command::new("unshare");
@@ -246,15 +246,15 @@ fn on_a_small_disk(kept: &Kept, command: &Command) -> Option<Output> {
     (!is_refused).then_some(output)
 }
 
-/// Runs a command that can write no file of more than 100 kB.
+/// Runs a command that cannot write files larger than 100 kB.
 fn with_small_files(command: &Command) -> Output {
     let mut small = Command::new("sh");
-    // Without the trap, the signal would end it.
+    // Without the trap, the signal SIGXFSZ would end the command.
     small.args(["-c", "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\""]);
     like(small, command).output().unwrap()
 }
 
-/// The outer command, which runs another one.
+/// Returns the command `outer` with `command` as its arguments, in the same folder and with the same environment variables.
 fn like(mut outer: Command, command: &Command) -> Command {
     outer.arg(command.get_program()).args(command.get_args());
     outer.current_dir(command.get_current_dir().unwrap());
@@ -262,7 +262,7 @@ fn like(mut outer: Command, command: &Command) -> Command {
     outer
 }
 
-/// The recording has 2 MB, of which one is in memory.
+/// Checks that a command succeeds on a full disk without keeping its run. The recording has 2 MB, of which 1 MB stays in memory.
 #[test]
 fn a_full_disk_keeps_nothing_and_the_next_command_gives_the_right_bytes() {
     let kept = Kept::new();
@@ -273,7 +273,7 @@ fn a_full_disk_keeps_nothing_and_the_next_command_gives_the_right_bytes() {
         command.args(long);
         command
     };
-    // There is room in the folder for temporary files.
+    // Only the cache's disk is small; the folder for temporary files has enough room.
     if let Some(output) = on_a_small_disk(&kept, &command("small")) {
         assert!(output.status.success(), "{}", stderr(&output));
         assert!(contents(&kept.folder.path().join("small")) == right);
@@ -303,7 +303,7 @@ fn those_that_were_not_used_for_longest_go_first_and_all_can_be_cleared() {
     let [older, newer] =
         [0, 1].map(|scene| cache.find(&scenes[scene], &Moments::of(&scenes[scene])).is_some());
     assert!(older && newer);
-    // Times of files are coarse: what was used is said outright.
+    // File times are too coarse to order the runs, so the test sets the time of use explicitly.
     let path = |scene: &Scene| {
         let before = kept.files("run");
         cache.forget(scene, &Moments::of(scene));

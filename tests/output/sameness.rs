@@ -1,4 +1,4 @@
-//! The same scene gives the same bytes: on any run, thread count, user, locale, and from any folder.
+//! Tests that a scene gives the same bytes in every run, with any number of threads, for any user and locale, and from any folder.
 
 use std::fs;
 
@@ -21,14 +21,14 @@ fn any_run_any_number_of_threads() {
         contents(&path)
     };
     let one = compile_with("1");
-    // The scripts, the two files of the sequence, the manifest and the lock.
+    // 301 scripts of frames, two files of the sequence, the manifest and the lock.
     assert_eq!(one.len(), 301 + 2 + 2);
     for threads in ["2", "8"] {
         assert!(one == compile_with(threads), "{threads} threads give other bytes than one");
     }
 }
 
-/// Impacts, friction and rest, with ghosts and open shutters between the frames.
+/// Checks scenes with impacts, friction and bodies at rest, with ghosts and with motion blur, which need moments between frames.
 #[test]
 fn contacts_on_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
@@ -78,7 +78,7 @@ fn any_folder_user_and_locale() {
         .output()
         .unwrap();
     assert!(output.status.success());
-    // Without `-o` the folder is named after the scene's file.
+    // Without `-o`, the output folder has the name of the scene's file.
     assert!(contents(&here.path().join("out")) == contents(&there.path().join("out/parabola")));
 }
 
@@ -102,7 +102,7 @@ fn compiled_again_into_the_same_folder() {
     assert!(first == contents(folder.path()));
 }
 
-/// What has been before a frame is in its script: the same, whichever frames are asked for, on any number of threads.
+/// Checks that the drawn past of a frame, such as a trail, depends neither on the selected frames nor on the number of threads.
 #[test]
 fn the_past_of_a_frame_does_not_depend_on_which_are_drawn() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Motion blur: a second script for each frame, beside the sharp one.
+//! Tests of motion blur: each frame gets a second script beside the sharp one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use jabuka::output::Manifest;
 
 use crate::support::{compile, contents, jabuka, stdout};
 
-/// A scene of six frames.
+/// Writes a scene of six frames. Returns its path.
 fn scene(folder: &Path) -> PathBuf {
     let path = folder.join("scene.toml");
     let text = "
@@ -27,7 +27,7 @@ samples = 8
     path
 }
 
-/// The files of a folder whose names begin so.
+/// Returns the names and bytes of a folder's files whose names begin with `prefix`.
 fn files(folder: &Path, prefix: &str) -> Vec<(String, Vec<u8>)> {
     contents(folder).into_iter().filter(|(name, _)| name.starts_with(prefix)).collect()
 }

@@ -1,11 +1,11 @@
-//! Templates of one's own, and the shared layout.
+//! Tests of users' own templates and of the shared layout.
 
 use std::fs;
 use std::path::Path;
 
 use crate::support::{compile, contents, jabuka, scene, stderr};
 
-/// A folder with the built-in templates.
+/// Writes the built-in templates into a folder. Returns the path of the templates.
 fn templates(folder: &Path) -> std::path::PathBuf {
     let templates = folder.join("templates");
     let output = jabuka().arg("templates").arg(&templates).output().unwrap();
@@ -111,7 +111,7 @@ fn in_the_shared_layout_what_never_changes_is_written_once() {
     assert!(names.contains(&"common.inc".to_owned()), "{names:?}");
     let script = fs::read_to_string(folder.path().join("frame_0003.pov")).unwrap();
     assert!(script.contains("#include \"common.inc\"") && script.len() < 600, "{script}");
-    // It goes when the scene is no longer laid out so.
+    // A compilation with another layout removes the shared file.
     compile(&scene("tumbling_box"), folder.path(), &["--frames", "0-9"]);
     assert!(!folder.path().join("common.inc").exists());
 }

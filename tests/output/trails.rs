@@ -1,4 +1,4 @@
-//! Trails: the files with their parts, which scripts share.
+//! Tests of the files with parts of trails, which several scripts share.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{compile, contents, jabuka, stdout};
 
-/// A scene of so many frames, of a ball with a trail on a circle.
+/// Writes a scene with this number of frames, in which a ball with a trail moves on a helix. Returns its path.
 fn scene(folder: &Path, frames: u32, layout: &str) -> PathBuf {
     let path = folder.join("scene.toml");
     let duration = f64::from(frames - 1) / 25.0;
@@ -18,13 +18,13 @@ fn scene(folder: &Path, frames: u32, layout: &str) -> PathBuf {
     path
 }
 
-/// The names of the files with parts of trails in a folder.
+/// Returns the names of a folder's files with parts of trails.
 fn trails(folder: &Path) -> BTreeSet<String> {
     let names = contents(folder).into_iter().map(|(name, _)| name);
     names.filter(|name| name.starts_with("trail_")).collect()
 }
 
-/// The bytes of all scripts, and of the parts of trails, of so many frames.
+/// Returns the total size of all scripts and trail files of a scene with this number of frames, bytes.
 fn bytes(frames: u32, layout: &str) -> usize {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
@@ -33,8 +33,8 @@ fn bytes(frames: u32, layout: &str) -> usize {
     contents(&out).iter().filter(|(name, _)| of_scripts(name)).map(|(_, bytes)| bytes.len()).sum()
 }
 
-/// Up to 512 points, scripts that repeat the whole trail grow by the square: 16 times as much for four times the
-/// frames. A script that shares it has one line for each of its stretches.
+/// Checks that sharing trails keeps the scripts small. Up to 512 points, scripts that repeat the whole trail grow quadratically: four
+/// times the frames take 16 times the bytes. A script in the shared layout has one line for each part of the trail.
 #[test]
 fn a_script_does_not_repeat_what_others_have_of_a_trail() {
     let (few, many) = (bytes(96, "shared"), bytes(384, "shared"));
@@ -59,13 +59,13 @@ fn a_part_of_a_trail_is_written_once_and_listed() {
         );
     }
     assert!(!fs::read_to_string(out.join("frame_0031.pov")).unwrap().contains("#include \"trail_"));
-    // Other frames of the same scene take nothing away, and the same frames alone need the same files.
+    // Compiling other frames of the same scene removes no trail file, and the last frame alone needs the same files as all frames.
     compile(&scene(folder.path(), 101, "shared"), &out, &["--frames", "0-40"]);
     assert_eq!(trails(&out), names);
     let alone = folder.path().join("alone");
     compile(&scene(folder.path(), 101, "shared"), &alone, &["--frames", "100"]);
     assert_eq!(trails(&alone), names);
-    // Another scene does.
+    // Compiling another scene removes the trail files.
     compile(&scene(folder.path(), 20, "shared"), &out, &[]);
     assert_eq!(trails(&out).len(), 0);
 }

@@ -1,4 +1,4 @@
-//! A folder that holds what a scene would write is known without running the scene.
+//! Tests that jabuka recognizes an up-to-date output folder without running the scene.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use jabuka::scene::{Options, Override};
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
 
-/// A ball on a spring whose step is far too long, so that its energy drifts; its script reads an image.
+/// A ball on a spring, with a step so long that its energy drifts. Its script reads an image.
 const SCENE: &str = "
     [simulation]
     duration = 0.4
@@ -70,7 +70,7 @@ fn what_was_written_is_known_with_what_was_noticed() {
     let said = |warnings| Report { diagnostics: warnings, ..Report::default() }.to_text(false);
     assert_eq!(said(manifest.warnings()), said(run.warnings()));
     assert!(manifest.warnings().iter().any(|warning| warning.code == Code::EnergyDrift));
-    // Fewer frames are there too, another camera's are not.
+    // A part of the frames is up to date, too; the scripts of another camera are not.
     assert!(place.found(&scene, &"3-5".parse().unwrap()).is_some());
     let view = &scene.views[0];
     assert_eq!(up_to_date(&scene, Some(view), &Selection::first(11), &place.path("out")), None);

@@ -1,4 +1,4 @@
-//! `--view`: each camera has a folder of its own.
+//! Tests of `--view`: the scripts of each camera go into their own folder.
 
 use std::fs;
 
@@ -17,13 +17,13 @@ const SCENE: &str = "
     width = 12
 ";
 
-/// Runs `jabuka compile` on the scene, with the folder of the test as the current one.
+/// Writes the scene into a folder, and runs `jabuka compile` there.
 fn run(folder: &std::path::Path, arguments: &[&str]) -> std::process::Output {
     fs::write(folder.join("scene.toml"), SCENE).unwrap();
     jabuka().current_dir(folder).args(["compile", "scene.toml"]).args(arguments).output().unwrap()
 }
 
-/// The camera in the first script of a folder.
+/// Returns the text of the camera in the first script of a folder.
 fn camera(folder: &std::path::Path) -> String {
     let script = fs::read_to_string(folder.join("frame_0000.pov")).unwrap();
     let (_, camera) = script.split_once("camera {").unwrap();
@@ -39,7 +39,7 @@ fn all_cameras_are_written_each_into_its_folder() {
     assert!(main.contains("angle 50"), "{main}");
     assert!(top.contains("angle 50") && top.contains("location <0, 20, 0>"), "a view inherits: {top}");
     assert!(plan.contains("orthographic") && plan.contains("right -x*12"), "{plan}");
-    // Each is a snapshot of its own.
+    // `--check` compares each camera's folder with its own scripts.
     let output = run(folder.path(), &["--view", "all", "--check"]);
     assert!(output.status.success(), "{}", stdout(&output));
 }
@@ -50,7 +50,7 @@ fn one_view_goes_into_the_folder_that_is_given() {
     assert!(run(folder.path(), &["--view", "plan", "-o", "here"]).status.success());
     assert!(camera(&folder.path().join("here")).contains("orthographic"));
     assert!(!folder.path().join("out").exists());
-    // Another camera is another sequence: its scripts do not mix with those.
+    // Another camera in the same folder is another sequence: its scripts replace the old ones.
     let output = run(folder.path(), &["-o", "here", "--frames", "0"]);
     assert!(stdout(&output).contains("5 others of another scene removed"), "{}", stdout(&output));
 }

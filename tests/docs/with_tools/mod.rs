@@ -1,4 +1,4 @@
-//! Pages whose commands render pictures and films.
+//! Tests of the pages whose commands render pictures and films.
 
 mod readme;
 mod tutorial;

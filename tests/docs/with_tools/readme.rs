@@ -1,5 +1,5 @@
-//! Every scene, command and output of the README and of the pages that it links to is real. To see what they should
-//! say: `JABUKA_UPDATE_DOCS=1 cargo test --features tests-with-tools --test docs readme` writes the outputs into them.
+//! Tests that every scene, command and output of the README and of the pages that it links to is real. This command writes the real
+//! outputs into the pages: `JABUKA_UPDATE_DOCS=1 cargo test --features tests-with-tools --test docs readme`.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use crate::support;
 
 #[test]
 fn the_readme_is_real_and_short() {
-    // Not all of its pictures are made by its own commands: see `docs/*.sh`.
+    // Scripts in `docs/*.sh` make some of the pictures, so commands of the README need not make all of them.
     Page::check("README.md", &[]).check_pictures();
     let lines = fs::read_to_string(support::root().join("README.md")).unwrap().lines().count();
     assert!(lines <= 250, "{lines} lines: move some to docs/");

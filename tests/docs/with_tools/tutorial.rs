@@ -1,5 +1,5 @@
-//! Every scene, command, output and picture of the tutorial is real. To see what it should say:
-//! `JABUKA_UPDATE_DOCS=1 cargo test --features tests-with-tools --test docs tutorial` writes outputs and pictures.
+//! Tests that every scene, command, output and picture of the tutorial is real. This command writes the real outputs and pictures:
+//! `JABUKA_UPDATE_DOCS=1 cargo test --features tests-with-tools --test docs tutorial`.
 
 use crate::page::Page;
 

@@ -1,4 +1,4 @@
-//! What an editor says of scenes, by the real taplo and the schema that `jabuka schema` prints.
+//! Tests of what an editor reports on scenes, by the TOML language server taplo and the schema that `jabuka schema` prints.
 
 use std::fs;
 use std::io::Write as _;
@@ -9,10 +9,10 @@ use crate::support::{jabuka, root, stderr, stdout};
 use jabuka::Scene;
 use serde::Deserialize;
 
-/// The first line of a scene that tells an editor its schema.
+/// The first line of a scene. It tells an editor where the schema is.
 const DIRECTIVE: &str = "#:schema ./jabuka.schema.json\n";
 
-/// A folder with the schema in it.
+/// Makes a temporary folder that contains the schema.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let schema = jabuka().arg("schema").output().unwrap();
@@ -30,14 +30,14 @@ fn lint(folder: &Path, files: &[PathBuf]) -> Output {
     taplo(folder).args(["lint", "--no-auto-config"]).args(files).output().unwrap()
 }
 
-/// Writes scenes with the directive into a folder, as `NAME.toml`.
+/// Writes a scene with the schema directive into a folder. Returns its path.
 fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
     fs::write(&path, format!("{DIRECTIVE}{text}")).unwrap();
     path
 }
 
-/// The scenes that a page shows, by the names in their first lines.
+/// Returns the TOML blocks of a page, each with the file name in its first line.
 fn snippets(page: &str) -> Vec<(String, String)> {
     let text = fs::read_to_string(root().join(page)).unwrap();
     let blocks = text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
@@ -59,7 +59,7 @@ fn every_scene_that_is_good_is_so_for_an_editor() {
     for page in ["README.md", "docs/scenes.md", "docs/tutorial.md"] {
         for (name, text) in snippets(page) {
             let path = write(folder.path(), &name, &text);
-            // Some show mistakes.
+            // Skip scenes that show mistakes.
             if Scene::from_path(&path).is_ok() {
                 files.push(path);
             }
@@ -91,7 +91,7 @@ fn what_is_wrong_in_a_key_or_a_value_is_wrong_for_an_editor() {
     }
 }
 
-/// The file of docs/commands.md that gives all scenes of a folder the schema.
+/// Checks that the `.taplo.toml` of `docs/commands.md` applies the schema to all scenes of a folder.
 #[test]
 fn a_file_of_settings_gives_a_whole_folder_the_schema() {
     let folder = folder();
@@ -105,14 +105,14 @@ fn a_file_of_settings_gives_a_whole_folder_the_schema() {
     assert!(!output.status.success() && stderr(&output).contains("sfere"), "{}", stderr(&output));
 }
 
-/// What an editor offers and shows at a place.
+/// The completions and the help text that an editor shows at one place of a scene.
 #[derive(Deserialize)]
 struct Offer {
     labels: Vec<String>,
     hover: String,
 }
 
-/// What an editor offers at the place `|` of each document.
+/// Asks the language server for completions and help at the place marked by `|` in each document.
 fn offers<const N: usize>(documents: [&str; N]) -> [Offer; N] {
     let folder = folder();
     let documents = documents.map(|document| format!("{DIRECTIVE}{document}"));
@@ -153,7 +153,7 @@ fn an_editor_completes_keys_and_values_and_says_what_they_mean() {
         "wisdom-holman",
     ];
     assert_eq!(integrator.labels, methods.map(|method| format!("\"{method}\"")));
-    // The library; what the scene itself declares, no schema knows.
+    // The schema offers the library's materials; it cannot know the materials that a scene declares.
     assert!(has(&material, "\"brass\"") && has(&material, "\"marble\""), "{:?}", material.labels);
     assert_eq!(material.labels[0], "\"matte\"");
     assert!(has(&color, "\"tomato\""), "{:?}", color.labels);

@@ -1,4 +1,4 @@
-//! The commands of the explanations do what is said of them.
+//! Tests that the commands in the explanations do what the text says.
 
 use std::fs;
 use std::process::Command;
@@ -7,7 +7,7 @@ use jabuka::explain::explanations;
 
 use crate::support::{commands, jabuka, root, stderr};
 
-/// What the commands of the explanations find in their folder.
+/// The scene in the folder that the explanations' commands run in.
 const SCENE: &str = "
     [simulation]
     duration = 0.4
@@ -46,7 +46,7 @@ fn commands_that_an_explanation_calls_wrong_get_the_code_and_those_it_calls_righ
     for entry in explanations() {
         let code = entry.code;
         let (wrong, right) = (entry.wrong(), entry.right());
-        // A comment behind a command tells of what a test cannot arrange.
+        // A comment after a command marks an example that a test cannot set up.
         if !commands::are(&wrong) || wrong.contains(" # ") {
             continue;
         }
@@ -56,7 +56,7 @@ fn commands_that_an_explanation_calls_wrong_get_the_code_and_those_it_calls_righ
         assert!(copied.unwrap().success());
         let output = commands::run(&wrong, folder.path());
         let said = stderr(&output);
-        // Arguments that are wrong as such have the code 2 and no name of their own.
+        // Invalid arguments give the exit code 2, and no error code in the message.
         let named = said.contains(&format!("[{code}]")) || output.status.code() == Some(2);
         assert!(!output.status.success() && named, "explanations/{code}.md: what is wrong says:\n{said}");
         let output = commands::run(&right, folder.path());

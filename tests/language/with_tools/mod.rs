@@ -1,4 +1,4 @@
-//! What editors and whole commands make of the language.
+//! Tests of the language that need other programs: an editor's language server, and the commands of the explanations.
 
 mod editor;
 mod explanations;
