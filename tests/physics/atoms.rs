@@ -1,4 +1,4 @@
-//! The Lennard-Jones force.
+//! Tests of the Lennard-Jones force against closed forms and conservation laws.
 
 use glam::DVec3;
 use jabuka::dynamics::{BodyId, LennardJones, METHODS, RigidBody, Shape, World};
@@ -10,8 +10,8 @@ fn force(count: usize, smooth: bool) -> LennardJones {
     LennardJones { bodies, against: None, epsilon: 2.0, sigma: 0.5, cutoff: 1.25, smooth }
 }
 
-/// Two atoms swing about the distance 2^(1/6) σ, where u″ = 72 ε / (2^(1/3) σ²): with m = 1 each, ω² = 2 u″. With an amplitude a, the
-/// period is off by a part of the order (a/σ)² · 10, here 1e-7.
+/// Checks the oscillation of two atoms about the distance 2^(1/6) σ of lowest potential, where u″ = 72 ε / (2^(1/3) σ²). With m = 1 each,
+/// ω² = 2 u″. For an amplitude a, the period has a relative error of the order 10 (a/σ)², here 1e-7.
 #[test]
 fn two_atoms_swing_about_the_lowest_place() {
     let lowest = 0.5 * libm::pow(2.0, 1.0 / 6.0);
@@ -21,7 +21,7 @@ fn two_atoms_swing_about_the_lowest_place() {
         world.add(ball().with_location((lowest + amplitude) * DVec3::X));
         world.add_force(force(2, false));
         world.set_step(period / f64::from(steps));
-        // A quarter of a period: at the lowest place, with the largest velocity.
+        // After a quarter of a period the atoms are at the distance of lowest potential, and at their highest speed.
         world.advance_to(0.25 * period);
         let distance = (world.state().location[1] - world.state().location[0]).length();
         let allowed = amplitude * (tolerance(method, std::f64::consts::TAU, steps) + 1e-3);
@@ -29,7 +29,7 @@ fn two_atoms_swing_about_the_lowest_place() {
     }
 }
 
-/// A lump of 64 atoms, warm enough to lose some.
+/// Returns a world with 64 atoms in a cluster, so warm that some escape.
 #[allow(clippy::unwrap_used, reason = "it is part of tests")]
 fn lump(method: &'static jabuka::dynamics::Method, step: f64, smooth: bool) -> World {
     let mut world = World::new();
@@ -46,8 +46,9 @@ fn lump(method: &'static jabuka::dynamics::Method, step: f64, smooth: bool) -> W
     world
 }
 
-/// What one atom gets the other loses. With the force shifted, the drift has the order of the method; with the potential alone, each crossing of the
-/// cutoff costs a symplectic method an error of the order of the step in a force of 0.039 ε/σ.
+/// Checks that the cluster's momentum is conserved and its energy hardly drifts. With a shifted force, the drift has the order of the
+/// method. With a shifted potential alone, each crossing of the cutoff costs a symplectic method an error of the order of the step, since
+/// the force jumps by 0.039 ε/σ.
 #[test]
 fn momentum_and_energy_of_a_lump() {
     for method in METHODS {
@@ -59,12 +60,12 @@ fn momentum_and_energy_of_a_lump() {
             let off = (after.linear_momentum - before.linear_momentum).length();
             assert!(off < 1e-11, "{}: {off:e}", method.name);
             let off = (after.angular_momentum - before.angular_momentum).length();
-            // Places change within a step of Euler's, which turns what it does to momentum into a torque.
+            // Locations change within a step of an Euler method, so an error in momentum appears as a torque.
             assert!(method.order == 1 || off < 1e-6, "{}: {off:e}", method.name);
             after.drift.abs()
         };
         let [smooth, sharp] = [true, false].map(|smooth| drift(0.001, smooth));
-        // Explicit Euler heats the lump until it bursts.
+        // Explicit Euler heats the cluster until it flies apart, so its drift has no bound.
         let allowed = if method.order == 1 { 0.1 } else { 1e-3 };
         let allowed = if method.name == "explicit-euler" { f64::INFINITY } else { allowed };
         assert!(smooth < allowed && sharp < allowed, "{}: {smooth:e} {sharp:e}", method.name);

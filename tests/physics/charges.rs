@@ -1,12 +1,12 @@
-//! Charges that act on each other.
+//! Tests of charged bodies: Coulomb and Lorentz forces against closed forms.
 
 use glam::DVec3;
 use jabuka::dynamics::{Coulomb, Lorentz, METHODS, Method, World};
 
 use crate::common::{ball, tolerance, worlds};
 
-/// Two equal charges of 1 kg, let go at the distance r₀ = 1, at s times that distance: with the relative acceleration
-/// 2 k q² / r² = 2 / r², energy gives r'² = 4 (1 − 1/r), and its integral t = ½ (√(s (s − 1)) + ln(√s + √(s − 1))).
+/// Checks two equal charges of 1 kg, released at the distance r₀ = 1. With the relative acceleration 2 k q² / r² = 2 / r², the energy
+/// gives r'² = 4 (1 − 1/r). The distance s r₀ is reached at the time t = ½ (√(s (s − 1)) + ln(√s + √(s − 1))).
 #[test]
 fn two_equal_charges_fly_apart() {
     let (distance, steps) = (4.0_f64, 2000);
@@ -24,8 +24,9 @@ fn two_equal_charges_fly_apart() {
     }
 }
 
-/// q = m = 1 in B = 2 z and E = (0, 1, 0): a circle with ω = q B / m = 2, clockwise, that drifts with
-/// u = E × B / B² = (½, 0, 0). From rest at the origin, a cycloid: x = u (t − sin ωt / ω), y = u (1 − cos ωt) / ω.
+/// Returns the error and the drift after 1 s of a charge with q = m = 1 in B = 2 z and E = (0, 1, 0), from rest at the origin. It moves on
+/// a clockwise circle with ω = q B / m = 2 that drifts with u = E × B / B² = (½, 0, 0). The path is a cycloid: x = u (t − sin ωt / ω), y =
+/// u (1 − cos ωt) / ω.
 fn cycloid(method: &'static Method, steps: u32) -> (f64, f64) {
     let mut world = World::new();
     world.set_integrator(method);
@@ -38,7 +39,8 @@ fn cycloid(method: &'static Method, steps: u32) -> (f64, f64) {
     ((world.location(id) - exact).length(), world.balance().drift.abs())
 }
 
-/// Error and drift go to 0 with the order of the method. Tolerance of the slope as in `order`, where rates are the same.
+/// Checks that error and energy drift fall with the order of the method. The tolerance of the slope is that of `order.rs`, where rates are
+/// the same.
 #[test]
 fn a_charge_in_crossed_fields_drifts_across_both() {
     for method in METHODS {
@@ -46,13 +48,14 @@ fn a_charge_in_crossed_fields_drifts_across_both() {
         let slope = libm::log2(coarse.0 / fine.0);
         assert!((slope - f64::from(method.order)).abs() < 0.1, "{}: order {slope}", method.name);
         let slope = libm::log2(coarse.1 / fine.1);
-        // Yoshida's method takes the mean velocity, so that the magnetic force does no work at all.
+        // Yoshida's method applies the force at the mean velocity, so the magnetic force does exactly no work.
         let is_exact = coarse.1.max(fine.1) < 1e-13;
         assert!(is_exact || slope > f64::from(method.order) - 0.1, "{}: drift of order {slope}", method.name);
     }
 }
 
-/// The radius m v / (q B) and the period 2π m / (q B): half a turn takes a charge to the other side, a whole one back.
+/// Checks the radius m v / (q B) and the period 2π m / (q B) of a charge in a magnetic field: after half a period it is on the opposite
+/// side, after a whole period at its start.
 #[test]
 fn a_charge_goes_round_in_a_cyclotron() {
     let (mass, charge, field, speed, steps) = (1.0, 0.5, 4.0, 3.0, 1000);

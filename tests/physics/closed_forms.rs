@@ -1,13 +1,13 @@
-//! Motions whose end is known.
+//! Tests of motions with closed-form solutions.
 
 use glam::DVec3;
 use jabuka::dynamics::{Drag, METHODS, UniformGravity};
 
 use crate::common::{air, ball, method, tether, tolerance, worlds};
 
-/// The ball of the tutorial. Under a constant force Euler–Cromer is off by −½ a t dt exactly (the velocity is one
-/// step ahead), explicit Euler by +½ a t dt, and every method of second order or higher is exact. What remains is
-/// rounding: 200 sums of numbers up to 24, each rounded by 2e-15 at most.
+/// Checks the ball of the tutorial. Under a constant force, the error of Euler–Cromer is exactly −½ a t dt (the velocity is one step
+/// ahead), that of explicit Euler +½ a t dt; every method of second or higher order is exact. Rounding remains: 200 sums of numbers up to
+/// 24, each rounded by 2e-15 at most.
 #[test]
 fn the_ball_of_the_tutorial() {
     let ball = ball()
@@ -27,8 +27,8 @@ fn the_ball_of_the_tutorial() {
     }
 }
 
-/// A force changed by hand, when a method still holds loads of the step before: methods of second order or higher
-/// stay exact. With the old loads in the first step they would be off by ½ · 1 N · dt · 1 s = 5e-3.
+/// Checks that a force changed between steps acts at once: methods of second or higher order stay exact. If the first step used the stored
+/// loads of the previous step, the error would be ½ · 1 N · dt · 1 s = 5e-3.
 #[test]
 fn a_force_applied_half_way_acts_from_then_on() {
     for (method, mut world, id) in worlds(ball()).filter(|(method, ..)| method.order >= 2) {
@@ -41,7 +41,7 @@ fn a_force_applied_half_way_acts_from_then_on() {
     }
 }
 
-/// m x'' = −c x' − m g: x = u t + (v₀ − u)(1 − e^(−ct/m)) m/c, with u the terminal velocity −g m/c.
+/// Checks a projectile with m x'' = −c x' − m g: x = u t + (v₀ − u)(1 − e^(−ct/m)) m/c, with the terminal velocity u = −g m/c.
 #[test]
 fn a_projectile_with_linear_drag() {
     const END: DVec3 = DVec3::new(77.754_533_795_484_6, 63.630_037_238_547_6, 0.0);
@@ -52,13 +52,14 @@ fn a_projectile_with_linear_drag() {
         world.set_step(time / f64::from(steps));
         world.advance_to(time);
         let off = (world.location(id) - END).length();
-        // What decays is v₀ − u, 141 m/s, over the distance (v₀ − u) m/c.
+        // The decaying part of the velocity is v₀ − u, 141 m/s; it covers the distance (v₀ − u) m/c.
         let allowed = 1410.0 * tolerance(method, rate * time, steps);
         assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
     }
 }
 
-/// m v' = m g − c v² from rest: v = u tanh(g t / u), the way its integral, with the terminal velocity u = √(m g / c).
+/// Checks a fall from rest with m v' = m g − c v²: v = u tanh(g t / u) with the terminal velocity u = √(m g / c), and the distance as its
+/// integral.
 #[test]
 fn a_fall_with_quadratic_drag_reaches_its_terminal_velocity() {
     let (time, steps, gravity, quadratic) = (6.0, 600, 9.81, 0.1);
@@ -72,8 +73,8 @@ fn a_fall_with_quadratic_drag_reaches_its_terminal_velocity() {
         world.add_force(Drag { quadratic, ..air(id, 0.0) });
         world.set_step(time / f64::from(steps));
         world.advance_to(time);
-        // Near the terminal velocity deviations decay with the rate 2 g / u. What is off is at most the speed, over the
-        // time in which it has decayed.
+        // Near the terminal velocity, deviations decay with the rate 2 g / u. The error of the distance is at most that of the speed,
+        // times the decay time.
         let tolerance = tolerance(method, 2.0 * ratio, steps);
         let off = (world.velocity(id) + speed * DVec3::Y).length();
         assert!(off < terminal * tolerance, "{}: {off:e}", method.name);
@@ -82,7 +83,7 @@ fn a_fall_with_quadratic_drag_reaches_its_terminal_velocity() {
     }
 }
 
-/// m u' = −c u² for the velocity u = w − v that the wind w is ahead: u = w / (1 + c w t / m).
+/// Checks a ball carried by wind: the relative velocity u = w − v obeys m u' = −c u², so u = w / (1 + c w t / m).
 #[test]
 fn a_wind_carries_a_ball_along() {
     let (time, steps, quadratic, wind) = (2.0, 500, 0.5, 3.0);
@@ -99,8 +100,8 @@ fn a_wind_carries_a_ball_along() {
     }
 }
 
-/// m x'' + c x' + k x = 0 with m = 1, c = 2, k = 100, from x = 1 at rest. The ball goes through the anchor, where the
-/// length of the spring is 0, six times before t = 2.
+/// Checks m x'' + c x' + k x = 0 with m = 1, c = 2, k = 100, from rest at x = 1. Before t = 2 the ball passes the anchor, where the spring
+/// has length 0, six times.
 #[test]
 fn a_damped_spring() {
     for (method, mut world, id) in worlds(ball().with_location(DVec3::X)) {
@@ -109,15 +110,15 @@ fn a_damped_spring() {
         for (time, steps, x) in [(1.0, 1000, -0.336_851_680_590_413), (5.0, 5000, 0.005_526_103_306_932_69)] {
             world.advance_to(time);
             let off = (world.location(id) - DVec3::new(x, 0.0, 0.0)).length();
-            // ω = 10 rad/s; the amplitude has fallen to e^(−t).
+            // The angular frequency is 10 rad/s; the amplitude has fallen to e^(−t).
             let allowed = libm::exp(-time) * tolerance(method, 10.0 * time, steps);
             assert!(off < allowed, "{} at {time}: {off:e} > {allowed:e}", method.name);
         }
     }
 }
 
-/// The method may be changed at any time: two halves, each with its own error. RK4 then Euler–Cromer has the error
-/// of Euler–Cromer's second, −½ a t dt with t = 1.
+/// Checks that the method can be changed during a run. Each half of the run has the error of its own method; the second half, by
+/// Euler–Cromer, has the error −½ a t dt with t = 1.
 #[test]
 fn the_method_is_exchanged_at_run_time() {
     for (first, mut world, id) in worlds(ball().with_force(DVec3::Y)) {

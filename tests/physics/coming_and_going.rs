@@ -1,4 +1,4 @@
-//! Bodies that are there for a time only: they move, act and count while they are there, and at no other time.
+//! Tests of bodies that exist for a limited time: they move, exert forces and count in balances only while they exist.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
@@ -21,7 +21,7 @@ fn during(start: f64, end: f64) -> Presence {
     Presence::during(&[[start, end]])
 }
 
-/// The moments on the way to a time; what is seen of the run at its end comes last.
+/// Advances the world to the time `t`. Returns its snapshots at the given moments, and a last one at `t`.
 #[allow(clippy::unwrap_used, reason = "only tests call it")]
 fn seen(world: &mut World, t: f64, moments: &[f64]) -> Vec<Snapshot> {
     let mut seen = Vec::new();
@@ -30,8 +30,8 @@ fn seen(world: &mut World, t: f64, moments: &[f64]) -> Vec<Snapshot> {
     seen
 }
 
-/// Thrown up at 0.5 s, 1.5 s before the end. A method of first order falls ½ g t dt too far, or not far enough; all others are
-/// exact under a constant force. No step ends at 0.5 s by itself.
+/// Checks a body that is thrown up at its start time, 0.5 s, and observed 1.5 s later. First-order methods have the error ±½ g t dt; all
+/// others are exact under a constant force. No regular step ends at 0.5 s.
 #[test]
 fn a_body_born_in_a_fall_moves_as_if_time_had_begun_then() {
     let (step, later) = (0.07, 1.5);
@@ -56,7 +56,8 @@ fn a_body_born_in_a_fall_moves_as_if_time_had_begun_then() {
     }
 }
 
-/// After 1 s the other one is gone: from then on, the way is straight, and the velocity keeps its very bits.
+/// Checks two attracting bodies of which one disappears after 1 s: from then on, the other moves in a straight line with a velocity that
+/// is constant to the last bit.
 #[test]
 fn of_two_bodies_that_attract_each_other_one_leaves_and_the_other_goes_straight_on() {
     for method in METHODS {
@@ -92,8 +93,9 @@ fn of_two_bodies_that_attract_each_other_one_leaves_and_the_other_goes_straight_
     }
 }
 
-/// Bodies come and go all the time, under gravity, drag, a spring and a torque. rk4 is exact for gravity, and off by far less
-/// than rounding for the others at this step; without the books, each birth would be a drift of 0.1 and more.
+/// Checks that the energy of appearing and disappearing bodies is accounted for, under gravity, drag, a spring and a torque. rk4 is exact
+/// for gravity, and its other errors are far below rounding at this step. Without the accounts, each appearance would cause a drift of 0.1
+/// or more.
 #[test]
 fn energy_that_comes_and_goes_with_bodies_is_no_drift() {
     let mut world = world(method("rk4"), 1e-3);
@@ -120,8 +122,8 @@ fn energy_that_comes_and_goes_with_bodies_is_no_drift() {
     assert_eq!((counts.iter().min(), counts.iter().max(), counts.last()), (Some(&0), Some(&5), Some(&0)));
 }
 
-/// What is not there leaves no trace in what is, to the last bit: not even two bodies at one place, whose attraction has no
-/// value, in a wind that would carry them along.
+/// Checks that absent bodies do not change a bit of the present ones. The absent ones include two bodies at the same place, whose
+/// attraction is undefined, in a wind.
 #[test]
 fn nothing_acts_on_what_is_not_there_and_nothing_comes_from_it() {
     for method in METHODS {
@@ -157,7 +159,7 @@ fn nothing_acts_on_what_is_not_there_and_nothing_comes_from_it() {
     }
 }
 
-/// Along x at 1 m/s, turning.
+/// A prescribed motion along x at 1 m/s with rotation.
 struct Rolling;
 
 impl Motion for Rolling {
@@ -176,7 +178,8 @@ impl Motion for Rolling {
     }
 }
 
-/// Whether steps end at births (something is free) or not (all motion is given), the same is seen.
+/// Checks that a guided body reappears where its prescribed motion is. Steps end at appearances only if the world has free bodies; the
+/// result is the same in both cases.
 #[test]
 fn a_guided_body_comes_back_where_its_motion_has_it() {
     for is_alone in [true, false] {
@@ -200,7 +203,7 @@ fn a_guided_body_comes_back_where_its_motion_has_it() {
     }
 }
 
-/// As many steps as intervals, or n bodies would cost n².
+/// Checks that the appearances of n guided bodies add no steps; otherwise n bodies would cost n² work.
 #[test]
 fn births_of_guided_bodies_take_no_steps_of_their_own() {
     let mut world = world(&METHODS[0], f64::INFINITY);
@@ -218,7 +221,8 @@ fn births_of_guided_bodies_take_no_steps_of_their_own() {
     assert_eq!((there[0], there[9]), (11, 50));
 }
 
-/// Also where a moment is that of a birth, or bodies come between two moments.
+/// Checks that observing moments does not change a run, even if a moment coincides with an appearance, or bodies appear between two
+/// moments.
 #[test]
 fn looking_at_moments_changes_nothing() {
     for (method, is_given) in METHODS.iter().flat_map(|method| [(method, false), (method, true)]) {
@@ -241,7 +245,7 @@ fn looking_at_moments_changes_nothing() {
                 softening: 0.1,
                 opening_angle: None,
             });
-            // What guides bodies does work, whose sum depends on the steps.
+            // Add a force, so that guided bodies do work; the sum of this work depends on the steps.
             world.add_force(UniformGravity { acceleration: DVec3::X });
             world
         };

@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Helpers for all tests of the physics.
 
 use glam::DVec3;
 use jabuka::dynamics::{
@@ -7,8 +7,8 @@ use jabuka::dynamics::{
 use jabuka::simulate::Frame;
 use jabuka::{Run, Scene};
 
-/// A field B that swings with time; on each body, a force B and, as on a magnet along its x axis, a torque R x × B:
-/// loads that depend on time and on orientation. Defined here, from outside: the list of forces is open.
+/// A field B that oscillates in time. It exerts on each body a force B and a torque R x × B, as on a magnet along the body's x axis. These
+/// loads depend on time and on orientation. Defined outside the library, it also shows that users can add forces.
 pub(crate) struct SwingingField;
 
 impl Force for SwingingField {
@@ -29,38 +29,38 @@ impl Force for SwingingField {
     }
 }
 
-/// A relative error to allow over a time of `angle` (rate × time, for an oscillation its phase) in `steps` steps.
+/// Returns the allowed relative error of a method over a time of `angle` (rate × time; for an oscillator, its phase) in `steps` steps.
 ///
-/// One step of a method of order p is off by C z^(p+1), z = rate × dt, and there are `steps` of them: C angle zᵖ in
-/// all. C is the first coefficient that the method's expansion has wrong, ½ for Euler, 1/12 for Verlet, 1/120 for
-/// RK4, and at most 1 for any method worth having; 1 is taken. A method that loses an order exceeds it 1/z-fold.
+/// One step of a method of order p has the error C z^(p+1) with z = rate × dt, and there are `steps` of them: C angle zᵖ in all. C is the
+/// first wrong coefficient of the method's expansion: ½ for Euler, 1/12 for Verlet, 1/120 for RK4, and at most 1 for any useful method, so
+/// 1 is used here. A method with an order too low exceeds this by a factor of 1/z.
 pub(crate) fn tolerance(method: &Method, angle: f64, steps: u32) -> f64 {
     let z = angle / f64::from(steps);
     let mut tolerance = angle;
     for _ in 0..method.order {
         tolerance *= z;
     }
-    // Rounding, where a method is better than that.
+    // Allow for rounding where the method's own error is smaller.
     tolerance + 1e-13 * f64::from(steps).sqrt()
 }
 
-/// A method by its name.
+/// Returns the integration method of this name.
 #[allow(clippy::panic, reason = "only tests call it")]
 pub(crate) fn method(name: &str) -> &'static Method {
     Method::by_name(name).unwrap_or_else(|| panic!("no method {name}"))
 }
 
-/// The methods that keep joints.
+/// Returns the methods that support joints.
 pub(crate) fn that_keep_joints() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.constraints)
 }
 
-/// A ball of 1 kg.
+/// Returns a ball with a radius of 0.1 m and a mass of 1 kg.
 pub(crate) fn ball() -> RigidBody {
     RigidBody::new(&Shape::Sphere { radius: 0.1 }, 1.0)
 }
 
-/// A world of one body, for each of the methods.
+/// Returns, for each method, a world with one body.
 pub(crate) fn worlds(body: RigidBody) -> impl Iterator<Item = (&'static Method, World, BodyId)> {
     METHODS.iter().map(move |method| {
         let mut world = World::new();
@@ -70,19 +70,19 @@ pub(crate) fn worlds(body: RigidBody) -> impl Iterator<Item = (&'static Method, 
     })
 }
 
-/// A spring of rest length 0 from the origin to a body.
+/// Returns a spring of rest length 0 between the origin and a body's center.
 pub(crate) fn tether(body: BodyId, stiffness: f64, damping: f64) -> Spring {
     let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(body)];
     Spring { between, stiffness, damping, rest_length: 0.0 }
 }
 
-/// Linear drag on a body, in air at rest.
+/// Returns a linear drag force on a body in still air.
 pub(crate) fn air(body: BodyId, linear: f64) -> Drag {
     Drag { bodies: vec![body], linear, quadratic: 0.0, wind: DVec3::ZERO }
 }
 
-/// Asserts that each method that keeps joints has its order over a second, up to `slack`, by its errors with steps of 1/256 s and 1/512 s. `build`
-/// makes the world for a method and a step. The reference is RK4 with a sixteenth of the smaller step.
+/// Asserts that each method that supports joints has its order over 1 s, up to `slack`, by its errors with steps of 1/256 s and 1/512 s.
+/// `build` makes the world for a method and a step. The reference is RK4 with a sixteenth of the smaller step.
 pub(crate) fn assert_orders(slack: f64, build: impl Fn(&'static Method, f64) -> World) {
     let end = |method, steps: u32| {
         let mut world = build(method, 1.0 / f64::from(steps));
@@ -98,7 +98,7 @@ pub(crate) fn assert_orders(slack: f64, build: impl Fn(&'static Method, f64) -> 
     }
 }
 
-/// The largest deviation between two states, of all quantities.
+/// Returns the largest difference between two states over all their quantities.
 pub(crate) fn distance(a: &State, b: &State) -> f64 {
     let mut largest = (a.accounts.work - b.accounts.work).abs();
     for i in 0..a.len() {
@@ -111,7 +111,7 @@ pub(crate) fn distance(a: &State, b: &State) -> f64 {
     largest
 }
 
-/// All frames of a scene.
+/// Simulates a scene and returns all its frames.
 #[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
 pub(crate) fn frames(text: &str) -> Vec<Frame> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));

@@ -1,4 +1,4 @@
-//! Impacts, friction, rest and rolling, against closed forms.
+//! Tests of impacts, friction, rest and rolling against closed forms.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::common::method;
 pub(crate) const G: f64 = 9.81;
 const STEP: f64 = 1.0 / 240.0;
 
-/// A world under construction, in which all bodies touch.
+/// Builds a world in which all bodies can be in contact with each other.
 pub(crate) struct Table {
     world: World,
     shapes: Vec<Shape>,
@@ -62,7 +62,7 @@ impl Table {
     }
 }
 
-/// Advances; nothing may break down.
+/// Advances the world to the time `t`, and asserts that no simulation error occurs.
 #[allow(clippy::unwrap_used, reason = "only tests call it")]
 pub(crate) fn advance(world: &mut World, t: f64) {
     world.advance(t, &[], &mut |_| {}).unwrap();
@@ -72,12 +72,12 @@ pub(crate) fn surface(restitution: f64, friction: f64) -> Surface {
     Surface { restitution: Some(restitution), friction: Some(friction), rolling_friction: None }
 }
 
-/// The methods whose places are exact where forces are constant.
+/// Returns the methods that give exact locations under constant forces.
 pub(crate) fn exact() -> [&'static Method; 2] {
     [method("velocity-verlet"), method("rk4")]
 }
 
-/// A ball whose lowest place is 1 m above a floor.
+/// Returns a world with a ball whose lowest point is 1 m above a floor, and the ball's number.
 fn dropped(method: &'static Method, restitution: f64) -> (World, BodyId) {
     let mut table = Table::new(method, true);
     table.floor(Surface::default());
@@ -87,8 +87,8 @@ fn dropped(method: &'static Method, restitution: f64) -> (World, BodyId) {
     (table.build(), ball)
 }
 
-/// Dropped from 1 m above its lowest place, a ball with restitution 1 comes back to the same height: the energy at the 100th apex
-/// is that of the first.
+/// Checks that a ball with restitution 1, dropped from 1 m, rises to the same height again: its energy at the 100th apex is that at the
+/// first.
 #[test]
 fn the_hundredth_apex_is_as_high_as_the_first() {
     for method in exact() {
@@ -104,7 +104,7 @@ fn the_hundredth_apex_is_as_high_as_the_first() {
     }
 }
 
-/// The sum of infinitely many bounces: t = √(2h/g) (1 + e) / (1 − e).
+/// Checks the time at which a bouncing ball comes to rest, the sum of infinitely many bounces: t = √(2h/g) (1 + e) / (1 − e).
 #[test]
 fn a_ball_that_bounces_comes_to_rest_when_it_has_to() {
     for method in exact() {
@@ -126,7 +126,7 @@ fn a_ball_that_bounces_comes_to_rest_when_it_has_to() {
     }
 }
 
-/// A solid sphere that slides at 5 m/s rolls at 5/7 of that, after t = 2 v / (7 μ g).
+/// Checks that a solid sphere that slides at 5 m/s rolls at 5/7 of this speed after t = 2 v / (7 μ g).
 #[test]
 fn a_sphere_that_slides_begins_to_roll() {
     for method in exact() {
@@ -156,7 +156,7 @@ fn a_sphere_that_slides_begins_to_roll() {
     }
 }
 
-/// Two balls and a wall: the ratio of the masses is 100ᵏ, and the impacts spell π.
+/// Checks the number of impacts between two balls and a wall: for a mass ratio of 100ᵏ, the digits of the count are those of π.
 #[test]
 fn impacts_spell_pi() {
     for method in exact() {
@@ -177,7 +177,7 @@ fn impacts_spell_pi() {
     }
 }
 
-/// Five balls that touch, on two rods each: as many as were lifted go up on the other side.
+/// Checks a Newton's cradle of five touching balls, each on two rods: as many balls as were lifted rise on the other side.
 #[test]
 fn a_cradle_whose_balls_touch_gives_on_what_it_gets() {
     for lifted in 1..4 {
@@ -213,7 +213,7 @@ fn a_cradle_whose_balls_touch_gives_on_what_it_gets() {
                 *most = (most.0.min(a), most.1.max(a));
             }
         }
-        // Within half a moment of an apex, an angle is below that of the apex by ½ ω² t² of it: 4e-3°.
+        // The time of an apex can be missed by half an interval, so an angle is too small by the fraction ½ ω² t² at most, which is 4e-3°.
         let angle = 0.5_f64.to_degrees();
         for (i, (low, high)) in (0..).zip(most) {
             let expected = [if i < lifted { -angle } else { 0.0 }, if i >= 5 - lifted { angle } else { 0.0 }];
@@ -224,7 +224,8 @@ fn a_cradle_whose_balls_touch_gives_on_what_it_gets() {
     }
 }
 
-/// A tilted box as a ramp, at an angle α about z, and where a body with a half height stands on it.
+/// Adds a ramp: a fixed box tilted by an angle α about z. Returns a function from a body's half height to its location and orientation on
+/// the ramp.
 fn ramp(table: &mut Table, alpha: f64, surface: Surface) -> impl Fn(f64) -> (DVec3, DQuat) + use<> {
     let turn = DQuat::from_rotation_z(alpha);
     let up = turn * DVec3::Y;
@@ -234,7 +235,7 @@ fn ramp(table: &mut Table, alpha: f64, surface: Surface) -> impl Fn(f64) -> (DVe
     move |half| (half * up, turn)
 }
 
-/// x = ½ g (sin α − μ cos α) t² along the ramp where μ < tan α; otherwise it stays where it is.
+/// Checks a block on a ramp: it slides with x = ½ g (sin α − μ cos α) t² if μ < tan α, and stays at rest otherwise.
 #[test]
 fn a_block_on_a_ramp_slides_or_sticks() {
     let alpha = 30.0_f64.to_radians();
@@ -263,7 +264,7 @@ fn a_block_on_a_ramp_slides_or_sticks() {
     }
 }
 
-/// Sphere, cylinder and hoop roll down a ramp with 5/7, 2/3 and 1/2 of g sin α.
+/// Checks that sphere, cylinder and hoop roll down a ramp with 5/7, 2/3 and 1/2 of g sin α.
 #[test]
 fn bodies_race_down_a_ramp() {
     let alpha = 20.0_f64.to_radians();
@@ -294,7 +295,7 @@ fn bodies_race_down_a_ramp() {
     }
 }
 
-/// Sixteen balls, the first of which runs into the others: momentum and energy stay, and back in time all come back.
+/// Checks a billiard break of sixteen balls: momentum and energy are conserved, and with reversed velocities all balls return.
 #[test]
 fn a_billiard_break_can_be_reversed() {
     let build = |places: &[(DVec3, DVec3)]| {
@@ -342,7 +343,7 @@ fn a_billiard_break_can_be_reversed() {
     assert!((after.total - before.total).abs() < 1e-10 * before.total);
 }
 
-/// Bodies that are far apart: a box that tumbles freely, and a double pendulum. Whether they could touch changes no digit.
+/// Checks a tumbling box and a double pendulum, far apart: enabling contacts that never happen changes no bit.
 #[test]
 fn contacts_that_nobody_makes_change_no_digit() {
     for method in METHODS.iter().filter(|method| method.constraints) {
@@ -372,8 +373,8 @@ fn contacts_that_nobody_makes_change_no_digit() {
     }
 }
 
-/// A ball that slides and then rolls, and a block that slides; somebody looks at moments within steps, or
-/// asks for balances and forces. It ends with the same bits.
+/// Checks that observing a run changes no bit of it. A ball slides and then rolls, and a block slides; the observed run also returns
+/// moments within steps, balances and forces.
 #[test]
 fn looking_at_contacts_changes_no_bit() {
     for method in exact() {
@@ -389,7 +390,7 @@ fn looking_at_contacts_changes_no_bit() {
             table.add(Shape::Box { size: DVec3::new(0.4, 0.2, 0.3) }, 1.0, surface(0.0, 0.2), |body| {
                 body.with_location(DVec3::new(9.0, 0.1, 0.0)).with_velocity(DVec3::new(1.7, 0.0, 0.9))
             });
-            // Far from there, so that groups are advanced one after another.
+            // These balls are far from the others, so they form groups that are advanced one after another.
             for i in 0..4 {
                 table.add(Shape::Sphere { radius: 0.1 }, 1.0, surface(0.5, 0.2), |body| {
                     let spin = DVec3::new(0.0, 3.0, 10.0);

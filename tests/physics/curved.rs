@@ -1,4 +1,4 @@
-//! Contacts on curved surfaces, where the place of contact moves over both bodies, against closed forms.
+//! Tests of contacts on curved surfaces, where the contact point moves on both bodies, against closed forms.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{BodyId, Dynamics, RigidBody, Shape, World};
@@ -6,25 +6,26 @@ use jabuka::dynamics::{BodyId, Dynamics, RigidBody, Shape, World};
 use crate::common::method;
 use crate::contacts::{G, Table, advance, surface};
 
-/// What a body rolls or slides down on: its shape, and its radius R, m.
+/// A fixed support that a body rolls or slides down: its shape, its radius R in m, and its orientation.
 type Support = (Shape, f64, DQuat);
 
-/// The angle from the top at which the body starts, rad.
+/// The body's starting angle, measured from the top of the support, rad.
 const START: f64 = 0.3;
 
-/// The radius of the body, m.
+/// The radius of the body that moves, m.
 const RADIUS: f64 = 0.1;
 
 fn sphere() -> Support {
     (Shape::Sphere { radius: 1.0 }, 1.0, DQuat::IDENTITY)
 }
 
-/// A log along z.
+/// Returns a support that is a cylinder along the z axis.
 fn log() -> Support {
     (Shape::Cylinder { radius: 1.0, height: 3.0 }, 1.0, DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2))
 }
 
-/// A body of mass 1 at rest near the top of a fixed support. The support is the first or the second body.
+/// Returns a world with a body of mass 1 at rest near the top of a fixed support. `is_first` makes the support the first of the two
+/// bodies.
 #[allow(clippy::unwrap_used, reason = "only tests call it")]
 fn near_the_top(support: &Support, shape: &Shape, friction: f64, is_first: bool) -> (World, BodyId) {
     let mut table = Table::new(method("rk4"), true);
@@ -46,9 +47,9 @@ fn near_the_top(support: &Support, shape: &Shape, friction: f64, is_first: bool)
     (table.build(), body.unwrap())
 }
 
-/// With k = I/(m r²), the speed of what rolls is v² = 2 g h / (1 + k). It is pressed on by m g cos θ − m v²/(R + r), and held back by
-/// m g sin θ k / (1 + k). Without friction, k is 0. The normal force shows the curvature of the way at once, the friction the rates
-/// of the slip; both are as wrong as the fourth power of the step.
+/// Checks the contact forces on curved supports. With k = I/(m r²), a rolling body has v² = 2 g h / (1 + k). The normal force is m g cos θ
+/// − m v²/(R + r), the friction m g sin θ k / (1 + k). Without friction, k is 0. The normal force depends on the curvature of the path,
+/// the friction on the rate of the slip; both have errors of the fourth power of the step.
 #[test]
 fn forces_on_curved_supports_are_those_of_theory() {
     let ball = Shape::Sphere { radius: RADIUS };
@@ -81,7 +82,7 @@ fn forces_on_curved_supports_are_those_of_theory() {
     }
 }
 
-/// What slides without friction leaves a sphere at cos θ = ⅔ cos θ₀. From then on, its horizontal velocity stays.
+/// Checks that a ball sliding without friction leaves a sphere at cos θ = ⅔ cos θ₀. After that, its horizontal velocity is constant.
 #[test]
 fn a_ball_leaves_a_sphere_where_it_has_to() {
     let (mut world, ball) = near_the_top(&sphere(), &Shape::Sphere { radius: RADIUS }, 0.0, true);
@@ -92,7 +93,7 @@ fn a_ball_leaves_a_sphere_where_it_has_to() {
     assert!((world.velocity(ball).x - speed * cos).abs() < 1e-7, "{}", world.velocity(ball));
 }
 
-/// A tilted can that rolls on its rim loses no energy, and its lowest place does not slip.
+/// Checks that a tilted can rolling on its rim conserves energy, and that its lowest point does not slip.
 #[test]
 fn a_can_that_rolls_on_its_rim_keeps_its_energy() {
     let mut table = Table::new(method("rk4"), true);
@@ -101,7 +102,7 @@ fn a_can_that_rolls_on_its_rim_keeps_its_energy() {
     let turn = DQuat::from_rotation_z(tilt);
     let (sin, cos) = libm::sincos(tilt);
     let up = 0.5 * height * cos + radius * sin;
-    // From the centre to the lowest place of the rim.
+    // The vector from the can's center to the lowest point of its rim.
     let arm = turn * DVec3::new(-radius, -0.5 * height, 0.0);
     let omega = turn * DVec3::new(0.0, 6.0, 0.0) + DVec3::new(0.0, 1.0, 0.0);
     let can = table.add(Shape::Cylinder { radius, height }, 1.0, surface(0.0, 1.0), |body| RigidBody {

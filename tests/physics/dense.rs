@@ -1,4 +1,4 @@
-//! What is seen within a step is as accurate as the steps, place and velocity.
+//! Tests that locations and velocities within a step are as accurate as those at its ends.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -8,7 +8,7 @@ use jabuka::dynamics::{
     UniformGravity, World,
 };
 
-/// A ball on a spring, and a brick that tumbles under a torque.
+/// Returns a world with a ball on a spring, and a brick that tumbles under a torque.
 fn build(method: &'static Method, step: f64) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -26,7 +26,7 @@ fn build(method: &'static Method, step: f64) -> World {
     world
 }
 
-/// The states at some moments within steps.
+/// Returns snapshots of the world at moments within steps.
 fn seen(method: &'static Method, step: f64, moments: &[f64]) -> Vec<Snapshot> {
     let (mut world, mut seen) = (build(method, step), Vec::new());
     world.advance(1.0, moments, &mut |moment| seen.push(moment)).unwrap();
@@ -47,7 +47,7 @@ fn error(one: &[Snapshot], other: &[Snapshot]) -> [f64; 2] {
     errors
 }
 
-/// Halving the step divides the error within steps by 2ᵖ, as it does at their ends.
+/// Checks that halving the step divides the error within steps by 2ᵖ for a method of order p, as at the ends of steps.
 #[test]
 fn what_is_seen_within_a_step_has_the_order_of_the_method() {
     let moments = [0.313, 0.517, 0.771, 0.963];
@@ -56,14 +56,14 @@ fn what_is_seen_within_a_step_has_the_order_of_the_method() {
         let errors = [1.0 / 64.0, 1.0 / 128.0].map(|step| error(&seen(method, step, &moments), &exact));
         for what in 0..2 {
             let order = libm::log2(errors[0][what] / errors[1][what]);
-            // Moments fall on other parts of finer steps, so orders scatter.
+            // With a finer step a moment falls on another part of a step, so the measured orders scatter.
             assert!(order > f64::from(method.order) - 0.6, "{} {what}: {order} {errors:?}", method.name);
         }
     }
 }
 
-/// Velocities are the derivatives of places, by difference quotients over 2e-5 s within one step of 1/64 s; but for methods whose
-/// velocity is that of the whole step.
+/// Checks that velocities are the derivatives of locations, by difference quotients over 2e-5 s within one step of 1/64 s. Methods whose
+/// velocity belongs to the whole step are left out.
 #[test]
 fn velocities_are_the_derivatives_of_places() {
     for name in ["euler-cromer", "velocity-verlet", "rk4"] {
@@ -76,14 +76,14 @@ fn velocities_are_the_derivatives_of_places() {
             assert!(velocity.abs_diff_eq(here.velocity, 1e-8), "{name}: {velocity} {}", here.velocity);
             let turned = (after.orientation * before.orientation.conjugate()).to_scaled_axis() / 2e-5;
             let off = (turned - here.angular_velocity).length();
-            // The angular velocity is that of the angular momentum, which is kept; the turn is off by the error of the method.
+            // The angular velocity follows from the conserved angular momentum; the orientation has the error of the method.
             let tolerance = 3.0 * libm::pow(1.0 / 64.0, f64::from(method.order));
             assert!(off < tolerance, "{name}: {turned} {}", here.angular_velocity);
         }
     }
 }
 
-/// To look changes nothing: not the states, not the number of steps, not the drift.
+/// Checks that observing moments within steps changes neither the states, nor the number of steps, nor the drift.
 #[test]
 fn to_look_within_steps_changes_nothing() {
     for method in METHODS {
@@ -100,7 +100,7 @@ fn to_look_within_steps_changes_nothing() {
     }
 }
 
-/// A body whose motion is given is where it must be, to rounding.
+/// Checks that a guided body is at its prescribed location within steps, up to rounding.
 #[test]
 fn guided_bodies_are_exact_within_steps() {
     struct Circle;

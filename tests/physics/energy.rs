@@ -1,11 +1,11 @@
-//! Energy: how methods keep it, and whether its books are right.
+//! Tests of the energy: how well the methods conserve it, and whether its accounts are right.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{Anchor, Drag, METHODS, Method, RigidBody, Shape, Spring, World};
 
 use crate::common::{air, ball, method, tether};
 
-/// An oscillator with ω = 2 rad/s, E = 2 J, at its turning point.
+/// Returns a world with an oscillator with ω = 2 rad/s and E = 2 J at its turning point.
 fn oscillator(method: &'static Method) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -14,10 +14,10 @@ fn oscillator(method: &'static Method) -> World {
     world
 }
 
-/// The largest drift of the oscillator in 10,000 steps of 0.01 s, 32 periods; every step is observed.
+/// Returns the oscillator's largest energy drift in 10,000 steps of 0.01 s, which are 32 periods. Every step is observed.
 fn largest_drift(method: &'static Method) -> f64 {
     let mut world = oscillator(method);
-    // Once round, so that the largest kinetic energy, E within 2 %, has been seen before drifts are compared.
+    // Drifts are relative to the largest kinetic energy so far. Skip more than one period, after which this is E within 2 %.
     let mut largest: f64 = 0.0;
     for step in 0..10_000 {
         world.step(0.01);
@@ -29,22 +29,23 @@ fn largest_drift(method: &'static Method) -> f64 {
     largest
 }
 
-/// Each symplectic method keeps a modified energy exactly, close to the true one (Hairer, Lubich & Wanner, *Geometric
-/// Numerical Integration*, I.5 and IX.3); with z = ωh = 0.02:
-/// Euler–Cromer H − ½ h ω² x v, off from H by ½ z E at most to either side; from the turning point, where it is not
-/// off, that is 0.01 E. Verlet H − ⅛ z² ω² x²: ¼ z² E = 1e-4 E at most. The 2 % are for the kinetic energy.
+/// Checks the bounds of the drift of symplectic methods. Each of them conserves a modified energy near the true energy H exactly (Hairer,
+/// Lubich & Wanner, *Geometric Numerical Integration*, I.5 and IX.3). Let z = ωh = 0.02. Euler–Cromer conserves H − ½ h ω² x v, which
+/// deviates from H by ½ z E at most; it does not deviate at the turning point where the run begins, so the bound is 0.01 E. Verlet
+/// conserves H − ⅛ z² ω² x², so the bound is ¼ z² E = 1e-4 E. The 2 % below allow for the measured kinetic energy.
 #[test]
 fn symplectic_methods_have_bounded_drift() {
     for (name, bound) in [("euler-cromer", 0.01), ("velocity-verlet", 1e-4)] {
         let drift = largest_drift(method(name));
-        // And it is attained: the drift is measured, not just small.
+        // The drift must also reach the bound, which shows that it is really measured.
         assert!(drift < 1.02 * bound && drift > 0.98 * bound, "{name}: {drift:e}");
     }
 }
 
-/// For an oscillator, half a drift, a kick and half a drift of h together are the matrix
-/// [1 − z²/2, h (1 − z²/4); −h ω², 1 − z²/2] for (x, v). Yoshida's step is a product of three, [a, b; c, a] with a² − b c = 1, which keeps
-/// v² − (c/b) x² exactly. So from the turning point, where v = 0, the energy is off by the part ω² b/c + 1 of itself where x = 0.
+/// Checks the bound of the drift of Yoshida's method for an oscillator. Half a drift, a kick and half a drift of length h together are the
+/// matrix [1 − z²/2, h (1 − z²/4); −h ω², 1 − z²/2] for (x, v). Yoshida's step is a product of three such matrices, [a, b; c, a] with a² −
+/// b c = 1, which conserves v² − (c/b) x² exactly. Starting at the turning point, where v = 0, the relative energy error at x = 0 is ω²
+/// b/c + 1.
 #[test]
 fn yoshidas_method_has_bounded_drift() {
     let leap = |h: f64| {
@@ -62,8 +63,8 @@ fn yoshidas_method_has_bounded_drift() {
     assert!(drift < 1.02 * bound && drift > 0.98 * bound, "{drift:e} {bound:e}");
 }
 
-/// The mean of the velocities before and after a kick times its force is the change of the kinetic energy. So what drag takes is booked
-/// exactly; what remains is rounding.
+/// Checks that Yoshida's method accounts for the work of drag up to rounding. In a kick, the force times the mean of the velocities before
+/// and after is exactly the change of the kinetic energy.
 #[test]
 fn yoshidas_method_books_the_work_of_drag_exactly() {
     let mut world = World::new();
@@ -77,7 +78,7 @@ fn yoshidas_method_books_the_work_of_drag_exactly() {
     assert!(balance.drift.abs() < 1e-14, "{:e}", balance.drift);
 }
 
-/// A step of explicit Euler multiplies the energy of an oscillator by exactly 1 + ω² h²: 54.5-fold after 10,000
+/// Checks that each step of explicit Euler multiplies the energy of an oscillator by exactly 1 + ω² h², which is 54.5-fold after 10,000
 /// steps. Rounding is 10,000 times 1e-16.
 #[test]
 fn explicit_euler_gains_energy() {
@@ -92,8 +93,8 @@ fn explicit_euler_gains_energy() {
     }
 }
 
-/// A step of RK4 multiplies it by |R(iz)|² = 1 − z⁶/72 + z⁸/576 (Hairer & Wanner, *Solving Ordinary Differential
-/// Equations II*, IV.2): 1e-8 in all; its expansion is exact, and what remains is rounding.
+/// Checks that each step of RK4 multiplies the energy of an oscillator by |R(iz)|² = 1 − z⁶/72 + z⁸/576 (Hairer & Wanner, *Solving
+/// Ordinary Differential Equations II*, IV.2), a loss of 1e-8 in all. The formula is exact, so only rounding remains.
 #[test]
 fn rk4_loses_energy_slowly() {
     let mut world = oscillator(method("rk4"));
@@ -107,9 +108,9 @@ fn rk4_loses_energy_slowly() {
     assert!((measured - loss).abs() < 1e-3 * loss, "{measured:e} {loss:e}");
 }
 
-/// Where forces without a potential do work, the drift is still only the method's error, and goes to 0 with its order, or faster.
-/// Tolerance of the slope as in `order`; not booking the work would leave a drift of order 0. A method that books it exactly has a drift of
-/// rounding only.
+/// Asserts that the drift falls with the order of the method, or faster, although forces without a potential do work. The tolerance of the
+/// slope is that of `order.rs`. If the work were not accounted for, the drift would not fall at all. A method with exact accounts has a
+/// drift of rounding only.
 fn assert_drift_is_of_the_methods_order(build: impl Fn() -> World) {
     for method in METHODS {
         let run = |steps: u32| {

@@ -1,4 +1,4 @@
-//! Joints that push only, motors and gears: closed forms, the order of every method across events, and the books.
+//! Tests of one-sided joints, motors and gears: closed forms, the order of every method across events, and the energy accounts.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ fn origin() -> Anchor {
     Anchor::Point(DVec3::ZERO)
 }
 
-/// A wheel about the world's z axis at a place: I = ½ m r² = 0.5 kg m².
+/// Adds a wheel at a place, with the world's z axis as its axis: I = ½ m r² = 0.5 kg m².
 fn wheel(world: &mut World, place: DVec3) -> BodyId {
     let turn = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     let disc = RigidBody::new(&Shape::Cylinder { radius: 1.0, height: 0.1 }, 1.0);
@@ -46,8 +46,8 @@ fn spin(world: &World, wheel: BodyId) -> f64 {
     world.angular_velocity(wheel).z
 }
 
-/// A ball falls freely for 0.5 m on a slack rope of 1 m, beside the line through the other end, and swings from then on with what
-/// of its velocity leads across the rope. Its highest place on the other side says how much that is.
+/// Checks a ball on a slack rope of 1 m. It falls freely for 0.5 m beside the rope's other end. When the rope becomes taut, the ball keeps
+/// only the velocity component across the rope, which its energy in the following swing shows.
 #[test]
 fn a_rope_takes_what_leads_along_it_when_it_becomes_taut() {
     for method in that_keep_joints() {
@@ -56,15 +56,15 @@ fn a_rope_takes_what_leads_along_it_when_it_becomes_taut() {
         let side = 0.6;
         let bob = world.add(ball().with_location(DVec3::new(side, -0.3, 0.0)));
         world.add_constraint(Rope { between: [origin(), Anchor::centre(bob)], length: 1.0 });
-        // It is taut where x² + y² = 1: at y = −0.8.
+        // The rope is taut where x² + y² = 1: at y = −0.8.
         let time = (2.0 * 0.5 / G).sqrt();
         let speed = G * time;
         world.advance_to(time + 0.05);
         let (x, v) = (world.location(bob), world.velocity(bob));
-        // The Euler methods are off by half a step in time.
+        // The first-order methods have an error of half a step in time.
         let slack = if method.order == 1 { 3.0 * G * h } else { 1e-5 };
         assert!((x.length() - 1.0).abs() < 1e-12, "{}: {x}", method.name);
-        // Across the rope: v sin of the angle between rope and vertical, and the loss ½ m (v cos)².
+        // The component across the rope is v times the sine of the angle between rope and vertical. The lost energy is ½ m (v cos)².
         let across = speed * side;
         let energy = 0.5 * across * across - 0.8 * G;
         let now = 0.5 * v.length_squared() + G * x.y;
@@ -77,8 +77,8 @@ fn a_rope_takes_what_leads_along_it_when_it_becomes_taut() {
     }
 }
 
-/// The rope of a ball that swings up too fast to stay below and too slowly for a full turn becomes slack where
-/// v² = g y ℓ: cos of its angle above the horizontal follows from the energy, y = (v₀² − 2 g ℓ) / 3 g.
+/// Checks the place where a rope becomes slack: a ball swings up too fast to stay below and too slowly for a full turn. The rope becomes
+/// slack where v² = g y with ℓ = 1 m, which by the energy is at y = (v₀² − 2 g ℓ) / 3 g.
 #[test]
 fn a_rope_becomes_slack_where_it_would_have_to_push() {
     for method in that_keep_joints().filter(|method| method.order > 1) {
@@ -97,7 +97,8 @@ fn a_rope_becomes_slack_where_it_would_have_to_push() {
             last = x;
         }
         assert!((last.y - height).abs() < 5e-3, "{}: {last} {height}", method.name);
-        // From there on a parabola: its apex is higher by (v cos)² / 2g, with the velocity across the rope.
+        // From this place the ball moves on a parabola. Its apex is higher by (v cos)² / 2g, since the velocity is perpendicular to the
+        // rope.
         let v2 = G * height;
         let up = v2 * (1.0 - height * height) / (2.0 * G);
         let mut top = 0.0_f64;
@@ -113,7 +114,7 @@ fn a_rope_becomes_slack_where_it_would_have_to_push() {
     }
 }
 
-/// A ball at rest on a rope hangs there, with its weight in it.
+/// Checks that a ball at rest on a rope stays at rest, and that the rope's tension is its weight.
 #[test]
 fn a_rope_at_rest_carries_a_weight() {
     for method in that_keep_joints() {
@@ -131,7 +132,8 @@ fn a_rope_at_rest_carries_a_weight() {
     }
 }
 
-/// A wheel under a torque of 1 N m turns by ½ (τ/I) t² up to its limit, and stays there; its energy is in the books.
+/// Checks a wheel under a torque of 1 N m: it turns by ½ (τ/I) t² up to its limit and stops there, and the account of the limits holds its
+/// energy.
 #[test]
 fn a_limit_stops_a_hinge_and_takes_its_energy() {
     for method in that_keep_joints() {
@@ -143,7 +145,7 @@ fn a_limit_stops_a_hinge_and_takes_its_energy() {
         world.advance_to(0.5);
         let off = spin(&world, wheel) - 1.0;
         assert!(off.abs() < 1e-12, "{}: {off}", method.name);
-        // 0.5 rad are reached after √(2 · 0.5 · 0.5 / 1) s, with 0.5 J.
+        // The limit of 0.5 rad is reached after √(2 · 0.5 · 0.5 / 1) s, with 0.5 J.
         world.advance_to(3.0);
         assert!(spin(&world, wheel).abs() < 1e-12);
         let turned =
@@ -154,15 +156,15 @@ fn a_limit_stops_a_hinge_and_takes_its_energy() {
         assert!((balance.accounts.limits + 0.5).abs() < slack, "{}: {balance:?}", method.name);
         let missing = balance.total - balance.accounts.total();
         assert!(missing.abs() < slack, "{}: {balance:?}", method.name);
-        // It goes when it is pulled back.
+        // The wheel leaves the limit when a torque pulls it back.
         world.apply_torque(wheel, DVec3::NEG_Z);
         world.advance_to(3.5);
         assert!((spin(&world, wheel) + 1.0).abs() < 1e-12, "{}", method.name);
     }
 }
 
-/// A motor of 2 N m brings a wheel to 3 rad/s in 0.75 s and keeps it there against a torque of 1 N m; one of 4 N m is too
-/// much for it.
+/// Checks a motor of 2 N m: it brings a wheel to 3 rad/s in 0.75 s and keeps this speed against a torque of 1 N m. A torque of 4 N m is
+/// too strong for it.
 #[test]
 fn a_motor_keeps_its_speed_as_far_as_it_is_strong_enough() {
     for method in that_keep_joints() {
@@ -184,13 +186,14 @@ fn a_motor_keeps_its_speed_as_far_as_it_is_strong_enough() {
         assert!((motors - 5.25).abs() < slack, "{}: {motors}", method.name);
         world.apply_torque(wheel, DVec3::Z * -4.0);
         world.advance_to(3.0);
-        // (2 − 4) / 0.5 for a second.
+        // The angular acceleration (2 − 4) / 0.5 acts for a second.
         assert!((spin(&world, wheel) + 1.0).abs() < 1e-10, "{}: {}", method.name, spin(&world, wheel));
         assert!(world.balance().drift.abs() < slack, "{}: {:?}", method.name, world.balance());
     }
 }
 
-/// A motor of speed 0 is dry friction: a wheel of 0.5 kg m² comes to rest after ω I / τ, and what is too weak does not move it.
+/// Checks that a motor with target speed 0 acts as dry friction: a wheel of 0.5 kg m² stops after ω I / τ, and a weaker torque does not
+/// move it.
 #[test]
 fn a_motor_of_no_speed_is_dry_friction() {
     for method in that_keep_joints() {
@@ -221,7 +224,7 @@ impl Target for Sway {
     }
 }
 
-/// A motor that keeps an angle exactly does so, and its work is what the wheel has.
+/// Checks that a motor keeps a prescribed angle exactly, and that its work equals the energy of the wheel.
 #[test]
 fn a_motor_follows_a_formula() {
     for method in that_keep_joints() {
@@ -247,7 +250,7 @@ fn a_motor_follows_a_formula() {
     }
 }
 
-/// A servo is a spring and a damper in the angle: k/I = 9, d/2I = 0.5, from 0 towards 1 rad.
+/// Checks that a servo acts as a damped spring in the angle: k/I = 9, d/2I = 0.5, from 0 towards 1 rad.
 #[test]
 fn a_servo_swings_as_a_damped_spring() {
     #[derive(Debug)]
@@ -276,7 +279,8 @@ fn a_servo_swings_as_a_damped_spring() {
     assert!(world.balance().drift.abs() < 1e-9, "{:?}", world.balance());
 }
 
-/// Two wheels that mesh share a torque: with the ratio r, the first has τ / (I₁ + r² I₂), and both turn often.
+/// Checks two wheels that are coupled by a gear and share a torque: with the ratio r, the angular acceleration of the first is τ / (I₁ +
+/// r² I₂). Both turn several times.
 #[test]
 fn a_gear_keeps_its_ratio_over_many_turns() {
     for method in that_keep_joints() {
@@ -292,19 +296,19 @@ fn a_gear_keeps_its_ratio_over_many_turns() {
         let [first, second] = wheels.map(|wheel| spin(&world, wheel));
         assert!((first - expected).abs() < 1e-10, "{}: {first} {expected}", method.name);
         assert!((second + 2.5 * first).abs() < 1e-12, "{}", method.name);
-        // The first has turned by ½ α t², and the second by −2.5 times that, 34 rad.
+        // The first wheel has turned by ½ α t², and the second by −2.5 times this angle, 34 rad.
         let angle = |wheel: BodyId| {
             let x = world.orientation(wheel) * DVec3::X;
             libm::atan2(x.y, x.x)
         };
         let off = libm::remainder(angle(wheels[1]) + 2.5 * 5.0 * expected, std::f64::consts::TAU);
-        // The Euler methods are half a step behind; Runge–Kutta's turn by 0.07 rad a step is off by that to the fourth.
+        // First-order methods are half a step behind. The error of Runge–Kutta is the fourth power of its angle per step, 0.07 rad.
         let slack = if method.order == 1 { 2.5 * expected * 1e-2 } else { 1e-6 };
         assert!(off.abs() < slack, "{}: {off}", method.name);
     }
 }
 
-/// Rack and pinion: a hinge and a slider, 0.3 m for each radian.
+/// Checks a rack and pinion: a gear couples a hinge and a slider, 0.3 m for each radian.
 #[test]
 fn a_gear_couples_a_hinge_and_a_slider() {
     let mut world = falling(method("rk4"), 1e-2);
@@ -322,13 +326,13 @@ fn a_gear_couples_a_hinge_and_a_slider() {
     world.add_constraint(slider);
     world.add_constraint(Gear { joints, ratio: 0.3 });
     world.advance_to(1.0);
-    // m y'' = −m g − (I / r²) y''.
+    // The equation of motion is m y'' = −m g − (I / r²) y''.
     let expected = -G / (1.0 + 0.5 / 0.09);
     assert!((world.velocity(rack).y - expected).abs() < 1e-12, "{}", world.velocity(rack));
     assert!((spin(&world, wheel) - expected / 0.3).abs() < 1e-12);
 }
 
-/// Atwood's machine, with a ratio: the tension is the same along the rope.
+/// Checks Atwood's machine with a ratio: the tension is the same along the whole rope.
 #[test]
 fn a_pulley_is_atwoods_machine() {
     for method in that_keep_joints() {
@@ -344,7 +348,7 @@ fn a_pulley_is_atwoods_machine() {
                 length: 2.0 + ratio * 2.0,
             });
             world.advance_to(0.5);
-            // y₁'' = −r y₂''; m₁ (y₁'' + g) = T, m₂ (y₂'' + g) = r T.
+            // The equations of motion are y₁'' = −r y₂''; m₁ (y₁'' + g) = T, m₂ (y₂'' + g) = r T.
             let down = -G * (3.0 - ratio) / (3.0 + ratio * ratio);
             let expected = [-ratio * down * 0.5, down * 0.5];
             let found = [light, heavy].map(|id| world.velocity(id).y);
@@ -355,8 +359,7 @@ fn a_pulley_is_atwoods_machine() {
     }
 }
 
-/// What happens within a step does not cost the order: a rope that becomes taut, a limit that is hit, a motor that gets its
-/// speed.
+/// Checks that events within a step keep the order of a method: a rope becomes taut, a limit is reached, and a motor reaches its speed.
 #[test]
 fn events_keep_the_order_of_a_method() {
     let build = |method: &'static Method, step: f64| {
@@ -379,7 +382,7 @@ fn events_keep_the_order_of_a_method() {
     assert_orders(0.5, build);
 }
 
-/// What is drawn between two steps is drawn on the right side of an event.
+/// Checks that moments within a step are on the correct side of an event: they agree with a run of shorter steps.
 #[test]
 fn moments_around_an_event_are_those_of_shorter_steps() {
     let build = |step: f64| {
@@ -399,12 +402,12 @@ fn moments_around_an_event_are_those_of_shorter_steps() {
     for (a, b) in coarse.iter().zip(&fine) {
         let off = a.bodies[0].location.distance(b.bodies[0].location);
         let faster = a.bodies[0].velocity.distance(b.bodies[0].velocity);
-        // (ω h)⁴ with ω about 5 /s: 2e-3 of its share in a step.
+        // The relative error within a step is (ω h)⁴ with ω about 5 /s: 2e-3.
         assert!(off < 1e-5 && faster < 1e-3, "{}: {off:e} {faster:e}", a.time);
     }
 }
 
-/// A rod and a rope at one ball, and a rope that is taut from the start: nothing of it is counted twice.
+/// Checks a ball on a rod and on a rope that is taut from the start: the redundant constraint changes nothing.
 #[test]
 fn a_rope_beside_a_rod_does_no_harm() {
     for method in that_keep_joints() {
@@ -420,7 +423,7 @@ fn a_rope_beside_a_rod_does_no_harm() {
     }
 }
 
-/// The light end of an Atwood machine is drawn up to its wheel and stops there, and the heavy one with it.
+/// Checks that an Atwood machine stops when its light end reaches the wheel; the heavy end stops as well.
 #[test]
 fn a_pulley_ends_at_its_wheels() {
     for method in that_keep_joints() {
@@ -443,15 +446,15 @@ fn a_pulley_ends_at_its_wheels() {
             assert!(world.velocity(id).length() < 1e-12, "{}", method.name);
         }
         let balance = world.balance();
-        // What the heavy one has more than the light one gains.
+        // The loss is the potential energy lost by the heavy end minus that gained by the light end.
         let slack = if method.order == 1 { 0.1 } else { 1e-9 };
         let lost = -2.0 * G * (2.0 - 4.0 * Pulley::NEAREST);
         assert!((balance.accounts.limits - lost).abs() < slack, "{}: {balance:?} {lost}", method.name);
     }
 }
 
-/// A chain of slack ropes falls and becomes taut piece by piece. Ropes that hold at the same time are not hit in turn without
-/// end: an event takes some ten steps, and there are few.
+/// Checks that a falling chain of slack ropes, which become taut one after another, takes few steps. Ropes that are taut at the same time
+/// must not cause endless events. An event takes about ten steps.
 #[test]
 fn a_chain_of_ropes_has_few_events() {
     let mut world = falling(method("rk4"), 2e-3);
@@ -471,7 +474,7 @@ fn a_chain_of_ropes_has_few_events() {
     assert!(world.balance().drift.abs() < 1e-3, "{:?}", world.balance());
 }
 
-/// A wheel that is turned beyond its limit from the start stands still, and rounding is no drift.
+/// Checks a wheel that starts to turn beyond its limit: it stops at once, and the loss of energy is not counted as drift.
 #[test]
 fn what_a_limit_takes_at_the_start_is_no_drift() {
     for method in that_keep_joints() {

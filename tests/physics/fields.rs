@@ -1,4 +1,4 @@
-//! Buoyancy, magnets, and the gravity of a flattened planet.
+//! Tests of buoyancy, magnets, and the gravity of an oblate planet.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,8 +17,8 @@ fn lake(world: &mut World, id: BodyId, shape: Shape, density: f64) {
     world.add_force(Buoyancy { bodies: vec![(id, shape)], density, level: 0.0, gravity });
 }
 
-/// A box of the edge a and 0.4 of the density of the liquid floats 0.4 a deep. As long as its top and its bottom stay on their sides of
-/// the surface, it swings up and down as on a spring: ω² = ρ g a²/m = g/(0.4 a).
+/// Checks a floating cube with edge a and 0.4 of the liquid's density, which floats with a draft of 0.4 a. While the surface stays between
+/// its top and bottom, it oscillates vertically as on a spring: ω² = ρ g a²/m = g/(0.4 a).
 #[test]
 fn a_box_heaves_as_on_a_spring() {
     let (edge, amplitude, steps) = (0.5, 0.15, 1000);
@@ -40,8 +40,8 @@ fn a_box_heaves_as_on_a_spring() {
     }
 }
 
-/// A plank rolls about its long axis with ω² = m g GM/I, where GM = b²/(12 d) + d/2 − h/2 is its metacentric height: b is its width, h its
-/// height, d = h ρ/ρ₀ how deep it floats. Small turns do not heave. With an angle φ, ω is off by a part of φ², here 1e-6.
+/// Checks the roll of a plank about its long axis: ω² = m g GM/I with the metacentric height GM = b²/(12 d) + d/2 − h/2, where b is the
+/// width, h the height and d = h ρ/ρ₀ the draft. Small angles do not cause heave. For an angle φ, ω has a relative error of φ², here 1e-6.
 #[test]
 fn a_plank_rolls_about_its_metacentre() {
     let (width, height, length) = (1.0, 0.3, 2.0);
@@ -59,14 +59,14 @@ fn a_plank_rolls_about_its_metacentre() {
         lake(&mut world, id, shape.clone(), 1000.0);
         world.set_step(period / f64::from(steps));
         world.advance_to(0.25 * period);
-        // A quarter of a period later it is upright.
+        // A quarter of a period later the plank is level.
         let now = 2.0 * world.orientation(id).z;
         let allowed = angle * (tolerance(method, TAU, steps) + 1e-5);
         assert!(now.abs() < allowed, "{}: {now:e} > {allowed:e}", method.name);
     }
 }
 
-/// A log of a third of the density of water that stands upright falls over, and lies; energy balances meanwhile.
+/// Checks that an upright log of a third of the water's density falls over and floats lying, with its energy balanced all the time.
 #[test]
 fn a_log_does_not_stand() {
     let shape = Shape::Cylinder { radius: 0.2, height: 1.0 };
@@ -90,7 +90,7 @@ fn a_log_does_not_stand() {
     assert!(lowest < 0.1, "{lowest}");
 }
 
-/// A magnet in a field swings like a pendulum: θ'' = −(m B/I) sin θ. From 1 mrad, the period is 2π √(I/(m B)) but for 1e-7.
+/// Checks a magnet in a field, which swings like a pendulum: θ'' = −(m B/I) sin θ. From 1 mrad, its period is 2π √(I/(m B)) up to 1e-7.
 #[test]
 fn a_compass_needle_swings() {
     let shape = Shape::Cylinder { radius: 0.1, height: 0.5 };
@@ -114,7 +114,7 @@ fn a_compass_needle_swings() {
     }
 }
 
-/// Two magnets that are free to turn and to fly keep their momenta and their energy.
+/// Checks that two free magnets conserve energy, momentum and angular momentum.
 #[test]
 fn two_free_magnets_keep_energy_and_momenta() {
     for method in METHODS {
@@ -141,8 +141,8 @@ fn two_free_magnets_keep_energy_and_momenta() {
     }
 }
 
-/// The node of a circular orbit goes back by −3/2 n J₂ (R/p)² cos i, averaged over whole turns: what oscillates within one comes back, and is
-/// of the second order in J₂.
+/// Checks the precession of a circular orbit's node by −3/2 n J₂ (R/p)² cos i, averaged over whole revolutions. Oscillations within a
+/// revolution cancel, up to the second order in J₂.
 #[test]
 fn the_node_of_an_orbit_precesses() {
     let (j2, tilt, turns) = (1e-5, 0.7_f64, 20);
@@ -150,7 +150,7 @@ fn the_node_of_an_orbit_precesses() {
     for method in METHODS.iter().filter(|method| method.order >= 4) {
         let mut world = World::new();
         world.set_integrator(method);
-        // The planet turns about y; its mass is 1, and the moon's is nothing.
+        // The planet's axis is y. Its mass is 1; the moon's is negligible.
         let planet = world.add(ball());
         let moon = RigidBody::new(&Shape::Sphere { radius: 0.01 }, 1e-12);
         let moon = world.add(moon.with_location(DVec3::X).with_velocity(DVec3::new(0.0, sin, -cos)));
@@ -168,7 +168,7 @@ fn the_node_of_an_orbit_precesses() {
             let state = world.state();
             let (x, v) = (state.location[1] - state.location[0], state.velocity[1] - state.velocity[0]);
             let normal = x.cross(v);
-            // The node is where the orbit goes up: y × normal.
+            // The ascending node is in the direction y × normal.
             let node = DVec3::Y.cross(normal);
             libm::atan2(-node.z, node.x)
         };
@@ -176,13 +176,13 @@ fn the_node_of_an_orbit_precesses() {
         world.advance_to(TAU * f64::from(turns));
         let rate = (node(&world) - before) / (TAU * f64::from(turns));
         let exact = -1.5 * j2 * 0.64 * cos;
-        // What the bulge adds to the attraction makes a turn end 1e-5 of it early or late; the node then is off by that part of one turn's
-        // oscillation, of 20.
+        // The oblateness changes the duration of a revolution by 1e-5. The node's error is this fraction of its oscillation within one of
+        // the 20 revolutions.
         assert!((rate / exact - 1.0).abs() < 1e-4, "{}: {rate:e} {exact:e}", method.name);
     }
 }
 
-/// A planet that is free to turn takes the angular momentum that its moon loses.
+/// Checks that a rotating planet gains the angular momentum that its moon loses.
 #[test]
 fn planet_and_moon_keep_their_momenta() {
     for method in METHODS {

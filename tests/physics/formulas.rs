@@ -1,4 +1,4 @@
-//! Forces by formulas.
+//! Tests of forces that are given by formulas.
 
 use glam::DVec3;
 use jabuka::Scene;
@@ -7,7 +7,8 @@ use jabuka::simulate::{SimulateError, world};
 
 use crate::common::{frames, tolerance};
 
-/// The world of a scene with one body of 1 kg, by a method, with so many steps to a time.
+/// Returns a scene for this method, with this number of steps in the given time. Its bodies have 1 kg and a radius of 0.1 m; `rest` is the
+/// other text of the scene.
 #[allow(clippy::panic, reason = "it is part of tests")]
 fn scene(method: &str, time: f64, steps: u32, rest: &str) -> Scene {
     let step = time / f64::from(steps);
@@ -23,14 +24,14 @@ fn scene(method: &str, time: f64, steps: u32, rest: &str) -> Scene {
 
 fn run(scene: &Scene, time: f64) -> World {
     let mut world = world(scene);
-    // The drift is relative to the largest kinetic energy that anybody has seen.
+    // The drift is relative to the largest kinetic energy at the observed times, so observe the run once before its end.
     world.advance_to(0.25 * time);
     world.balance();
     world.advance_to(time);
     world
 }
 
-/// x'' = −x³ from rest at x = 1: the period is 4 ∫₀¹ dx / √((1 − x⁴)/2) = 4 K(1/√2), by Gauss's constant 7.416298709205487.
+/// Checks x'' = −x³ from rest at x = 1. The period is 4 ∫₀¹ dx / √((1 − x⁴)/2) = 4 K(1/√2), by Gauss's constant 7.416298709205487.
 #[test]
 fn the_period_of_a_quartic_trap() {
     let (period, steps) = (7.416_298_709_205_487, 4000);
@@ -38,7 +39,8 @@ fn the_period_of_a_quartic_trap() {
         let trap = "[body.b]\nlocation = [1, 0, 0]\n[force.trap.formula]\nforce = ['-x^3', 0, 0]\npotential = 'x^4/4'";
         let mut world = run(&scene(method.name, period, steps, trap), period);
         let state = world.state();
-        // At the turning point the place has no slope in time: the velocity shows the phase. The rate is √3 at most.
+        // At the turning point the location does not change to first order, so the velocity shows an error in phase. The rate is √3 at
+        // most.
         let off = state.velocity[0].length().max((state.location[0] - DVec3::X).length());
         let allowed = tolerance(method, 3.0_f64.sqrt() * period, steps);
         assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
@@ -47,7 +49,7 @@ fn the_period_of_a_quartic_trap() {
     }
 }
 
-/// The same force in formulas and in Rust.
+/// Checks that a magnetic field given by formulas acts like the built-in Lorentz force.
 #[test]
 fn a_magnetic_field_by_formulas_is_the_lorentz_force() {
     let body = "[body.b]\ncharge = 2\nvelocity = [0.3, 1, 0.2]\n";
@@ -56,7 +58,7 @@ fn a_magnetic_field_by_formulas_is_the_lorentz_force() {
                    potential = '-charge*0.5*y'";
     for method in METHODS {
         let by = |force: &str| {
-            // Variables stand before the bodies.
+            // The table of variables must come before the bodies.
             let (variables, force) = force.split_once('\n').unwrap_or(("", force));
             let text = format!("{variables}\n{body}{force}");
             run(&scene(method.name, 1.0, 100, &text), 1.0)
@@ -65,13 +67,13 @@ fn a_magnetic_field_by_formulas_is_the_lorentz_force() {
         let by_lorentz = by(&format!("\n{lorentz}"));
         let off = (by_formula.state().location[0] - by_lorentz.state().location[0]).length();
         assert!(off < 1e-13, "{}: {off:e}", method.name);
-        // What is booked is the work of a force across the velocity, taken where the method takes it.
+        // The account holds the work of a force perpendicular to the velocity. Its error is that of the method.
         let drift = by_formula.balance().drift.abs();
         assert!(drift < tolerance(method, 6.0, 100), "{}: {drift:e}", method.name);
     }
 }
 
-/// x'' = cos 3t from rest: x = (1 − cos 3t)/9, and the work is the kinetic energy.
+/// Checks x'' = cos 3t from rest: x = (1 − cos 3t)/9, and the work equals the kinetic energy.
 #[test]
 fn a_force_that_depends_on_time_alone() {
     for method in METHODS {
@@ -87,7 +89,8 @@ fn a_force_that_depends_on_time_alone() {
     }
 }
 
-/// m v' = −c v², which falls as 1/(1/v₀ + c t/m), beside a potential: the account holds the work of the drag alone.
+/// Checks a drag m v' = −c v², with the solution v = 1/(1/v₀ + c t/m), next to a force with a potential: the account holds only the work
+/// of the drag.
 #[test]
 fn beside_a_potential_only_what_velocity_adds_is_booked() {
     for method in METHODS {
@@ -99,7 +102,7 @@ fn beside_a_potential_only_what_velocity_adds_is_booked() {
         let allowed = 4.0 * tolerance(method, 3.0, steps);
         assert!(balance.accounts.work < -1.0 && balance.drift.abs() < allowed, "{}", method.name);
     }
-    // Along x alone, the speed is that of x.
+    // For a motion along x alone, the speed is |vx|.
     let text =
         "[body.b]\nvelocity = [2, 0, 0]\n[force.f.formula]\nforce = ['-0.7*vx*speed', 0, 0]\npotential = 0";
     let world = run(&scene("rk4", 1.0, 400, text), 1.0);
@@ -107,7 +110,8 @@ fn beside_a_potential_only_what_velocity_adds_is_booked() {
     assert!((world.state().velocity[0].x - exact).abs() < 1e-9);
 }
 
-/// From rest at x = 1 with x'' = −1/√x, the ball comes to x = 0 after 4/3 s, where the force has no value any more.
+/// Checks that a force that becomes undefined ends the run with an error. From rest at x = 1 with x'' = −1/√x, the ball reaches x = 0
+/// after 4/3 s, where the formula has no value.
 #[test]
 fn a_force_without_a_value_ends_the_run_and_says_where() {
     let text = "[body.other]\nlocation = [0, 5, 0]\n[body.b]\nlocation = [1, 0, 0]\n\
@@ -130,7 +134,7 @@ fn a_force_without_a_value_ends_the_run_and_says_where() {
     }
 }
 
-/// Particles feel it as bodies do, and as bodies with a `repeat` each its own.
+/// Checks that a formula acts on particles as on bodies, and that copies made by `repeat` are evaluated one by one.
 #[test]
 fn particles_and_copies_feel_a_formula() {
     let text = "simulation = { duration = 1, frame_rate = 1, step = 0.01, integrator = 'rk4' }

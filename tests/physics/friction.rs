@@ -1,4 +1,4 @@
-//! Sliding and rolling friction in all directions, against closed forms.
+//! Tests of sliding and rolling friction in all directions, against closed forms.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{BodyId, Shape, Surface, World};
@@ -6,10 +6,10 @@ use jabuka::dynamics::{BodyId, Shape, Surface, World};
 use crate::common::method;
 use crate::contacts::{G, Table, advance, exact, surface};
 
-/// The radius of balls, m.
+/// The radius of the balls, m.
 const RADIUS: f64 = 0.1;
 
-/// Level directions, none of which is along an axis but the first two.
+/// Returns horizontal unit vectors; only the first two are along axes.
 fn headings() -> impl Iterator<Item = DVec3> {
     [0.0_f64, 90.0, 37.0, 130.0, 245.0].into_iter().map(|angle| {
         let (sin, cos) = libm::sincos(angle.to_radians());
@@ -17,7 +17,8 @@ fn headings() -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// A ball of mass 1 that touches a plane. `friction` is the surface of the ball; the plane has none of its own.
+/// Returns a world with a ball of mass 1 in contact with a plane. `friction` is the surface of the ball; the plane has no surface values
+/// of its own. `motion` holds velocity and angular velocity.
 fn ball_on_plane(
     method: &'static jabuka::dynamics::Method,
     normal: DVec3,
@@ -32,7 +33,7 @@ fn ball_on_plane(
     (table.build(), ball)
 }
 
-/// A sphere that rolls is slowed down by 5/7 μᵣ g / r, whichever way it goes, and then stays where it is.
+/// Checks that a rolling sphere decelerates by 5/7 μᵣ g / r in every direction, and then stays at rest.
 #[test]
 fn rolling_friction_is_the_same_in_all_directions() {
     let rolling = 0.002;
@@ -49,13 +50,13 @@ fn rolling_friction_is_the_same_in_all_directions() {
             advance(&mut world, t);
             let expected = speed * speed / (2.0 * slowing) * heading;
             assert!((way(&world) - expected).length() < 1e-9, "{} {heading}: {}", method.name, way(&world));
-            // What no picture could show is at rest.
+            // A speed below 1e-9 of the initial speed counts as rest.
             assert!(world.velocity(ball).length() < 1e-9 * speed, "{}", method.name);
         }
     }
 }
 
-/// On a plane that is inclined by α, a sphere rolls with 5/7 g (sin α − μᵣ cos α / r), and stays where that is negative.
+/// Checks a sphere on a plane inclined by α: it rolls with 5/7 g (sin α − μᵣ cos α / r), and stays at rest where this is negative.
 #[test]
 fn rolling_friction_holds_a_ball_on_a_slope_of_any_direction() {
     let alpha = 0.05_f64;
@@ -76,8 +77,9 @@ fn rolling_friction_holds_a_ball_on_a_slope_of_any_direction() {
     }
 }
 
-/// A sphere slides on a slope. Its slip u has du/dt = g sin α x̂ − 7/2 μ g cos α û, with x downhill. Where both have the same size, |u| + uₓ
-/// stays what it is, while the slip turns from across the slope to downhill. rk4 with h = 1/240 s has an error of about (h g sin α / u)⁴ of u: 1e-6.
+/// Checks the direction of friction for a sphere that slides across a slope. Its slip u has du/dt = g sin α x̂ − 7/2 μ g cos α û, with x
+/// downhill. If both terms have the same size, |u| + uₓ is constant while the slip turns from across the slope to downhill. rk4 with h =
+/// 1/240 s has a relative error of about (h g sin α / u)⁴: 1e-6.
 #[test]
 fn friction_is_against_the_slip_while_that_turns() {
     let alpha = 0.3;
@@ -98,7 +100,8 @@ fn friction_is_against_the_slip_while_that_turns() {
     assert!(slip.dot(down) > 0.9 && slip.z < 0.5, "{slip}");
 }
 
-/// A flat box falls onto a floor, and slides: friction takes μ (1 + e) of the speed of the fall, against the slip, and the box does not turn.
+/// Checks a flat box that falls onto a floor while it slides: friction reduces the slip by μ (1 + e) times the speed of the fall, and the
+/// box does not turn.
 #[test]
 fn friction_of_an_impact_is_at_most_what_the_normal_impulse_allows() {
     let (fall, friction) = (2.0, 0.2);

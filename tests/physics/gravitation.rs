@@ -1,11 +1,11 @@
-//! Orbits under Newton's gravitation.
+//! Tests of orbits under Newton's law of gravitation.
 
 use glam::DVec3;
 use jabuka::dynamics::{Gravitation, METHODS, Method, RigidBody, Shape, State, World};
 
 use crate::common::method;
 
-/// Point-like bodies of the given masses, locations and velocities that attract each other with G = 1.
+/// Returns a world with small bodies of the given masses, locations and velocities that attract each other with G = 1.
 fn attracting(method: &'static Method, bodies: &[(f64, DVec3, DVec3)]) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -28,7 +28,7 @@ fn vector([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x, y, 0.0)
 }
 
-/// The solution of Kepler's equation E − e sin E = M, by Newton's method.
+/// Returns the solution of Kepler's equation E − e sin E = M, by Newton's method.
 fn eccentric_anomaly(mean: f64, eccentricity: f64) -> f64 {
     let mut anomaly = mean;
     for _ in 0..20 {
@@ -38,8 +38,8 @@ fn eccentric_anomaly(mean: f64, eccentricity: f64) -> f64 {
     anomaly
 }
 
-/// Two bodies of masses ¼ and ¾ on ellipses of a = 1 and e = 0.3 about their common centre, from the perihelion, for
-/// 1 s: the mean motion is √(G M / a³) = 1 rad/s.
+/// Simulates two bodies of masses ¼ and ¾ on ellipses with a = 1 and e = 0.3 about their common center, from the perihelion, for 1 s. The
+/// mean motion is √(G M / a³) = 1 rad/s.
 fn two_bodies(method: &'static Method, steps: u32) -> World {
     let speed = f64::sqrt(1.3 / 0.7);
     let (at, velocity) = (0.7 * DVec3::X, speed * DVec3::Y);
@@ -50,7 +50,8 @@ fn two_bodies(method: &'static Method, steps: u32) -> World {
     world
 }
 
-/// The slope is off by as much as in `order`: rates are at most √(G M / 0.7³) = 1.7 /s here.
+/// Asserts that the error falls with the order of the method. The tolerance of the slope is that of `order.rs`, since rates are at most
+/// √(G M / 0.7³) = 1.7 /s.
 fn assert_order(method: &Method, coarse: f64, fine: f64) {
     let slope = libm::log2(coarse / fine);
     assert!(
@@ -78,7 +79,7 @@ fn two_bodies_go_round_as_kepler_says() {
     }
 }
 
-/// The potential is that of the force: the drift goes to 0 with the order of the method.
+/// Checks that the drift falls with the order of the method, so that the potential belongs to the force.
 #[test]
 fn the_drift_of_an_orbit_is_of_the_methods_order() {
     for method in METHODS {
@@ -87,10 +88,11 @@ fn the_drift_of_an_orbit_is_of_the_methods_order() {
     }
 }
 
-/// After a period all is as at the start. Source: A. Chenciner & R. Montgomery, Ann. Math. 152 (2000) 881.
+/// Checks that three bodies on a figure-eight orbit return to their start after a period. Source: A. Chenciner & R. Montgomery, Ann. Math.
+/// 152 (2000) 881.
 ///
-/// Start and period are given to eight decimals, with which every coordinate comes back within 3e-8 (one digit). RK4 adds to that, in 20,000
-/// steps of rate × dt = 2 · 3e-4, about 13 · (6e-4)⁴ = 2e-12.
+/// The published start and period have eight decimals, which limits each coordinate's error to 3e-8 (one digit). The error of RK4 in
+/// 20,000 steps of rate × dt = 2 · 3e-4 is about 13 · (6e-4)⁴ = 2e-12.
 #[test]
 fn three_bodies_on_a_figure_of_eight_return() {
     let (at, velocity) = (vector([0.970_004_36, -0.243_087_53]), vector([0.466_203_685, 0.432_365_73]));
@@ -107,10 +109,10 @@ fn three_bodies_on_a_figure_of_eight_return() {
     assert!(world.balance().drift.abs() < 1e-11);
 }
 
-/// Seven masses in the plane, with close encounters, to t = 3. Source: IVP Test Set, problem PLEI; Hairer, Nørsett &
-/// Wanner, *Solving Ordinary Differential Equations I*, II.10.
+/// Checks seven masses in a plane, with close encounters, up to t = 3. Source: IVP Test Set, problem PLEI; Hairer, Nørsett & Wanner,
+/// *Solving Ordinary Differential Equations I*, II.10.
 ///
-/// There is no bound known beforehand; but the error goes with the fourth power of the step, down to 1e-7.
+/// No bound is known beforehand, but the error falls with the fourth power of the step, down to 1e-7.
 #[test]
 #[allow(clippy::excessive_precision, reason = "as they are published")]
 fn the_pleiades() {
@@ -138,13 +140,13 @@ fn the_pleiades() {
     };
     let (coarse, fine) = (off(40_000), off(80_000));
     assert!(fine < 1e-7, "{fine:e}");
-    // Close encounters, with rates of 100 /s, are not yet all in the last order.
+    // Close encounters have rates of 100 /s, so at these steps the error does not yet fall exactly with the fourth power.
     let slope = libm::log2(coarse / fine);
     assert!((slope - 4.0).abs() < 0.5, "order {slope}, {coarse:e}, {fine:e}");
 }
 
-/// 400 stars of a cluster fall together, by a tree. Its forces are off by up to 1e-3 in any direction, and so is what they give in a time in
-/// which each star has fallen through the middle once.
+/// Checks the energy drift of a collapsing cluster of 400 stars, whose forces are computed by a tree. The forces have errors of up to 1e-3
+/// in any direction. The drift is of the same size after a time in which each star has passed through the center once.
 #[test]
 fn a_cluster_by_a_tree_hardly_drifts() {
     let mut world = World::new();

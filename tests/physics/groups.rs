@@ -1,8 +1,8 @@
-//! Groups of bodies that do not meet are advanced one after another: that must change nothing.
+//! Tests of groups of distant bodies, which are advanced one after another: grouping must not change the result.
 
 use crate::common::frames;
 
-/// Balls that spin, bounce and roll on a floor, three metres from each other; the first of them has number `first`.
+/// Returns a scene with balls that spin, bounce and roll on a floor, 3 m apart. The first of them has the number `first`.
 fn balls(count: usize, first: usize) -> String {
     format!(
         r#"
@@ -25,7 +25,8 @@ fn balls(count: usize, first: usize) -> String {
     )
 }
 
-/// Six balls far from each other move as each of them alone would, but for what counts as rest: that is 1e-8 of the fastest approach of all.
+/// Checks that six distant balls move like each of them alone. They differ only by the threshold of rest, which is 1e-8 of the fastest
+/// approach of all bodies.
 #[test]
 fn what_is_far_away_has_no_influence() {
     let together = frames(&balls(6, 0));
@@ -38,8 +39,8 @@ fn what_is_far_away_has_no_influence() {
     }
 }
 
-/// The first of six balls is so fast that it passes its impulse on to all of them within one step, although none is near the next: each
-/// stops the one before where it was.
+/// Checks an impulse that passes through six separate balls within one step: each ball stops where it hits the next one, although the
+/// balls are far apart.
 #[test]
 fn an_impulse_goes_through_all_groups_within_a_step() {
     let frames = frames(
@@ -67,12 +68,12 @@ fn an_impulse_goes_through_all_groups_within_a_step() {
     );
     let last = &frames[1].bodies;
     for (i, body) in last[..5].iter().enumerate() {
-        // Where it was hit: a diameter before the next one.
+        // The ball stops one diameter before the center of the next ball.
         let place = if i == 0 { 0.8 } else { i as f64 + 0.8 };
         assert!((body.location.x - place).abs() < 1e-9, "{i}: {}", body.location.x);
         assert!(body.velocity.length() < 1e-9, "{i}: {}", body.velocity);
     }
     assert!((last[5].velocity.x - 200.0).abs() < 1e-9, "{}", last[5].velocity);
-    // Five diameters of the way of 8 m are those that the impulse has jumped.
+    // The impulse covers 8 m of free path, plus one diameter in each of five impacts.
     assert!((last[5].location.x - (8.0 + 5.0 * 0.2)).abs() < 1e-9, "{}", last[5].location.x);
 }

@@ -1,4 +1,4 @@
-//! Bodies whose motion is given, and what they do to others.
+//! Tests of guided bodies, whose motion is prescribed, and of their effect on other bodies.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
@@ -7,7 +7,7 @@ use jabuka::dynamics::{
 
 use crate::common::ball;
 
-/// Shaken along x, x = sin 3t, while it turns about y.
+/// A prescribed motion: x = sin 3t along x, with rotation about y.
 struct Shaken;
 
 impl Motion for Shaken {
@@ -27,7 +27,7 @@ impl Motion for Shaken {
     }
 }
 
-/// A ball of 1 kg on a spring of 4 N/m to a body that is shaken.
+/// Returns a world with a free ball of 1 kg on a spring of 4 N/m, whose other end is a guided body, after 1 s in this number of steps.
 fn driven(method: &'static Method, steps: u32) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -41,7 +41,8 @@ fn driven(method: &'static Method, steps: u32) -> World {
     world
 }
 
-/// x'' = 4 (sin 3t − x) from rest: x = a sin 3t + b sin 2t with a = 4 / (4 − 9) and b = −3a / 2.
+/// Returns location and velocity of the free ball at the time t. It solves x'' = 4 (sin 3t − x) from rest: x = a sin 3t + b sin 2t with a
+/// = 4 / (4 − 9) and b = −3a / 2.
 fn exact(t: f64) -> (f64, f64) {
     let a = 4.0 / (4.0 - 9.0);
     let b = -1.5 * a;
@@ -50,7 +51,8 @@ fn exact(t: f64) -> (f64, f64) {
     (a * sin3 + b * sin2, 3.0 * a * cos3 + 2.0 * b * cos2)
 }
 
-/// Wherever a method evaluates the force, the guided body must be where it is then, or the order is lost.
+/// Checks the order of the methods for a driven oscillator. The order is lost unless the guided body is moved to each time at which a
+/// method evaluates the force.
 #[test]
 fn a_driven_oscillator_is_solved_with_the_order_of_the_method() {
     let (x, v) = exact(1.0);
@@ -61,25 +63,25 @@ fn a_driven_oscillator_is_solved_with_the_order_of_the_method() {
         };
         let errors = (error(128), error(256));
         let slope = libm::log2(errors.0 / errors.1);
-        // As in `order.rs`, with a rate of 3 /s.
+        // The tolerance is derived as in `order.rs`, with a rate of 3 /s.
         assert!((slope - f64::from(method.order)).abs() < 0.15, "{}: {slope} {errors:?}", method.name);
     }
 }
 
-/// What the hand does to the system is in the books, so that the drift is the error of the method alone.
+/// Checks that the work of the guided body is accounted for, so that the drift is the error of the method alone.
 #[test]
 fn the_work_of_what_guides_a_body_is_counted() {
     for method in METHODS {
         let error = |steps| driven(method, steps).balance().drift.abs();
         let (coarse, fine) = (error(128), error(256));
         let ratio = coarse / fine;
-        // The books are at least of the method's order.
+        // The accounts have at least the order of the method.
         assert!(ratio > libm::exp2(f64::from(method.order)) * 0.8, "{}: {coarse} {fine}", method.name);
     }
     let mut world = driven(Method::by_name("rk4").unwrap(), 1000);
     let balance = world.balance();
     assert!(balance.drift.abs() < 1e-9 && balance.accounts.work.abs() > 0.5, "{balance:?}");
-    // Only the free ball counts.
+    // The balance holds the energy and the momentum of the free ball only.
     let v = exact(1.0).1;
     assert!((balance.kinetic - v * v / 2.0).abs() < 1e-9, "{balance:?}");
     assert!((balance.linear_momentum.x - v).abs() < 1e-9);
@@ -102,7 +104,7 @@ fn it_is_where_its_motion_says_whatever_pulls_at_it() {
             let turning = world.angular_velocity(id);
             assert!(turning.abs_diff_eq(pose.angular_velocity, 1e-14), "{turning}");
             assert_eq!(world.forces()[id.index()], 5.0 * pose.acceleration, "what guides it sees to that");
-            // Weight, force and torque that what guides it bears are no error of the method.
+            // The constraint that guides the body carries its weight, force and torque; they must not appear as an energy error.
             assert_eq!(world.balance().kinetic, 0.0);
         }
         assert_eq!(BodyId::index(id), 0);

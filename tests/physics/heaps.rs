@@ -1,4 +1,4 @@
-//! Heaps: what touches at many places, comes to rest together, and stays there until something disturbs it.
+//! Tests of heaps: bodies with many contacts come to rest together, and stay at rest until a disturbance.
 
 use glam::DVec3;
 use jabuka::dynamics::ContactSnapshot;
@@ -6,12 +6,12 @@ use jabuka::simulate::Frame;
 
 use crate::common::frames;
 
-/// The largest drift of the energy in all frames.
+/// Returns the largest energy drift, by magnitude, of all frames.
 fn drift(frames: &[Frame]) -> f64 {
     frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
 }
 
-/// A ball spins on a spot. Nothing brakes that: the place where it touches has no extent.
+/// Checks that a ball that spins about the vertical keeps spinning: a point contact exerts no torque about its normal.
 #[test]
 fn what_spins_on_the_spot_goes_on_spinning() {
     let frames = frames(
@@ -35,7 +35,7 @@ fn what_spins_on_the_spot_goes_on_spinning() {
     }
 }
 
-/// Balls are poured into a box, one after another.
+/// A scene in which balls are poured into a box, one after another.
 const POURED: &str = r#"
     [simulation]
     duration = 3.2
@@ -62,8 +62,8 @@ const POURED: &str = r#"
     collision_group = "walls"
 "#;
 
-/// They come to rest. None is within another one or a wall, and the books say where the energy of the fall went: but for what it takes to
-/// push apart what is within each other by a ten-thousandth of its size.
+/// Checks that poured balls come to rest without overlapping each other or a wall. The accounts hold the energy of the fall, up to the
+/// energy of pushing apart bodies that overlap by 1e-4 of their size.
 #[test]
 fn what_is_poured_into_a_box_comes_to_rest() {
     let frames = frames(POURED);
@@ -79,7 +79,7 @@ fn what_is_poured_into_a_box_comes_to_rest() {
             assert!(gap > -1e-5, "{i}: {gap:e}");
         }
     }
-    // Each of them is carried: forces and weight are in balance.
+    // The contact forces on each ball must balance its weight.
     for ball in 0..16 {
         let on = |contact: &ContactSnapshot| match contact.bodies {
             [first, _] if first == ball => -(contact.force + contact.friction),
@@ -91,8 +91,8 @@ fn what_is_poured_into_a_box_comes_to_rest() {
     }
 }
 
-/// Balls fall into a bin that is hardly wider than two of them, in long steps. Walls hold them by friction, and they wedge each other: nothing
-/// jams, and impacts take what the balls had when they came, but for what is still to come.
+/// Checks balls that fall into a bin hardly wider than two of them, with long steps. The walls hold balls by friction, and balls wedge
+/// each other, but the simulation does not jam. The impacts take the balls' initial energy, except for what has not been dissipated yet.
 #[test]
 fn a_narrow_bin_jams_nothing() {
     let frames = frames(
@@ -135,7 +135,7 @@ fn a_narrow_bin_jams_nothing() {
     }
 }
 
-/// A birth far away disturbs no heap: not one bit of what is held at rest changes.
+/// Checks that a body that appears far away does not change a bit of a heap at rest.
 #[test]
 fn births_leave_what_is_at_rest_alone() {
     let frames = frames(

@@ -1,4 +1,4 @@
-//! The order of impacts at one instant, impacts at several places, and the last bounce, against closed forms.
+//! Tests of the order of simultaneous impacts, of impacts at several points, and of the last bounce, against closed forms.
 
 use glam::DVec3;
 use jabuka::dynamics::{BodyId, Shape, Surface, World};
@@ -6,7 +6,7 @@ use jabuka::dynamics::{BodyId, Shape, Surface, World};
 use crate::common::method;
 use crate::contacts::{G, Table, advance, exact, surface};
 
-/// Three equal balls that touch in a row, with velocities along it.
+/// Returns a world with three equal balls that touch in a row along x, with these velocities along x in m/s.
 fn row(velocities: [f64; 3], restitution: f64) -> (World, [BodyId; 3]) {
     let mut table = Table::new(method("velocity-verlet"), false);
     let balls = std::array::from_fn(|i| {
@@ -18,14 +18,15 @@ fn row(velocities: [f64; 3], restitution: f64) -> (World, [BodyId; 3]) {
     (table.build(), balls)
 }
 
-/// What two equal balls do to each other.
+/// Applies the impact between the balls i and i + 1 of equal mass to the velocities `v`.
 fn hit(v: &mut [f64; 3], i: usize, restitution: f64) {
     let (mean, half) = (0.5 * (v[i] + v[i + 1]), 0.5 * restitution * (v[i] - v[i + 1]));
     (v[i], v[i + 1]) = (mean - half, mean + half);
 }
 
-/// The fastest approach is struck first; of two that are as fast, that of the bodies with the smaller numbers. With a restitution of 1/2, the
-/// end tells the order: 1, 0, −1 m/s become −23/64, 3/64 and 5/16 m/s, and not the mirror image of that.
+/// Checks the order of simultaneous impacts: the fastest approach comes first; of equally fast ones, that of the bodies with the smaller
+/// numbers. With a restitution of 1/2, the result shows the order: 1, 0, −1 m/s become −23/64, 3/64 and 5/16 m/s, not the mirror image of
+/// these.
 #[test]
 fn of_impacts_at_one_instant_the_fastest_comes_first_and_then_the_first() {
     for (start, first) in [([1.0, 0.0, -1.0], 0), ([1.0, 0.0, -2.0], 1), ([2.0, 0.0, -1.0], 0)] {
@@ -51,8 +52,8 @@ fn of_impacts_at_one_instant_the_fastest_comes_first_and_then_the_first() {
     assert_eq!(known, [-23.0 / 64.0, 3.0 / 64.0, 5.0 / 16.0]);
 }
 
-/// What would rebound with less than 1e-8 of the fastest impact of the run rests. The fastest one is here that of two balls elsewhere, at 2,000 m/s. Impact n of a ball
-/// that bounces is at √(2h/g) (1 + 2 Σ eᵏ), k from 1 to n.
+/// Checks the time at which a bouncing ball comes to rest: at the first impact with a rebound slower than 1e-8 of the fastest impact of
+/// the run. This fastest impact is between two other balls, at 2,000 m/s. The ball's impact n is at √(2h/g) (1 + 2 Σ eᵏ), k from 1 to n.
 #[test]
 fn a_ball_rests_from_the_impact_on_whose_rebound_nobody_could_see() {
     for (method, restitution) in exact().into_iter().flat_map(|m| [0.3, 0.5, 0.8].map(|e| (m, e))) {
@@ -74,7 +75,7 @@ fn a_ball_rests_from_the_impact_on_whose_rebound_nobody_could_see() {
             time += 2.0 * fall * rebound;
             rebound *= restitution;
         }
-        // The flight after that impact would take so long.
+        // The duration of the flight that would follow the last impact.
         let flight = 2.0 * fall * rebound;
         advance(&mut world, time - 0.3 * flight);
         assert!(world.velocity(slow) != DVec3::ZERO, "{} {restitution}", method.name);

@@ -1,4 +1,4 @@
-//! Joints: closed forms, published values, the order of every method, and that nothing comes apart.
+//! Tests of joints: closed forms, published values, the order of every method, and the violation of the constraints.
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
@@ -26,7 +26,7 @@ fn at(id: BodyId, at: DVec3) -> Anchor {
     Anchor::Body { id, at }
 }
 
-/// A ball of 1 kg on a rod of 1 m, which hangs from the origin.
+/// Returns a world with a ball of 1 kg on a rod of 1 m that hangs from the origin, deflected by this angle.
 fn pendulum(method: &'static Method, step: f64, degrees: f64) -> World {
     let mut world = world(method, step);
     let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -35,14 +35,14 @@ fn pendulum(method: &'static Method, step: f64, degrees: f64) -> World {
     world
 }
 
-/// The angle of the first body from straight below, and its rate.
+/// Returns the angle of the first body from the downward vertical, rad, and its rate, rad/s.
 fn swing(world: &World) -> (f64, f64) {
     let (x, v) = (world.state().location[0], world.state().velocity[0]);
     (libm::atan2(x.x, -x.y), x.cross(v).z / x.length_squared())
 }
 
-/// The time between the first and the last of some passages through the lowest point, by cubic interpolation of the angle,
-/// whose error is (ωh)⁴ / 384 of a step; and the largest violation of the length.
+/// Returns the time in which the pendulum passes its lowest point `count` times after the first passage, and the largest violation of the
+/// rod's length. Passages are found by cubic interpolation of the angle, whose error is (ωh)⁴ / 384 of a step.
 fn periods(world: &mut World, h: f64, count: u32) -> (f64, f64) {
     let (mut passed, mut first, mut last) = (0, 0.0, 0.0);
     let mut violation = 0.0_f64;
@@ -53,7 +53,7 @@ fn periods(world: &mut World, h: f64, count: u32) -> (f64, f64) {
         let after = swing(world);
         violation = violation.max((world.state().location[0].length() - 1.0).abs());
         if before.0 > 0.0 && after.0 <= 0.0 {
-            // The root of the cubic through both angles and rates, by Newton's method from the chord.
+            // Find the root of the cubic through both angles and rates by Newton's method, starting from the chord.
             let mut s = before.0 / (before.0 - after.0);
             for _ in 0..20 {
                 let (s2, s3) = (s * s, s * s * s);
@@ -99,7 +99,7 @@ fn a_rod_pendulum_keeps_its_period_its_energy_and_its_length() {
     }
 }
 
-/// The IFToMM benchmark A01: a point mass on a rod, from the horizontal at rest.
+/// Checks the IFToMM benchmark A01: a point mass on a rod, released from rest in the horizontal position.
 #[test]
 fn the_pendulum_of_the_iftomm_benchmark() {
     let mut world = world(method("rk4"), 2e-4);
@@ -110,7 +110,7 @@ fn the_pendulum_of_the_iftomm_benchmark() {
     assert!(off.length() < 1e-9, "{off}");
 }
 
-/// Unit masses and rods, both at 90° and at rest.
+/// Checks a double pendulum with unit masses and rods, released from rest with both rods at 90°.
 #[test]
 fn a_double_pendulum_ends_where_published_solutions_do() {
     let mut world = world(method("rk4"), 2e-4);
@@ -125,12 +125,12 @@ fn a_double_pendulum_ends_where_published_solutions_do() {
     assert!((angles.1 + 1.30131555021).abs() < 1e-9, "{angles:?}");
 }
 
-/// How the frame of a body is turned, and where it is.
+/// Returns the location and the orientation of a body, or those of the world's axes for `None`.
 fn frame(world: &World, body: Option<BodyId>) -> (DVec3, DQuat) {
     body.map_or((DVec3::ZERO, DQuat::IDENTITY), |id| (world.location(id), world.orientation(id)))
 }
 
-/// What fastens a body, or the world, at a point of the world.
+/// Returns the anchor of a joint on a body, or on the world for `None`. `point` is its location in world axes.
 fn anchor(world: &World, body: Option<BodyId>, point: DVec3) -> Anchor {
     let (location, orientation) = frame(world, body);
     body.map_or(Anchor::Point(point), |id| at(id, orientation.conjugate() * (point - location)))
@@ -142,7 +142,8 @@ fn hinge(world: &mut World, bodies: [Option<BodyId>; 2], point: DVec3, axis: DVe
     world.add_constraint(Hinge::new(between, first.conjugate() * axis, second.conjugate() * first));
 }
 
-/// As in `order.rs`, with rates of up to 5 /s: the slope is off by 5 / 256 / 1.4 of D.
+/// The tolerance of the measured order, derived as in `order.rs`. With rates of up to 5 /s, the slope deviates by a multiple of 5 / 256 /
+/// 1.4.
 const SLACK: f64 = 0.15;
 
 #[test]
@@ -150,7 +151,7 @@ fn order_on_a_rod_pendulum() {
     assert_orders(SLACK, |method, step| pendulum(method, step, 90.0));
 }
 
-/// A crooked box on a hinge away from its centre, with a torque and its weight.
+/// Returns a world with a rotated box on a hinge away from its center, under gravity and a torque.
 fn lid(method: &'static Method, step: f64) -> World {
     let mut world = world(method, step);
     let body = RigidBody::new(&Shape::Box { size: DVec3::new(1.0, 0.2, 0.6) }, 2.0)
@@ -167,7 +168,7 @@ fn order_on_a_hinge_under_torque() {
     assert_orders(SLACK, lid);
 }
 
-/// Shaken along x and turned unevenly about z.
+/// A prescribed motion: oscillation along x, and uneven rotation about z.
 struct Crank;
 
 impl Motion for Crank {
@@ -187,7 +188,7 @@ impl Motion for Crank {
     }
 }
 
-/// A box on a ball joint at a point of a body that is shaken and turned: what guides that one does work.
+/// Returns a world with a box on a ball joint at a point of a guided body that oscillates and turns. The guided body does work on the box.
 fn shaken(method: &'static Method, step: f64) -> World {
     let mut world = world(method, step);
     let hand = world.add(ball());
@@ -205,18 +206,19 @@ fn order_on_a_body_that_hangs_from_a_guided_one() {
     assert_orders(SLACK, shaken);
 }
 
-/// What is brought in by the hand is in the books.
+/// Checks that the work of the guided body is accounted for.
 #[test]
 fn the_work_of_what_guides_an_end_is_counted() {
     let mut world = shaken(method("rk4"), 1e-3);
     world.advance_to(2.0);
     let balance = world.balance();
     assert!(balance.accounts.work.abs() > 0.5, "{balance:?}");
-    // (ωh)⁴ with ω about 8 /s, over a phase of 16.
+    // The relative error is (ωh)⁴ with ω about 8 /s, over a phase of 16.
     assert!(balance.drift.abs() < 1e-7, "{balance:?}");
 }
 
-/// A disc on a pin: I₁ = 0.12 and I₃ = 0.05 kg m² about the pivot, 1 kg, 0.3 m from it, inclined by 30°.
+/// Returns a world with a spinning top, and the top: a disc with I₁ = 0.12 and I₃ = 0.05 kg m² about its pivot, 1 kg, center at 0.3 m from
+/// the pivot, inclined by 30°.
 fn top(method: &'static Method, step: f64, precession: f64) -> (World, BodyId) {
     let (i1, i3, length, omega) = (0.12, 0.05, 0.3, 60.0);
     let mut world = world(method, step);
@@ -235,7 +237,7 @@ fn top(method: &'static Method, step: f64, precession: f64) -> (World, BodyId) {
     (world, top)
 }
 
-/// Steady precession: the roots φ' of I₁ cos θ φ'² − I₃ ω₃ φ' + m g ℓ = 0.
+/// Checks the two steady precessions, the roots φ' of I₁ cos θ φ'² − I₃ ω₃ φ' + m g ℓ = 0.
 #[test]
 fn a_heavy_top_has_two_steady_precessions() {
     for (precession, step) in [(1.016815848, 2e-4), (27.850697611, 1e-4)] {
@@ -253,7 +255,7 @@ fn a_heavy_top_has_two_steady_precessions() {
     }
 }
 
-/// A bar from one point to another, 1 kg for each metre.
+/// Adds a bar between two points, with a mass of 1 kg per meter.
 fn bar(world: &mut World, from: DVec3, to: DVec3) -> BodyId {
     let span = to - from;
     let body = RigidBody::new(&Shape::Cylinder { radius: 0.03, height: span.length() }, span.length())
@@ -262,7 +264,8 @@ fn bar(world: &mut World, from: DVec3, to: DVec3) -> BodyId {
     world.add(body)
 }
 
-/// Bars through some points, with a hinge at each of them; the first and the last are fastened to the world.
+/// Adds a chain of bars between consecutive points, with a hinge at each point. The first and the last hinge connect the chain to the
+/// world.
 fn linkage(world: &mut World, points: &[DVec3], axes: &[DVec3]) {
     let bars: Vec<BodyId> = points.windows(2).map(|ends| bar(world, ends[0], ends[1])).collect();
     for (i, (point, axis)) in points.iter().zip(axes).enumerate() {
@@ -271,8 +274,8 @@ fn linkage(world: &mut World, points: &[DVec3], axes: &[DVec3]) {
     }
 }
 
-/// Bricard's mechanism of six bars along the edges of a cube, as in the IFToMM benchmark A05: it moves although a count of
-/// equations says that it cannot.
+/// Returns Bricard's mechanism of six bars along the edges of a cube, the IFToMM benchmark A05. It can move, although its number of
+/// constraint equations suggests that it cannot.
 fn bricard(method: &'static Method, step: f64) -> World {
     let mut world = world(method, step);
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -281,7 +284,7 @@ fn bricard(method: &'static Method, step: f64) -> World {
     world
 }
 
-/// A crank, a coupler and a rocker in a plane: twenty equations for eighteen degrees of freedom.
+/// Returns a planar mechanism of crank, coupler and rocker, with twenty constraint equations for eighteen degrees of freedom.
 fn four_bar(method: &'static Method, step: f64) -> World {
     let mut world = world(method, step);
     let points = [(0.0, 0.0), (0.0, 1.0), (2.0, 2.0), (2.5, 0.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
@@ -289,7 +292,7 @@ fn four_bar(method: &'static Method, step: f64) -> World {
     world
 }
 
-/// A door on two hinges, of which one would be enough.
+/// Returns a door on two hinges, one of which is redundant.
 fn door(method: &'static Method, step: f64) -> World {
     let mut world = world(method, step);
     let door = RigidBody::new(&Shape::Box { size: DVec3::new(0.8, 2.0, 0.04) }, 20.0)
@@ -326,7 +329,7 @@ fn equations_that_others_imply_do_no_harm() {
     }
 }
 
-/// A free body of two parts that are joined moves as one body does.
+/// Checks that two bodies joined rigidly move like a single body.
 #[test]
 fn two_bodies_that_are_fixed_to_each_other_are_one() {
     let method = method("rk4");
@@ -352,11 +355,11 @@ fn two_bodies_that_are_fixed_to_each_other_are_one() {
     one.advance_to(3.0);
     let turn = world.orientation(halves[0]).angle_between(one.orientation(whole));
     let place = world.location(halves[1]).distance(one.orientation(whole) * (DVec3::X * 0.25));
-    // (ωh)⁴ over a phase of 6; the angle between unit quaternions has a rounding error of 2e-8.
+    // The error is (ωh)⁴ over a phase of 6; the angle between unit quaternions has a rounding error of 2e-8.
     assert!(turn < 1e-7 && place < 1e-10, "{turn:e} {place:e}");
 }
 
-/// A block on a rail at 30° slides with g sin 30°, and does not turn.
+/// Checks that a block on a rail inclined by 30° slides with g sin 30°, and does not turn.
 #[test]
 fn a_slider_leads_along_its_axis_alone() {
     for method in that_keep_joints() {
@@ -371,7 +374,7 @@ fn a_slider_leads_along_its_axis_alone() {
         world.advance_to(1.0);
         let way = world.location(block) - DVec3::Y;
         let expected = -0.25 * G;
-        // Euler's methods are off by half a step of the velocity; the rest is exact for even acceleration.
+        // Euler methods have an error of half a step times the acceleration; all other methods are exact for a constant acceleration.
         let allowed = if method.order == 1 { 0.5 * G * 1e-3 } else { 1e-12 };
         assert!((way.dot(axis) - expected).abs() < allowed, "{}: {way}", method.name);
         assert!(way.cross(axis).length() < 1e-14, "{}: {way}", method.name);
@@ -379,7 +382,8 @@ fn a_slider_leads_along_its_axis_alone() {
     }
 }
 
-/// One that starts a little off is led back the shortest way; one that cannot be is named.
+/// Checks that a joint violated at the start is corrected by the smallest displacement, and that a joint that cannot be satisfied is
+/// reported by its number.
 #[test]
 fn a_start_that_does_not_fit_is_mended_or_named() {
     let mut world = pendulum(method("rk4"), 1e-3, 90.0);
@@ -400,7 +404,7 @@ fn a_start_that_does_not_fit_is_mended_or_named() {
     assert!(time == 0.0 && (0.5..=2.0).contains(&missing), "{error:?}");
 }
 
-/// A joint holds as long as both of its bodies are there: then the upper one is gone, and the lower one falls freely.
+/// Checks that a joint ends when one of its bodies disappears: the upper body disappears, and the lower one falls freely.
 #[test]
 fn a_joint_ends_with_its_body() {
     let end = 0.5;
@@ -419,7 +423,8 @@ fn a_joint_ends_with_its_body() {
     assert!(world.balance().drift.abs() < 1e-9, "{}", world.balance().drift);
 }
 
-/// Over 10,000 periods, the energy of RATTLE has no trend: that of the second half is as far off as that of the first.
+/// Checks that the energy of the RATTLE method has no trend over 10,000 periods: its mean deviation in the second half equals that in the
+/// first.
 #[test]
 fn the_energy_of_rattle_has_no_trend() {
     let mut world = pendulum(method("velocity-verlet"), 1.0 / 60.0, 30.0);

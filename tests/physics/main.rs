@@ -1,7 +1,7 @@
-//! The physics against closed forms and published values, for every method of integration.
+//! Tests of the physics against closed forms and published values, for every integration method.
 //!
-//! Tests that loop over `METHODS` take in a new method by its being in the table: its order p is all they ask for.
-//! Unless said otherwise, a tolerance is that of [`common::tolerance`].
+//! Tests that loop over `METHODS` include every new method in this table; they need only its order p. Unless stated otherwise, a tolerance
+//! is that of [`common::tolerance`].
 
 mod atoms;
 mod charges;

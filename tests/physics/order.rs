@@ -1,4 +1,4 @@
-//! The order of each method, measured: the slope of the logarithm of the error over that of the step.
+//! Tests of the order of each method, measured as the slope of the error's logarithm over that of the step.
 
 use glam::DVec3;
 use jabuka::dynamics::{
@@ -7,13 +7,13 @@ use jabuka::dynamics::{
 
 use crate::common::{SwingingField, air, ball, distance, method, tether};
 
-/// All problems last 1 s, with rates of about 2 /s, and are solved in 128 and in 256 steps.
+/// The tolerance of the measured order. All problems last 1 s, have rates of about 2 /s, and are solved in 128 and in 256 steps.
 ///
-/// The error is C hᵖ (1 + D h + …) with D about the rate, so the slope is off by D h / (2 ln 2) = 2 / 128 / 1.4, or
-/// 0.01: 0.1 leaves room for D, and is far from the next order. Rounding, 1e-15, is far below RK4's 1e-10.
+/// The error is C hᵖ (1 + D h + …) with D about equal to the rate, so the slope deviates by D h / (2 ln 2) = 2 / 128 / 1.4, or 0.01. A
+/// tolerance of 0.1 allows for a larger D, and is far from the next order. Rounding, 1e-15, is far below the 1e-10 of RK4.
 const SLOPE_TOLERANCE: f64 = 0.1;
 
-/// The end of one of the problems.
+/// A function that solves one of the problems by a method in a number of steps. Returns the final state.
 type Problem = fn(&'static Method, u32) -> State;
 
 fn world(method: &'static Method, steps: u32, body: RigidBody) -> World {
@@ -41,7 +41,7 @@ fn oscillator(method: &'static Method, steps: u32) -> State {
     world.state().clone()
 }
 
-/// x = cos ωt, y = sin ωt / ω with ω = 2.
+/// Checks the order on an oscillator: x = cos ωt, y = sin ωt / ω with ω = 2.
 #[test]
 fn order_on_an_oscillator() {
     let (sin, cos) = libm::sincos(2.0);
@@ -59,10 +59,10 @@ fn linear_drag(method: &'static Method, steps: u32) -> State {
     world.state().clone()
 }
 
-/// With c = 2, m = 1 and the terminal velocity u = (0, −1, 0): v = u + (v₀ − u) e^(−2t), and its integral. The work
-/// is −c ∫ v² dt = −2 ∫ e^(−4t) + (1 − e^(−2t))² dt = −2 (t − (1 − e^(−2t)) + (1 − e^(−4t)) / 2).
+/// Checks the order with linear drag: with c = 2, m = 1 and the terminal velocity u = (0, −1, 0), v = u + (v₀ − u) e^(−2t), and the
+/// location is its integral. The work is −c ∫ v² dt = −2 ∫ e^(−4t) + (1 − e^(−2t))² dt = −2 (t − (1 − e^(−2t)) + (1 − e^(−4t)) / 2).
 ///
-/// Plain velocity Verlet falls to first order here.
+/// Plain velocity Verlet would fall to first order with this force.
 #[test]
 fn order_with_linear_drag() {
     let decay = libm::exp(-2.0);
@@ -85,8 +85,9 @@ fn rotation_under_torque(method: &'static Method, steps: u32) -> State {
     world.state().clone()
 }
 
-/// No closed form: the reference is RK4 with steps 1/16 of the smallest, whose own error is 16⁻⁴ of the smallest. That
-/// RK4 goes to the right place the other methods witness, which share nothing with it, and the flip in `rotation`.
+/// Checks the order of a rotation under a torque. It has no closed form: the reference is RK4 with 1/16 of the smallest step, whose error
+/// is 16⁻⁴ of that of the smallest step. The other methods, which share no code with RK4, and the flip in `rotation.rs` confirm that RK4
+/// converges to the right solution.
 #[test]
 fn order_of_a_rotation_under_torque() {
     assert_orders(rotation_under_torque, &rotation_under_torque(method("rk4"), 4096));
@@ -103,8 +104,8 @@ fn magnet(method: &'static Method, steps: u32) -> State {
     world.state().clone()
 }
 
-/// Loads that depend on time and on orientation: each must be evaluated at the right moment of the step. The location
-/// has a closed form: v' = (cos 2t, 1, sin 2t) from rest. For the rest, the reference is RK4 as above.
+/// Checks the order with loads that depend on time and on orientation, so that each must be evaluated at the right moment of the step. The
+/// location has a closed form: v' = (cos 2t, 1, sin 2t) from rest. For the other quantities, the reference is RK4 with 4,096 steps.
 #[test]
 fn order_in_a_field_that_swings() {
     let mut exact = magnet(method("rk4"), 4096);
@@ -130,7 +131,7 @@ fn hung(method: &'static Method, steps: u32) -> State {
     world.state().clone()
 }
 
-/// A body that turns as it is pulled at a point, by springs and dampers. The reference is RK4 as above.
+/// Checks the order for a body that turns because springs and dampers pull at a point of it. The reference is RK4 with 4,096 steps.
 #[test]
 fn order_of_a_body_hung_by_a_point() {
     assert_orders(hung, &hung(method("rk4"), 4096));

@@ -1,4 +1,4 @@
-//! What joints do to their bodies, against closed forms.
+//! Tests of the constraint forces and torques of joints against closed forms.
 
 use glam::DVec3;
 use jabuka::dynamics::{
@@ -10,7 +10,7 @@ use crate::common::{ball, method};
 
 const G: f64 = 9.81;
 
-/// A world with gravity, and a ball of 1 kg at a place.
+/// Returns a world with gravity and a ball of 1 kg at a location, and the ball.
 fn world(method: &'static Method, location: DVec3) -> (World, BodyId) {
     let mut world = World::new();
     world.set_integrator(method);
@@ -50,13 +50,13 @@ fn what_hangs_is_held_by_its_weight() {
             assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, 0.0, 0.0, 0.0), "{found:?}");
         }
     }
-    // A rope that is slack holds nothing.
+    // A slack rope exerts no force.
     let (mut slack, body) = world(method("rk4"), DVec3::NEG_Y);
     slack.add_constraint(Rope { between: [ORIGIN, Anchor::centre(body)], length: 2.0 });
     assert_eq!(reaction(&mut slack), Reaction::default());
 }
 
-/// T = m g cos θ + m v²/ℓ = m g (3 cos θ − 2 cos θ₀), by the energy of a swing from rest.
+/// Checks the tension T = m g cos θ + m v²/ℓ = m g (3 cos θ − 2 cos θ₀) of a pendulum's rod, by the energy of a swing from rest.
 #[test]
 fn the_tension_of_a_pendulum_is_that_of_its_swing_to_the_order_of_the_method() {
     let start = 1.2;
@@ -68,14 +68,14 @@ fn the_tension_of_a_pendulum_is_that_of_its_swing_to_the_order_of_the_method() {
         world.advance_to(t);
         let (place, velocity) = (world.location(body), world.velocity(body));
         let found = reaction(&mut world);
-        // Towards the pivot, and right for its own angle and speed to rounding.
+        // The force points to the pivot, and agrees up to rounding with the simulated angle and speed.
         let own = -place.y * G + velocity.length_squared();
         assert!((found.force + own * place).length() < 1e-11, "{found:?} {own}");
         found.force.length() - G * (-3.0 * place.y - 2.0 * cos)
     };
     for t in [0.4, 0.9, 1.5] {
         let [coarse, fine] = [0.02, 0.01].map(|h| error("rk4", h, t).abs());
-        // Kept energies lose a whole order: 2⁴ at least, less what the next order takes.
+        // Halving the step divides the error by about 2⁴ for rk4; the next order of the error makes the ratio a little smaller.
         assert!(coarse < 1e-4 && fine < coarse / 12.0, "{t}: {coarse:e} {fine:e}");
         let [coarse, fine] = [0.02, 0.01].map(|h| error("velocity-verlet", h, t).abs());
         assert!(coarse < 0.05 && fine < coarse / 3.0, "{t}: {coarse:e} {fine:e}");
@@ -85,7 +85,7 @@ fn the_tension_of_a_pendulum_is_that_of_its_swing_to_the_order_of_the_method() {
 #[test]
 fn a_hinge_and_a_clamp_bear_the_torque_of_a_weight_beside_them() {
     for method in methods() {
-        // The weight hangs below the axis z, and half a metre along it.
+        // The weight hangs below the z axis, and 0.5 m from the joint along this axis.
         let r = DVec3::new(0.0, -1.0, 0.5);
         let (mut hinged, body) = world(method, r);
         let between = [ORIGIN, Anchor::Body { id: body, at: -r }];
@@ -103,7 +103,8 @@ fn a_hinge_and_a_clamp_bear_the_torque_of_a_weight_beside_them() {
     }
 }
 
-/// The same joint with its ends the other way round does the opposite; the world bears what a body does not.
+/// Checks that a joint reports the opposite reaction when its two ends are exchanged, both between two bodies and between a body and the
+/// world.
 #[test]
 fn actions_are_opposite() {
     let pair = |turned: bool| {
@@ -141,7 +142,7 @@ fn a_motor_that_is_too_weak_gives_what_it_has() {
     assert!(is_near(found.force, 0.0, G, 0.0) && is_near(found.torque, 0.0, 0.0, 0.25), "{found:?}");
 }
 
-/// A slider holds what it does not let move, and nothing along its axis.
+/// Checks that a slider exerts forces only across its axis, and none after its body has disappeared.
 #[test]
 fn a_joint_whose_body_is_away_does_nothing() {
     let (mut world, body) = world(method("rk4"), DVec3::ZERO);
@@ -152,7 +153,7 @@ fn a_joint_whose_body_is_away_does_nothing() {
         turned: glam::DQuat::IDENTITY,
         freedom: Freedom::default(),
     });
-    // m g less its part along the axis.
+    // The force is m g without its component along the axis.
     let found = reaction(&mut world);
     assert!(is_near(found.force, -0.48 * G, 0.36 * G, 0.0), "{found:?}");
     world.advance_to(1.0);

@@ -1,4 +1,4 @@
-//! `jabuka export SCENE -o FILE.glb`, as the validator of Khronos and three.js see it.
+//! Tests of `jabuka export SCENE -o FILE.glb`: models are checked by the Khronos glTF validator and loaded by three.js.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use jabuka::scene::{Options, Override};
 use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
 
-/// What `look.mjs` says of a file.
+/// The contents of a model file, as `look.mjs` reports them after loading it with three.js.
 #[derive(Deserialize)]
 struct Seen {
     errors: u32,
@@ -31,7 +31,7 @@ struct SeenCamera {
     name: String,
     near: f64,
     far: f64,
-    /// Where bodies are seen at each time.
+    /// The position of each body in the picture, one list for each time.
     spots: Vec<Vec<[f64; 2]>>,
 }
 
@@ -49,15 +49,15 @@ struct SeenLight {
 #[derive(Deserialize)]
 struct SeenBody {
     name: String,
-    /// Around the triangles at the first time.
+    /// The lower and upper corner of the body's bounding box at the first time, m, world axes.
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
     poses: Vec<[f64; 7]>,
-    /// At each time, and between each two.
+    /// The scale of the body at each time, and halfway between consecutive times.
     sizes: Vec<f64>,
 }
 
-/// Looks at files, which must be good.
+/// Loads model files with `look.mjs`, and asserts that the validator reports no errors or warnings.
 fn look(files: &[PathBuf]) -> Vec<Seen> {
     let output = Command::new(root().join("tests/output/with_tools/gltf/look")).args(files).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
@@ -75,7 +75,7 @@ fn export(scene: &Path, file: &Path, arguments: &[&str]) -> String {
     stdout(&output)
 }
 
-/// The rows of one frame of a table: its time, and the name, location and orientation of each body.
+/// One frame of an exported table: its time, and the name, location and orientation of each body.
 type Rows = (f64, Vec<(String, DVec3, DQuat)>);
 
 fn table(file: &Path) -> Vec<Rows> {
@@ -90,9 +90,9 @@ fn table(file: &Path) -> Vec<Rows> {
     frames.map(|rows| (rows[0][0].parse().unwrap(), rows.iter().map(body).collect())).collect()
 }
 
-/// Asserts that bodies are where a table says, to the accuracy of `f32`.
+/// Asserts that the bodies of a model are where the table says, to the accuracy of `f32`.
 fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
-    // Where nothing moves, there are no keys.
+    // A model without motion has only one time.
     assert!(seen.times.len() == table.len() || seen.times == [0.0], "{name}");
     let end = seen.times.len() - 1;
     let faster = if end == 0 { 1.0 } else { table[end].0 / seen.times[end] };
@@ -102,7 +102,7 @@ fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
         assert!((shown * faster - time).abs() <= 3e-7 * time, "{name}: {shown} for {time}");
         let mut places = seen.bodies.iter();
         for (known, location, orientation) in bodies {
-            // In the order of the scene; those that are not there have no row.
+            // Both lists follow the order of the scene; a body that does not exist in a frame has no row in the table.
             let body = places.find(|body| body.name == *known).unwrap();
             let [x, y, z, ref turn @ ..] = body.poses[i];
             let off = (DVec3::new(x, y, z) - location).length();
@@ -114,15 +114,16 @@ fn assert_same_motion(name: &str, seen: &Seen, table: &[Rows]) {
     }
 }
 
-/// Asserts that the triangles of bodies reach as far as their shapes.
+/// Asserts that the triangles of each body have the same extent as its shape.
 fn assert_same_extent(name: &str, seen: &Seen, scene: &Scene) {
     let first = Frames::new(scene).next().unwrap().unwrap();
-    // Those that are there at the beginning.
+    // Only bodies that exist at the beginning can be compared.
     for place in &first.bodies {
         let (body, drawn) = (&seen.bodies[place.id], &scene.bodies[place.id]);
         let shape = drawn.drawn();
         let Some(size) = shape.bounding_radius() else { continue };
-        // Chords of 7.5° and 15°; mechanics takes axes for as thick as their tips everywhere.
+        // Curves are drawn with chords of 7.5° and 15°. Along the whole length of an axes triad, the dynamics uses the thickness of the
+        // arrow heads.
         let tolerance = if matches!(shape, Shape::Axes { .. }) { 0.1 } else { 0.02 };
         for (axis, direction) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
             for (end, sign) in [(1, 1.0), (0, -1.0)] {
@@ -135,7 +136,7 @@ fn assert_same_extent(name: &str, seen: &Seen, scene: &Scene) {
     }
 }
 
-/// What a camera sees: how many spots were where they must be.
+/// Asserts that the model's cameras show each body at the same place as the pictures do. Returns the number of compared places.
 fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) -> usize {
     let survey = survey(scene, |_| {}).unwrap();
     let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
@@ -149,7 +150,7 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
         let lens = plan.camera(&frames[0]).lens();
         for (frame, spots) in frames.iter().zip(&found.spots) {
             let placed = plan.camera(frame);
-            // An angle that changes is as it is at the start.
+            // A model's camera keeps its first angle of view, so frames with another angle are skipped.
             if placed.lens() != lens {
                 continue;
             }
@@ -160,7 +161,7 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
                 if of_x.abs().max(of_y.abs()) > 1.5 {
                     continue;
                 }
-                // Places are of `f32`.
+                // The model stores locations as `f32`.
                 let far = body.location.length().max(placed.location().length());
                 let most = 1e-5 + 2e-7 * far * spot.metre * aspect;
                 let off = (of_x - x).abs().max((of_y - y).abs());
@@ -176,7 +177,7 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
     compared
 }
 
-/// Asserts that the lights are those of the picture, as bright in the middle of everything.
+/// Asserts that a model has the same lights as the picture, with the same brightness at the center of the scene.
 fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) {
     let plan = Plan::new(scene, &scene.camera, &survey(scene, |_| {}).unwrap());
     let stage = plan.stage();
@@ -203,7 +204,7 @@ fn assert_same_lights(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame]) 
     }
 }
 
-/// Exports scenes as models and as tables, and holds one against the other.
+/// Exports scenes as models and as tables, and compares each model with its table and its scene.
 fn check(scenes: &[PathBuf], folder: &Path) {
     let both = |scene: &PathBuf| {
         let file = folder.join(scene.file_name().unwrap()).with_extension("glb");
@@ -223,7 +224,7 @@ fn check(scenes: &[PathBuf], folder: &Path) {
         let spots = assert_same_picture(name, &seen, &scene, &frames);
         assert!(spots > 0, "{name}: something is seen");
         assert_same_lights(name, &seen, &scene, &frames);
-        // With many bodies, each is drawn more coarsely.
+        // In scenes with many bodies, each body has fewer triangles, so its extent is less accurate.
         if scene.bodies.len() < 50 {
             assert_same_extent(name, &seen, &scene);
         }
@@ -241,7 +242,8 @@ fn every_scene_is_valid_and_moves_as_its_table_says() {
     check(&scenes, folder.path());
 }
 
-/// What the gallery does not have: a plane that is turned, compounds, patterns, looks of all kinds, a body that is drawn larger.
+/// A scene with features that the gallery lacks: a tilted plane, compounds, patterns, materials of all kinds, and a body drawn larger than
+/// it is.
 const ODD: &str = r##"
     simulation.duration = 1
     [material.words]
@@ -288,7 +290,7 @@ const ODD: &str = r##"
     orientation = [0, 0, 20]
     "##;
 
-/// Cameras that stand, look straight down and up, move in all ways, and lights of all kinds.
+/// A scene with cameras that stand still, look straight down or up, or move, and with lights of all kinds.
 const VIEWS: &str = "
     simulation = { duration = 2, gravity = [0, -9.81, 0] }
     output.size = [300, 400]
@@ -343,7 +345,7 @@ fn cameras_see_and_lights_shine_as_in_the_pictures() {
     fs::write(&path, VIEWS).unwrap();
     check(std::slice::from_ref(&path), folder.path());
 
-    // Some frames are as they are among all, with what has been before.
+    // Selected frames look as in the full run, including traces of the time before them.
     let file = folder.path().join("some.glb");
     export(&path, &file, &["--frames", "30-40"]);
     let scene = Scene::from_path(&path).unwrap();
@@ -375,7 +377,7 @@ const COMING: &str = "
     end = 0.4
     ";
 
-/// What is away has the size 0, from the very time on at which it goes, and until the very time at which it comes.
+/// Checks that an absent body has size 0, exactly from the time of its end to the time of its next start.
 #[test]
 fn bodies_that_come_and_go_are_hidden_while_they_are_away() {
     let folder = tempfile::tempdir().unwrap();
@@ -385,12 +387,12 @@ fn bodies_that_come_and_go_are_hidden_while_they_are_away() {
     let seen = look(&[file]).remove(0);
     let scene = Scene::from_path(&path).unwrap();
     let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
-    // Behind them, there is the ground.
+    // The entries after the bodies are the ground and other parts of the scene.
     for (id, body) in seen.bodies.iter().take(scene.bodies.len()).enumerate() {
         assert_eq!(body.sizes.len(), 2 * frames.len() - 1);
         for (i, frame) in frames.iter().enumerate() {
             let at = frame.body(id);
-            // Until a frame, a body is as in the one before.
+            // A body keeps its size until the next frame.
             let size = if at.is_some() { 1.0 } else { 0.0 };
             let until_next =
                 body.sizes.get(2 * i + 1).is_none_or(|next| (next - size).abs() < 1e-6 || id == 0);
@@ -447,7 +449,7 @@ fn some_frames_are_those_at_their_times() {
     assert_same_motion("projectile", &seen[0], &table(&rows));
 }
 
-/// Springs and joints of all kinds, of which one rope is slack.
+/// A scene with springs and joints of all kinds. One of its ropes is slack.
 const LINKS: &str = "
     simulation = { duration = 1, gravity = [0, -9.81, 0], integrator = 'rk4', frame_rate = 10 }
     [body.bob]
@@ -516,7 +518,7 @@ fn springs_and_joints_are_where_the_picture_has_them() {
             let (its, others) = rest.split_at(count);
             rest = others;
             assert_eq!(its[0].name, format!("link {}", planned.name));
-            // Sizes are also said between two times.
+            // `sizes` also holds values between the times, so frame i has the index 2 i.
             let size = its[0].sizes[2 * i];
             match link.map(|link| link.form) {
                 None => assert_eq!(size, 0.0, "{} in {i}", planned.name),
@@ -542,6 +544,6 @@ fn springs_and_joints_are_where_the_picture_has_them() {
         }
         assert!(rest.is_empty());
     }
-    // Two parts of string, pivot, rail and coil; the cord; the knob and the rope of the tether.
+    // The eleven frames each have: two parts for string, rail and coil, one for pivot and cord, and one for the tether's knob or rope.
     assert_eq!(compared, 11 * (2 + 1 + 1 + 2 + 2 + 1), "{}", nodes.len());
 }

@@ -1,3 +1,3 @@
-//! What other programs make of the output.
+//! Tests of the output that need other programs.
 
 mod gltf;
