@@ -1,18 +1,18 @@
 //! The model: all quantities that are constant in time, such as the masses of the bodies and the forces on them.
 
 mod away;
+mod guided;
+mod loads;
+mod sparse;
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
 use self::away::Away;
-use super::{
-    Accounts, Breakdown, Constraint, Effort, Force, Gravitation, Kinematics, Loads, Moment, Motion,
-    RigidBody, Shape, State,
-};
+use self::sparse::Sparse;
+use super::{Breakdown, Constraint, Effort, Force, Gravitation, Motion, RigidBody, Shape, State};
 
 /// The constants of the equations of motion: masses, inertia and forces. With a [`State`], the model determines x' = v, v' = F/m, L' = τ
 /// and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -142,11 +142,6 @@ impl Model {
         self.forces.iter().find_map(|force| force.gravitation())
     }
 
-    /// Returns true if any present body follows a given motion.
-    pub(super) fn has_guided(&self) -> bool {
-        self.guided().next().is_some()
-    }
-
     /// Returns true if forces move no body at all, present or absent.
     pub(super) fn is_given(&self) -> bool {
         self.frozen.is_empty()
@@ -210,11 +205,6 @@ impl Model {
         &self.constraints
     }
 
-    /// Returns the given motion of a body; `None` if forces move it or it is fixed.
-    pub(super) fn motion(&self, body: usize) -> Option<Arc<dyn Motion>> {
-        self.motions.iter().find(|(other, _)| *other == body).map(|(_, motion)| motion.clone())
-    }
-
     /// Returns the counter of computed pair interactions, for progress bars.
     pub(super) fn effort(&self) -> &Effort {
         &self.effort
@@ -272,51 +262,6 @@ impl Model {
         state.angular_momentum.push(angular_momentum);
     }
 
-    /// Makes a body follow a given motion from now on. Its inverse mass becomes 0, so that loads do not move it.
-    pub(super) fn drive(&mut self, body: usize, motion: Arc<dyn Motion>) {
-        let is_fixed = !self.movable[body];
-        let is_driven = !is_fixed && self.inverse_mass[body] == 0.0;
-        if is_driven {
-            self.motions.retain(|(other, _)| *other != body);
-        } else if !is_fixed {
-            self.unmoved.push(body);
-        }
-        self.motions.push((body, motion));
-        self.movable[body] = true;
-        self.inverse_mass[body] = 0.0;
-        // The inverse moments stay: the angular velocity is computed from them and the angular momentum.
-        self.inverse_inertia[body] =
-            self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
-    }
-
-    /// Returns the present bodies with a given motion, each with its motion.
-    fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
-        let present = self.motions.iter().filter(|(i, _)| self.is_present(*i));
-        present.map(|(i, motion)| (*i, &**motion))
-    }
-
-    /// Sets the force on each body with a given motion to m a, the force that this motion requires.
-    pub(super) fn guide(&self, t: f64, loads: &mut Loads) {
-        for (i, motion) in self.guided() {
-            loads.force[i] = self.mass[i] * motion.at(t).acceleration;
-        }
-    }
-
-    /// Places all present bodies with a given motion where they are at time `t`, s.
-    pub fn place(&self, t: f64, state: &mut State) {
-        self.guided().for_each(|(i, motion)| self.place_body(i, &motion.at(t), state));
-    }
-
-    /// Sets the position, orientation and velocities of one body to those of `given`.
-    pub(super) fn place_body(&self, i: usize, given: &Kinematics, state: &mut State) {
-        let orientation = (given.orientation * self.principal_axes.get(i)).normalize();
-        let in_body = orientation.conjugate() * given.angular_velocity;
-        state.location[i] = given.location;
-        state.velocity[i] = given.velocity;
-        state.orientation[i] = orientation;
-        state.angular_momentum[i] = orientation * (self.inertia[i] * in_body);
-    }
-
     pub(super) fn push_force(&mut self, force: Arc<dyn Force>) {
         self.forces.push(force);
     }
@@ -342,83 +287,6 @@ impl Model {
             (true, false) => self.torqued.retain(|&other| other != body),
             _ => {}
         }
-    }
-
-    /// Computes the sums of all forces and torques at `time`, s, and writes them to `loads`. Constraint forces are not included:
-    /// [`System::evaluate`](super::System::evaluate) adds them.
-    ///
-    /// The loads on bodies that do not move are zero, because the support of the body balances them.
-    pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
-        self.sum(time, state, loads);
-        self.bear(state, loads);
-    }
-
-    /// Computes the sums of the forces on a range of bodies, including bodies that no load moves. Torques and power are not changed.
-    /// Returns false if any force can only be evaluated for all bodies; the loads are then invalid.
-    pub(super) fn sum_part(&self, bodies: Range<usize>, time: f64, state: &State, loads: &mut Loads) -> bool {
-        loads.force.resize(self.len(), DVec3::ZERO);
-        self.force.write_part(&mut loads.force, bodies.clone());
-        let moment = Moment { time, state, model: self };
-        self.forces.iter().all(|force| force.apply_to(bodies.clone(), &moment, loads))
-    }
-
-    /// Computes the sums of all forces and torques, including those on bodies that no load moves.
-    pub(super) fn sum(&self, time: f64, state: &State, loads: &mut Loads) {
-        if self.sum_in_focus(time, state, loads) {
-            return;
-        }
-        self.force.write(&mut loads.force, self.len());
-        self.torque.write(&mut loads.torque, self.len());
-        loads.power = Accounts::default();
-        for &i in &self.torqued {
-            loads.power.work += self.torque.get(i).dot(self.angular_velocity(i, state));
-        }
-        let moment = Moment { time, state, model: self };
-        for force in &self.forces {
-            force.apply(&moment, loads);
-        }
-    }
-
-    /// Computes the loads only on the bodies that are advanced at present; those on other bodies become invalid. Returns false if all
-    /// bodies are advanced, or if any force can only be evaluated for all bodies.
-    fn sum_in_focus(&self, time: f64, state: &State, loads: &mut Loads) -> bool {
-        let Some(bodies) = self.in_focus().filter(|_| !self.turns_bodies() && !self.depends_on_motion())
-        else {
-            return false;
-        };
-        loads.force.resize(self.len(), DVec3::ZERO);
-        loads.torque.resize(self.len(), DVec3::ZERO);
-        loads.power = Accounts::default();
-        let moment = Moment { time, state, model: self };
-        bodies.iter().all(|&i| {
-            (loads.force[i], loads.torque[i]) = (self.force.get(i), self.torque.get(i));
-            self.forces.iter().all(|force| force.apply_to(i..i + 1, &moment, loads))
-        })
-    }
-
-    /// Sets the loads to zero on bodies that no load moves: the support of a fixed body, or the guide of a body with a given motion, bears
-    /// them.
-    pub(super) fn bear(&self, state: &State, loads: &mut Loads) {
-        for (i, _) in self.guided() {
-            // The guide of a body makes it follow its given motion. It exerts the opposite loads, so its work has the opposite sign.
-            let turning = loads.torque[i].dot(self.angular_velocity(i, state));
-            loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
-        }
-        for &i in &self.unmoved {
-            loads.force[i] = DVec3::ZERO;
-            loads.torque[i] = DVec3::ZERO;
-        }
-    }
-
-    /// Computes the potential energy of all forces that have one, J. A constant force has the potential −F·x.
-    #[must_use]
-    pub fn potential(&self, time: f64, state: &State) -> f64 {
-        let mut potential = 0.0;
-        for i in (0..self.len()).filter(|&i| self.movable[i]) {
-            potential -= self.force.get(i).dot(state.location[i]);
-        }
-        let moment = Moment { time, state, model: self };
-        self.forces.iter().fold(potential, |sum, force| sum + force.potential(&moment))
     }
 
     /// Returns the changes of velocity (m/s) and angular velocity (rad/s) of a body by an impulse and its moment about the center of mass.
@@ -456,51 +324,4 @@ impl Model {
 /// Returns true if all three principal moments are equal, as for a sphere or a cube.
 pub(super) fn is_isotropic(moments: DVec3) -> bool {
     moments.x == moments.y && moments.y == moments.z
-}
-
-/// A quantity that has its default value for most bodies. The list ends at the last body with another value, to save memory.
-#[derive(Clone, Default)]
-struct Sparse<T>(Vec<T>);
-
-/// A type with a default value for [`Sparse`] lists.
-trait Nothing: Copy + PartialEq {
-    const NOTHING: Self;
-}
-
-impl Nothing for DVec3 {
-    const NOTHING: DVec3 = DVec3::ZERO;
-}
-
-impl Nothing for DQuat {
-    const NOTHING: DQuat = DQuat::IDENTITY;
-}
-
-impl<T: Nothing> Sparse<T> {
-    fn get(&self, body: usize) -> T {
-        self.0.get(body).copied().unwrap_or(T::NOTHING)
-    }
-
-    fn set(&mut self, body: usize, value: T) {
-        if body >= self.0.len() && value != T::NOTHING {
-            self.0.resize(body + 1, T::NOTHING);
-        }
-        if let Some(place) = self.0.get_mut(body) {
-            *place = value;
-        }
-    }
-
-    /// Writes the values of bodies 0 to `bodies` − 1 to `out`, and replaces its contents.
-    fn write(&self, out: &mut Vec<T>, bodies: usize) {
-        out.clone_from(&self.0);
-        out.resize(bodies, T::NOTHING);
-    }
-
-    /// Writes the values of a range of bodies to the same range of `out`.
-    fn write_part(&self, out: &mut [T], bodies: Range<usize>) {
-        let known = self.0.len().clamp(bodies.start, bodies.end);
-        out[known..bodies.end].fill(T::NOTHING);
-        if known > bodies.start {
-            out[bodies.start..known].copy_from_slice(&self.0[bodies.start..known]);
-        }
-    }
 }

@@ -1,0 +1,52 @@
+//! Lists of quantities that have their default values for most bodies.
+
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+
+/// A quantity that has its default value for most bodies. The list ends at the last body with another value, to save memory.
+#[derive(Clone, Default)]
+pub(super) struct Sparse<T>(Vec<T>);
+
+/// A type with a default value for [`Sparse`] lists.
+pub(super) trait Nothing: Copy + PartialEq {
+    const NOTHING: Self;
+}
+
+impl Nothing for DVec3 {
+    const NOTHING: DVec3 = DVec3::ZERO;
+}
+
+impl Nothing for DQuat {
+    const NOTHING: DQuat = DQuat::IDENTITY;
+}
+
+impl<T: Nothing> Sparse<T> {
+    pub(super) fn get(&self, body: usize) -> T {
+        self.0.get(body).copied().unwrap_or(T::NOTHING)
+    }
+
+    pub(super) fn set(&mut self, body: usize, value: T) {
+        if body >= self.0.len() && value != T::NOTHING {
+            self.0.resize(body + 1, T::NOTHING);
+        }
+        if let Some(place) = self.0.get_mut(body) {
+            *place = value;
+        }
+    }
+
+    /// Writes the values of bodies 0 to `bodies` − 1 to `out`, and replaces its contents.
+    pub(super) fn write(&self, out: &mut Vec<T>, bodies: usize) {
+        out.clone_from(&self.0);
+        out.resize(bodies, T::NOTHING);
+    }
+
+    /// Writes the values of a range of bodies to the same range of `out`.
+    pub(super) fn write_part(&self, out: &mut [T], bodies: Range<usize>) {
+        let known = self.0.len().clamp(bodies.start, bodies.end);
+        out[known..bodies.end].fill(T::NOTHING);
+        if known > bodies.start {
+            out[bodies.start..known].copy_from_slice(&self.0[bodies.start..known]);
+        }
+    }
+}
