@@ -98,9 +98,9 @@ pub(super) fn torus(radius: f64, tube_radius: f64) -> DVec3 {
 
 /// Returns the volume (m³) of a rounded box, and its moments of inertia divided by its mass (m²).
 ///
-/// Let a, b and c be the inner edges. A slice across x at |x| ≤ a/2 is the rectangle b × c extended by r, with round corners. At |x| = a/2
-/// + u, the rectangle is extended by √(r² − u²). Extended by ρ, its area is b c + 2 (b + c) ρ + π ρ². The mean of x² follows from ∫ uⁿ du,
-/// ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
+/// Let a, b and c be the inner edges. A slice across x at |x| ≤ a/2 is the rectangle b × c extended by r, with round corners. At
+/// |x| = a/2 + u, the rectangle is extended by √(r² − u²). Extended by ρ, its area is b c + 2 (b + c) ρ + π ρ². The mean of x² follows from
+/// ∫ uⁿ du, ∫ uⁿ √(r² − u²) du and ∫ uⁿ (r² − u²) du over 0 … r, for n = 0, 1, 2.
 pub(super) fn rounded_box(size: DVec3, rounding: f64) -> (f64, DVec3) {
     // The fifth powers of lengths could overflow, so all lengths are divided by the longest edge.
     let unit = size.max_element();
