@@ -1,0 +1,125 @@
+//! Replaces a formula by its value, or by a compiled program if its value depends on the time or on random numbers of particles.
+
+use std::sync::Arc;
+
+use super::{Expander, repeat};
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::drawn::DrawnFormula;
+use crate::scene::expression::Formula;
+use crate::scene::source::{Node, Value};
+use crate::scene::timed::TimeFormula;
+
+impl Expander<'_> {
+    /// Replaces a formula (a string) by its value. Leaves values of other types unchanged.
+    pub(super) fn number(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        if self.is_hopeless(node.span)
+            || self.has_unit(text, node.span)
+            || self.asks_for_body(text, node.span, false)
+        {
+            node.value = Value::Invalid;
+            return;
+        }
+        if self.is_default {
+            self.look_over(text, node.span);
+            node.value = Value::Invalid;
+            return;
+        }
+        node.value = self.evaluate(text, node.span).map_or(Value::Invalid, Value::Float);
+    }
+
+    /// Returns true if another copy has reported an error in this formula. The formula is then not evaluated again.
+    pub(super) fn is_hopeless(&self, span: Span) -> bool {
+        self.copy.is_some() && self.told.contains(&span)
+    }
+
+    /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula that depends on the time as a compiled program.
+    pub(super) fn timed(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        if self.is_hopeless(node.span)
+            || self.has_unit(text, node.span)
+            || self.asks_for_body(text, node.span, true)
+        {
+            node.value = Value::Invalid;
+            return;
+        }
+        let (text, span) = (text.clone(), node.span);
+        let Some(formula) = self.parsed(&text, span) else {
+            node.value = Value::Invalid;
+            return;
+        };
+        let changes = formula.names().any(|(name, _)| name == "t");
+        self.look_at_angles(&formula, span);
+        match self.time_formula(&formula, text, span) {
+            Some(_) if !changes => self.number(node),
+            found => node.value = found.map_or(Value::Invalid, Value::Formula),
+        }
+    }
+
+    fn time_formula(&mut self, formula: &Formula, text: Arc<str>, span: Span) -> Option<Arc<TimeFormula>> {
+        if !self.broken.is_empty() && formula.names().any(|(name, _)| self.broken.contains(name)) {
+            return None;
+        }
+        self.scope.slot("t");
+        let resolved = formula.resolve(&self.scope);
+        self.scope.remove_slot("t");
+        let resolved = self.keep(resolved, formula.text(), span)?;
+        let resolved = resolved.with_draws(&self.drawn(&resolved));
+        let read = self.timed_formulas.read(text, span, &resolved).map_err(|error| vec![error]);
+        let read = self.keep(read, formula.text(), span)?;
+        self.work += repeat::work_of_motion(&read);
+        Some(read)
+    }
+
+    /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula with random numbers or the time as a compiled
+    /// program. Each particle then evaluates the program with its own random numbers.
+    pub(super) fn drawn_later(&mut self, node: &mut Node) {
+        let Value::String(text) = &node.value else { return };
+        let (text, span) = (text.clone(), node.span);
+        node.value = Value::Invalid;
+        if self.has_unit(&text, span) || self.asks_for_body(&text, span, true) {
+            return;
+        }
+        let Some(formula) = self.parsed(&text, span) else { return };
+        if formula.names().any(|(name, _)| self.broken.contains(name)) {
+            return;
+        }
+        self.look_at_angles(&formula, span);
+        self.scope.slot("t");
+        let resolved = formula.resolve(&self.scope);
+        self.scope.remove_slot("t");
+        let Some(resolved) = self.keep(resolved, &text, span) else { return };
+        let changes = formula.names().any(|(name, _)| name == "t") || !resolved.draws().is_empty();
+        if !changes {
+            node.value = self.value_of(&formula, span).map_or(Value::Invalid, Value::Float);
+            return;
+        }
+        let program = resolved.compile().map_err(|error| vec![error]);
+        let program = self.keep(program, &text, span);
+        let drawn = program.map(|program| Arc::new(DrawnFormula::new(text, program)));
+        node.value = drawn.map_or(Value::Invalid, Value::Drawn);
+    }
+
+    /// Replaces a formula by its value, as [`Expander::number`] does, and reports an error if that value is not a whole number.
+    pub(super) fn integer(&mut self, node: &mut Node) {
+        /// The largest number (2⁵³) up to which an `f64` represents all whole numbers.
+        const LARGEST: f64 = 9_007_199_254_740_992.0;
+        if !matches!(node.value, Value::String(_)) {
+            return;
+        }
+        self.number(node);
+        let Value::Float(value) = node.value else { return };
+        #[allow(clippy::cast_possible_truncation, reason = "it is whole, and 64 bits hold it")]
+        if value.trunc() == value && value.abs() <= LARGEST {
+            node.value = Value::Integer(value as i64);
+        } else {
+            let message = format!("expected a whole number, found {value}{}", self.in_copy());
+            let error =
+                Diagnostic::error(Code::WrongType, message).at(node.span, "the value of this formula");
+            if self.told.insert(node.span) {
+                self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
+            }
+            node.value = Value::Invalid;
+        }
+    }
+}
