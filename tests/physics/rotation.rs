@@ -1,4 +1,4 @@
-//! Free rotation about the middle axis (Dzhanibekov's nut, the tennis racket).
+//! Tests of free rotation about the intermediate principal axis, which is unstable (Dzhanibekov's wing nut, the tennis racket).
 
 use glam::DVec3;
 use jabuka::dynamics::{BodyId, Method, RigidBody, Shape, World};
@@ -18,20 +18,20 @@ fn nut(method: &'static Method) -> (World, BodyId) {
     (world, id)
 }
 
-/// The angular velocity as seen in the frame of the body.
+/// Returns the angular velocity of a body in body axes, rad/s.
 fn in_body(world: &World, id: BodyId) -> DVec3 {
     world.orientation(id).conjugate() * world.angular_velocity(id)
 }
 
-/// What turns at |ω| = 5 rad/s for `time` has the relative error `tolerance`. Split steps keep the rotation about
-/// the middle axis, from which the nut departs, as it is; those of RK4 disturb it, and what disturbs the 0.001 rad/s
-/// by which the nut is off the axis grows with it, to 5 rad/s: 5,000-fold.
+/// Returns the allowed error of the angular velocity after a time, rad/s. A rotation at |ω| = 5 rad/s has the relative error `tolerance`.
+/// Methods with split steps do not disturb the unstable rotation about the intermediate axis. RK4 does, and its errors grow with the
+/// initial deviation of 0.001 rad/s, which grows to 5 rad/s: 5,000-fold.
 fn allowed(method: &Method, time: f64) -> f64 {
     let growth = if method.name == "rk4" { 5000.0 } else { 1.0 };
     growth * tolerance(method, 5.0 * time, (time / STEP) as u32)
 }
 
-/// The components at t = 10 s, during the second flip: with them the whole error of the time of the flip is seen.
+/// Checks the components at t = 10 s, during the second flip, where an error in the time of the flip is fully visible.
 #[test]
 fn the_angular_velocity_during_the_second_flip() {
     const END: DVec3 = DVec3::new(4.510_627_124_012, -2.157_369_682_769, 2.604_211_912_26);
@@ -44,8 +44,8 @@ fn the_angular_velocity_during_the_second_flip() {
     }
 }
 
-/// A flip is when the angular velocity about the middle axis passes through zero. Linear interpolation is good to
-/// third order there, as the second derivative is zero, too.
+/// Checks the intervals between flips. A flip is the time at which the component of the angular velocity along the intermediate axis
+/// changes sign. Linear interpolation has an error of third order at this time, as the second derivative is zero.
 #[test]
 fn the_nut_flips_at_equal_intervals() {
     for method in ["velocity-verlet", "rk4"].map(method) {
@@ -63,7 +63,8 @@ fn the_nut_flips_at_equal_intervals() {
         }
         assert!((flips[0] - 3.539).abs() < 5e-4, "{}: {}, given to 3 digits", method.name, flips[0]);
         for pair in flips.windows(2) {
-            // Angle over rate; the interval lies within `pair[1]` seconds of errors.
+            // The error of a time is the error of an angle divided by the rate. The errors of the interval build up over `pair[1]`
+            // seconds.
             let off = (pair[1] - pair[0] - 6.621_223_981_340_68).abs();
             let allowed = allowed(method, pair[1]) / 5.0;
             assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);

@@ -1,4 +1,4 @@
-//! Equal runs are equal bit for bit: after a reset, and beside clones.
+//! Tests that equal runs agree bit for bit: after a reset, and next to clones of the world.
 
 use glam::DVec3;
 use jabuka::dynamics::{
@@ -7,7 +7,7 @@ use jabuka::dynamics::{
 
 use crate::common::air;
 
-/// A bit of everything.
+/// Returns a world with bodies, forces and torques of many kinds.
 fn build(method: &'static Method) -> World {
     let mut world = World::new();
     world.set_integrator(method);
@@ -30,7 +30,7 @@ fn build(method: &'static Method) -> World {
     world
 }
 
-/// Advances frame by frame, `each` after every frame.
+/// Advances the world frame by frame, and calls `each` after every frame. Returns the final state.
 fn run(world: &mut World, frames: std::ops::Range<u32>, each: impl Fn(&mut World)) -> State {
     for frame in frames {
         world.advance_to(f64::from(frame) / 25.0);
@@ -49,8 +49,8 @@ fn a_run_after_a_reset_is_the_first_run() {
     }
 }
 
-/// Looking (balances, forces) and cloning, between any two frames, leaves the run as it is; and a clone, once the
-/// original is gone, ends where the original would have.
+/// Checks that observing balances and forces, and cloning the world between frames, do not change a run. A clone ends in the same state as
+/// the original, even after the original is dropped.
 #[test]
 fn clones_and_measurements_leave_no_trace() {
     for method in METHODS {

@@ -1,10 +1,10 @@
-//! Scenes of the gallery against closed forms.
+//! Tests of the gallery's scenes against closed forms.
 
 use glam::DVec3;
 use jabuka::dynamics::BodySnapshot;
 use jabuka::{Run, Scene};
 
-/// The bodies of all frames, with their times.
+/// Simulates a scene of the gallery. Returns the time and the bodies of each frame.
 #[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
 fn frames(name: &str) -> Vec<(f64, Vec<BodySnapshot>)> {
     let scene = Scene::from_path(format!("scenes/{name}.toml")).unwrap_or_else(|report| panic!("{report}"));
@@ -12,7 +12,7 @@ fn frames(name: &str) -> Vec<(f64, Vec<BodySnapshot>)> {
     run.frames().map(Result::unwrap).map(|frame| (frame.time, frame.bodies.clone())).collect()
 }
 
-/// The rate is the slow root of I₁ Ω² cos θ − I₃ s Ω + m g a = 0: H. Goldstein, *Classical Mechanics*, 3rd ed., 5.7.
+/// Checks the precession rate, the slow root of I₁ Ω² cos θ − I₃ s Ω + m g a = 0: H. Goldstein, *Classical Mechanics*, 3rd ed., 5.7.
 #[test]
 fn the_gyroscope_precesses_at_the_rate_of_theory() {
     let (g, r, h, a, s) = (9.81, 0.15, 0.03, 0.25, 60.0);
@@ -33,7 +33,7 @@ fn the_gyroscope_precesses_at_the_rate_of_theory() {
     assert!(off.abs() < 1e-6, "{off:e}");
 }
 
-/// Where a point of a body is, as it stands in its own axes.
+/// Returns the location of a body's point in world axes, m. `at` is the point in body axes.
 fn point(body: &BodySnapshot, at: DVec3) -> DVec3 {
     body.location + body.orientation * at
 }
@@ -54,12 +54,13 @@ fn the_four_bar_linkage_stays_closed() {
     }
 }
 
-/// While only its ball touches the floor, the product of the angular momentum of a tippe top and the way from its centre of mass to the
-/// point of contact stays the same: J. H. Jellett, *A Treatise on the Theory of Friction*, 1872. Then it stands on its stem.
+/// Checks Jellett's integral of a tippe top: while only its ball touches the floor, the scalar product of its angular momentum and the
+/// vector from its center of mass to the contact point is constant: J. H. Jellett, *A Treatise on the Theory of Friction*, 1872. Finally
+/// it stands on its stem.
 #[test]
 fn the_tippe_top_keeps_the_integral_of_jellett_and_turns_over() {
     use std::f64::consts::PI;
-    // Lengths in radii of the ball, masses in masses of the ball, moments of inertia relative to the largest one.
+    // Lengths are in radii of the ball, masses in masses of the ball, and moments of inertia relative to the largest one.
     let (stem, high) = (0.15_f64, 0.9);
     let ball = 4.0 / 3.0 * PI;
     let stem = (PI * stem * stem * (high - 2.0 * stem) + ball * (stem * stem * stem)) / ball;
@@ -77,7 +78,7 @@ fn the_tippe_top_keeps_the_integral_of_jellett_and_turns_over() {
     let on_its_ball: Vec<_> = frames.iter().take_while(|(_, bodies)| tilt(&bodies[0]) < 120.0).collect();
     assert!(on_its_ball.len() > 200, "{}", on_its_ball.len());
     for (time, bodies) in on_its_ball {
-        // The error of rk4 with 0.15 rad a step: measured 2.4e-7.
+        // The error of rk4 with 0.15 rad per step; the measured error is 2.4e-7.
         let off = jellett(&bodies[0]) / first - 1.0;
         assert!(off.abs() < 1e-6, "{off:e} at {time} s");
     }

@@ -1,4 +1,4 @@
-//! Springs at points of bodies, which turn what they pull.
+//! Tests of springs that are attached to points of bodies, and so exert torques.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,17 +9,18 @@ use jabuka::dynamics::{
 
 use crate::common::{method, tolerance};
 
-/// From here on, two springs of rest length 0 hold points at ±A of a body, along its own x, from two posts at ±P on the
-/// world's x axis. Of the potential ½ k (|x + R a − p|² + |x − R a + p|²) = k |x|² + k |R a − p|², the first part moves
-/// the body as an oscillator, the second turns it about z as a pendulum: I θ'' = −2 k A P sin θ. Neither knows of the
-/// other, however far it swings.
+/// The distance A of the springs' points from the center of the body, m, and the distance P of the posts from the origin.
+///
+/// In the following tests, two springs of rest length 0 connect points at ±A on the body's x axis with posts at ±P on the world's x axis.
+/// Their potential is ½ k (|x + R a − p|² + |x − R a + p|²) = k |x|² + k |R a − p|². The first term moves the body as an oscillator; the
+/// second turns it about z as a pendulum: I θ'' = −2 k A P sin θ. The two motions are independent at any amplitude.
 const A: f64 = 0.5;
 const P: f64 = 2.0;
-/// The pendulum starts at this angle, at rest.
+/// The initial angle of the pendulum, at rest, rad.
 const THETA: f64 = 1.2;
 
-/// A flat body that is symmetric about its own z = 0 alone, so that only z is one of its principal axes. Its centre of mass is at
-/// the origin, whatever its parts say.
+/// Returns a flat compound body that is symmetric only about its plane z = 0, so that only z is one of its principal axes. Its center of
+/// mass is at the origin, wherever its parts are.
 fn crooked() -> Shape {
     let ball = |radius: f64, x: f64, y: f64| Part {
         shape: Shape::Sphere { radius },
@@ -29,11 +30,12 @@ fn crooked() -> Shape {
     Shape::Compound(Compound::new(vec![ball(0.3, 0.0, 0.0), ball(0.2, 0.6, 0.4), ball(0.15, -0.2, 0.7)]))
 }
 
-/// The body between its posts, pushed aside by `aside`, with springs for which a quarter of a small swing takes `quarter` s.
+/// Returns a world with the body between its posts, displaced by `aside` (m). The springs are so stiff that a quarter of a small
+/// oscillation takes `quarter` seconds.
 fn pendulum(method: &'static Method, quarter: f64, aside: DVec3) -> (World, BodyId) {
     let body =
         RigidBody::new(&crooked(), 2.0).with_location(aside).with_orientation(DQuat::from_rotation_z(THETA));
-    // No principal axis is the body's x, so it matters in which frame the points are.
+    // The body's x axis is not a principal axis, so the test notices if points are given in the wrong axes.
     let x = body.principal_axes.conjugate() * DVec3::X;
     assert!(x.abs().max_element() < 0.95, "{x}");
     let rate = FRAC_PI_2 / quarter;
@@ -49,19 +51,19 @@ fn pendulum(method: &'static Method, quarter: f64, aside: DVec3) -> (World, Body
     (world, id)
 }
 
-/// The moment of inertia about the body's own z, kg m².
+/// Returns the moment of inertia about the body's z axis, kg m².
 fn moment_about_z(body: &RigidBody) -> f64 {
     let z = body.principal_axes.conjugate() * DVec3::Z;
     (body.inertia * z).dot(z)
 }
 
-/// The angle of the body about z, rad.
+/// Returns the angle of the body about z, rad.
 fn angle(world: &World, id: BodyId) -> f64 {
     let x = world.orientation(id) * DVec3::X;
     libm::atan2(x.y, x.x)
 }
 
-/// How much longer a swing of amplitude θ takes than a small one: (2/π) K(sin θ/2) = 1 / agm(1, cos θ/2), by Gauss.
+/// Returns the ratio of the period at an amplitude θ to that of a small oscillation: (2/π) K(sin θ/2) = 1 / agm(1, cos θ/2), by Gauss.
 fn slower(amplitude: f64) -> f64 {
     let (mut a, mut b) = (1.0, libm::cos(amplitude / 2.0));
     for _ in 0..6 {
@@ -70,8 +72,8 @@ fn slower(amplitude: f64) -> f64 {
     1.0 / a
 }
 
-/// After one and a quarter periods it passes the middle with ω = −2 ω₀ sin θ₀/2, as energy has it, and the centre of mass is
-/// where the oscillator x'' = −2 k/m x has gone meanwhile.
+/// Checks the state after one and a quarter periods: the body passes its equilibrium angle with ω = −2 ω₀ sin θ₀/2, by its energy, and its
+/// center of mass has moved as the oscillator x'' = −2 k/m x.
 #[test]
 fn a_body_between_two_springs_is_an_exact_pendulum() {
     let aside = DVec3::new(0.3, -0.2, 0.4);
@@ -98,14 +100,14 @@ fn a_body_between_two_springs_is_an_exact_pendulum() {
     }
 }
 
-/// Up to higher orders, Verlet keeps H + h² (V'' L² / 12 I² − V'² / 24 I) (Hairer, Lubich & Wanner, *Geometric Numerical
-/// Integration*, IX.4). With V = −κ cos θ and z = ω₀ h, H itself varies as κ z² (sin² θ / 24 − cos θ (cos θ − cos θ₀) / 6). The
-/// largest kinetic energy is κ (1 − cos θ₀).
+/// Checks the energy error of Verlet. Up to higher orders, Verlet conserves H + h² (V'' L² / 12 I² − V'² / 24 I) (Hairer, Lubich & Wanner,
+/// *Geometric Numerical Integration*, IX.4). With V = −κ cos θ and z = ω₀ h, H itself varies by κ z² (sin² θ / 24 − cos θ (cos θ − cos θ₀)
+/// / 6). The largest kinetic energy is κ (1 − cos θ₀).
 #[test]
 fn verlet_keeps_the_energy_of_the_pendulum() {
     let (mut world, _) = pendulum(method("velocity-verlet"), 0.5, DVec3::ZERO);
     let (step, mut largest) = (0.01, 0.0_f64);
-    // Once round, so that the largest kinetic energy has been seen.
+    // Drifts are relative to the largest kinetic energy so far. Skip more than one period, in which this is reached.
     for count in 0..10_000 {
         world.step(step);
         let drift = world.balance().drift.abs();
@@ -124,8 +126,8 @@ fn verlet_keeps_the_energy_of_the_pendulum() {
     assert!(largest < 1.03 * bound && largest > 0.97 * bound, "{largest:e} {bound:e}");
 }
 
-/// A plank on two upright springs at its ends bounces with ω² = 2k/m and rocks with ω² = 2k a²/I: √3 times as fast, if it is thin.
-/// How far the springs lean while it rocks is of second order in the angle, 0.01, as is what that changes.
+/// Checks a plank on two vertical springs at its ends: it bounces with ω² = 2k/m and rocks with ω² = 2k a²/I, √3 times as fast if the
+/// plank is thin. The springs tilt by an amount of second order in the angle, 0.01, and so does their effect.
 #[test]
 fn a_plank_rocks_as_its_springs_make_it() {
     let (half, stiffness, gravity) = (1.0, 100.0, 9.81);
@@ -138,7 +140,7 @@ fn a_plank_rocks_as_its_springs_make_it() {
     let id = world.add(plank);
     for x in [-half, half] {
         let between = [Anchor::Point(DVec3::new(x, 2.0, 0.0)), Anchor::Body { id, at: x * DVec3::X }];
-        // At rest, each carries half the weight.
+        // In equilibrium, each spring carries half the weight.
         let rest_length = 2.0 - gravity / 2.0 / stiffness;
         world.add_force(Spring { between, stiffness, damping: 0.0, rest_length });
     }
@@ -147,7 +149,8 @@ fn a_plank_rocks_as_its_springs_make_it() {
     let swings = 5.0;
     world.advance_to(swings * 2.0 * PI / rocking);
     let off = (angle(&world, id) / 0.01 - 1.0).abs();
-    // The phase is off by what is of second order in the angle, and by (ω h)² / 24 of the phase; the cosine by half its square.
+    // The phase has an error of second order in the angle, and a relative error of (ω h)² / 24. The error of the cosine is half the square
+    // of that of the phase.
     let phase = swings * 2.0 * PI * (1e-4 + 1e-6 * rocking * rocking / 24.0);
     assert!(off < phase * phase, "{off:e}");
 }

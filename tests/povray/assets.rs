@@ -1,4 +1,4 @@
-//! Files that raw SDL reads are found by `povray animation.ini`.
+//! Tests that `povray animation.ini` finds the files that raw SDL reads.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::image::{Image, Rgb};
 use crate::{povray, support};
 
-/// Writes an image of one color.
+/// Writes a PNG image of one color.
 fn paint(path: &Path, [r, g, b]: Rgb) {
     let mut encoder = png::Encoder::new(File::create(path).unwrap(), 2, 2);
     encoder.set_color(png::ColorType::Rgb);
@@ -45,7 +45,7 @@ material = 'wall'
     fs::write(&path, scene).unwrap();
     let out = folder.path().join("out");
     support::compile(&path, &out, &[]);
-    // They are found where they were copied to, not where they came from.
+    // POV-Ray must find the copies, so remove the original.
     fs::remove_file(folder.path().join("sky.png")).unwrap();
     povray::run(&out, &["animation.ini", "-A"]).nothing("animation.ini");
     let image = Image::read(&out.join("frame_0000.png"));

@@ -1,4 +1,4 @@
-//! Bodies that come and go are seen while they are there, and no script makes POV-Ray warn.
+//! Tests that bodies of limited lifetime are visible while they exist, and that their scripts cause no warnings of POV-Ray.
 
 use glam::DVec3;
 
@@ -7,8 +7,8 @@ use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
 use crate::scene::{DARK, script_of};
 
-/// Two balls of one material, of which first none is there, then one, then both, then the other; and one of another material
-/// that leaves a trail.
+/// Checks two balls of one material, of which neither, one, both and the other exist in successive frames, and a ball of another material
+/// with a trail.
 #[test]
 fn bodies_are_seen_while_they_are_there() {
     let camera = Pinhole::new([0.0, 0.0, 10.0], [0.0, 0.0, 0.0]);
@@ -32,7 +32,7 @@ fn bodies_are_seen_while_they_are_there() {
         assert_eq!(is_red(images[frame].at(sees(-2.0, 0.0))), one, "frame {frame}");
         assert_eq!(is_red(images[frame].at(sees(2.0, 0.0))), other, "frame {frame}");
     }
-    // Its trail stays when it is gone.
+    // The trail stays visible after the ball has disappeared.
     for frame in [2, 3, 4] {
         assert!(is_green(images[frame].at(sees(0.0, 1.0))), "frame {frame}: the trail");
         assert_eq!(is_green(images[frame].at(sees(1.0, 1.35))), frame == 2, "frame {frame}: the ball");

@@ -1,11 +1,11 @@
-//! Every script of every scene of the gallery is parsed without a word.
+//! Tests that POV-Ray parses every script of the gallery without warnings.
 
 use std::fs;
 use std::path::Path;
 
 use crate::{povray, support};
 
-/// What POV-Ray says of any scripts that are read one after another into one scene; of one script it says nothing.
+/// Warnings that POV-Ray prints whenever several scripts are read into one scene. A single script does not cause them.
 const OF_READING_SEVERAL: [&str; 3] = [
     "New instance of assumed_gamma ignored",
     "More than one camera in scene. Ignoring previous camera(s).",
@@ -29,11 +29,11 @@ fn parse(folder: &Path, input: &str) -> povray::Said {
     povray::run(folder, &[input, "+Oparsed.png", "+W1", "+H1", "+WT1", "-MB"])
 }
 
-/// POV-Ray reads so many bytes of a scene's scripts at most: about a minute's work.
+/// The largest number of bytes of a scene's scripts that POV-Ray reads, about a minute's work.
 const READ: usize = 40_000_000;
 
-/// The first script and the last are parsed alone; then one process reads all of them, since one process each would
-/// take minutes. Of scenes with long scripts, it reads every second one, every third one, and so on.
+/// Parses the first and the last script of a scene alone. Then one process parses the other scripts together, since one process for each
+/// would take minutes. If the scripts are long, it reads only every second of them, every third, and so on.
 fn check(scene: &Path) {
     let folder = tempfile::tempdir().unwrap();
     let scripts = folder.path().join("scripts");
@@ -49,7 +49,7 @@ fn check(scene: &Path) {
     let size = fs::metadata(scripts.join(&names[names.len() - 1])).unwrap().len() as usize * names.len();
     let names: Vec<_> = names.into_iter().step_by(size.div_ceil(READ).max(1)).collect();
     let includes = names.iter().map(|name| format!("#include \"scripts/{name}\"\n")).collect::<String>();
-    // The last line says that none of them has ended the reading early.
+    // The warning in the last line shows that no script ended the parsing early.
     let all = format!("#version 3.7;\n{includes}#warning \"read to the end\"\n");
     fs::write(folder.path().join("all.pov"), all).unwrap();
 

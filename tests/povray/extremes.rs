@@ -1,4 +1,4 @@
-//! Scenes of numbers that are very large or very small: jabuka refuses them, or POV-Ray takes their scripts without a word.
+//! Tests of scenes with very large or very small numbers: jabuka refuses each of them, or POV-Ray parses its scripts without warnings.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use jabuka::{Run, RunError, Scene};
 
 use crate::povray::{self, Said};
 
-/// The script of the first frame; none where jabuka refuses the scene as too small or too far for POV-Ray.
+/// Returns the script of the first frame. `None` if jabuka refuses the scene as too small or too far away for POV-Ray.
 fn script(text: &str) -> Option<String> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{text}\n{report}"));
     let run = match Run::new(&scene) {
@@ -19,8 +19,8 @@ fn script(text: &str) -> Option<String> {
     Some(run.script(&frame).unwrap())
 }
 
-/// Has POV-Ray parse scripts in one process, for a picture of the given size, of which it draws one pixel: it must not say a
-/// word.
+/// Parses scripts in one POV-Ray process for a picture of the given size, of which one pixel is drawn. Asserts that POV-Ray prints no
+/// warnings.
 fn parse(scripts: &[String], width: u32, height: u32) {
     said(scripts, width, height).nothing("extreme scenes");
 }
@@ -39,7 +39,7 @@ fn said(scripts: &[String], width: u32, height: u32) -> Said {
     povray::run(folder.path(), &arguments)
 }
 
-/// Numbers that follow from each other, the same in every run.
+/// A pseudorandom number generator with the same sequence in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -52,7 +52,7 @@ impl Numbers {
         all[usize::try_from(self.next(all.len() as u64)).unwrap()]
     }
 
-    /// An ordinary length, or one in four times an extreme one, m.
+    /// Returns a random length, m: usually an ordinary one, in one of four cases an extreme one.
     fn length(&mut self) -> String {
         const EXTREME: [&str; 10] =
             ["1e-90", "1e-30", "1e-12", "1e-6", "1e-4", "1e4", "1e7", "1e10", "1e16", "1e60"];
@@ -66,7 +66,7 @@ impl Numbers {
         }
     }
 
-    /// A length that is not negative.
+    /// Returns a random length without a sign, m.
     fn size(&mut self) -> String {
         self.length().trim_start_matches('-').to_owned()
     }
@@ -112,8 +112,8 @@ impl Numbers {
     }
 }
 
-/// `JABUKA_EXTREMES=400 JABUKA_EXTREMES_SEED=1000 cargo test --test povray extremes -- --nocapture` tries 400 scenes, from
-/// other numbers.
+/// Checks random extreme scenes. `JABUKA_EXTREMES=400 JABUKA_EXTREMES_SEED=1000 cargo test --test povray extremes -- --nocapture` tries
+/// 400 scenes, starting from another seed.
 #[test]
 fn povray_takes_whatever_is_not_refused() {
     const SIZES: [[u32; 2]; 5] = [[64, 36], [36, 64], [65_535, 2], [1, 1], [2, 4000]];
@@ -121,7 +121,7 @@ fn povray_takes_whatever_is_not_refused() {
     let (count, first) =
         (number("JABUKA_EXTREMES").unwrap_or(60), number("JABUKA_EXTREMES_SEED").unwrap_or(1));
     let mut taken = 0;
-    // Pictures of one size are parsed by one process.
+    // One process parses the scenes for pictures of the same size.
     for (group, begin) in (first..first + count).step_by(30).enumerate() {
         let [width, height] = SIZES[group % SIZES.len()];
         let scene = |seed: u64| {
@@ -163,7 +163,7 @@ fn wide_pictures_and_wide_parallel_rays_are_drawn_without_a_warning() {
 
 #[test]
 fn large_letters_in_a_large_picture_are_drawn_without_a_warning() {
-    // They are not made bolder, so that they are one object.
+    // Large letters are not thickened by copies, so each label is one object.
     let label = "output.size = [1920, 1080]\n[body.a]\nshape.sphere.radius = 1\n[label.now]\ntext = 'now'\n";
     let sizes = ["", "size = 0.08", "size = 0.3"];
     parse(&sizes.map(|size| script(&format!("{label}{size}")).unwrap()), 1920, 1080);

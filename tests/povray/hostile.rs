@@ -1,4 +1,4 @@
-//! Names and titles that would be code, if they were let.
+//! Tests that names and titles are never executed as SDL code.
 
 use std::fs;
 
@@ -45,7 +45,7 @@ sdl = "#declare Two = One + 1; // no line break at the end"
 fn nothing_in_a_name_is_code() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
-    // In TOML, `$` needs no escape; in this file it would look like a template.
+    // TOML needs no escape for `$`. The constant is written with a backslash, since `${` looks like a template in a Rust file.
     fs::write(&scene, SCENE.replace("$\\{", "${")).unwrap();
     let include = folder.path().join("x; #fopen D; y.inc");
     fs::write(&include, "#declare One = 1; // */ ${name} \"no line break at the end").unwrap();

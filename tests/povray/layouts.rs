@@ -1,4 +1,4 @@
-//! The two layouts give the same pictures.
+//! Tests that the self-contained and the shared layout give the same pictures.
 
 use std::fs;
 
@@ -22,7 +22,8 @@ fn a_shared_part_changes_no_pixel() {
     assert_eq!(images[0].difference(&images[1]), 0.0);
 }
 
-/// One trail goes back to the beginning, one ends and becomes thin, and one body stops and goes on.
+/// Checks trails of three kinds: one reaches back to the beginning, one has a limited length and tapers, and one belongs to a body that
+/// stops and moves again.
 #[test]
 fn trails_that_scripts_share_are_the_same_trails() {
     let folder = tempfile::tempdir().unwrap();

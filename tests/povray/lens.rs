@@ -1,4 +1,4 @@
-//! How a camera sees: by parallel rays, and with a lens that blurs.
+//! Tests of the camera: orthographic projection, and a lens with depth of field.
 
 use glam::DVec2;
 
@@ -15,7 +15,7 @@ fn without_perspective_places_are_proportional_and_nearness_changes_nothing() {
         + &shining_ball("left", [-4.0, -2.0, 5.0], 0.5, "#0000ff");
     let [image] = render_all([script(&(bodies + DARK + camera))], SIZE);
     let (right, left) = (image.spot(is_red), image.spot(is_blue));
-    // Ten pixels a metre, from the middle at (80, 50); y goes down.
+    // The scale is ten pixels per meter from the center at (80, 50); y points down.
     assert!(right.middle().distance(DVec2::new(120.0, 30.0)) < 0.3, "{}", right.middle());
     assert!(left.middle().distance(DVec2::new(40.0, 70.0)) < 0.3, "{}", left.middle());
     let ratio = right.area() / left.area();
@@ -31,7 +31,7 @@ fn a_lens_blurs_what_is_not_in_focus() {
     let scripts = ["", "aperture = 0.5", "aperture = 0.5\nfocus = [0, 0, -9]"]
         .map(|lens| script(&(bodies.clone() + &camera(lens))));
     let [sharp, near, far] = render_all(scripts, SIZE);
-    // Blur takes light from the middle of a ball's edge and leaves less that is red, or blue, through and through.
+    // Blur spreads the edge of a ball, and leaves fewer pixels that are fully red or blue.
     let area = |image: &crate::image::Image| (image.spot(is_red).area(), image.spot(is_blue).area());
     let ((red, blue), (red_near, blue_near), (red_far, blue_far)) = (area(&sharp), area(&near), area(&far));
     assert!(

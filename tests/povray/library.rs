@@ -1,4 +1,4 @@
-//! The materials that every scene knows by name.
+//! Tests of the materials that every scene knows by name.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
 use crate::scene::script;
 
-/// One ball of each stands in front of the ground; without a word POV-Ray draws all of them, and each is to be seen.
+/// Checks that POV-Ray draws a ball of each material without a warning, and that each ball is visible in front of the ground.
 #[test]
 fn every_material_is_to_be_seen() {
     let camera = Pinhole { angle: 60.0, size: [300, 180], ..Pinhole::new([0.0, 9.0, 14.0], [0.0, 0.0, 0.0]) };
@@ -36,7 +36,7 @@ fn every_material_is_to_be_seen() {
     }
 }
 
-/// A crate of wood looks the same whatever its size, and whatever the length of POV-Ray's unit is.
+/// Checks that a wooden crate looks the same for any size of the body and any length of POV-Ray's unit.
 #[test]
 fn a_pattern_fits_the_body() {
     let scene = |size: f64, rest: &str| {
@@ -59,7 +59,7 @@ fn a_pattern_fits_the_body() {
     assert!(one.difference(&marble) > 5.0, "the scene's own names come first");
 }
 
-/// The ball shines green through the tint of the glass, and its own color is that of the tint.
+/// Checks the color of tinted materials: a green ball stays green behind tinted glass, and a tinted ball has the color of the tint.
 #[test]
 fn a_color_tints_what_takes_one() {
     let camera = Pinhole::new([0.0, 1.5, 8.0], [0.0, 1.0, 0.0]);
@@ -75,7 +75,7 @@ fn a_color_tints_what_takes_one() {
     }
 }
 
-/// Planes of a color fade into the haze as the ground does, and planes with a pattern, too.
+/// Checks that planes of a plain color or a pattern fade into the haze like the ground.
 #[test]
 fn planes_of_any_material_fade() {
     let camera = Pinhole::new([0.0, 2.0, 10.0], [0.0, 2.0, 0.0]);

@@ -1,4 +1,4 @@
-//! Every kind of light: from where it comes, and whether it casts shadows.
+//! Tests of every kind of light: the direction of the light, and whether it casts shadows.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ fn front() -> Pinhole {
     Pinhole::new([0.0, 3.0, 6.0], [0.0, 0.5, 0.0])
 }
 
-/// A white ball over the ground, in a light.
+/// Returns the script of a white ball over the ground with one light; `words` are the keys of the light.
 fn lit(words: &str) -> String {
     let ball = "[body.ball]\nshape.sphere.radius = 0.3\nlocation = [0, 1.2, 0]\nmaterial = \"m\"\n";
     let rest = "[material.m]\nfinish = \"matte\"\n[environment]\nground.height = 0\n[light.l]\n";
@@ -65,8 +65,7 @@ fn light_has_its_color_and_intensity() {
     assert_eq!((red[0], red[1], red[2]), (white[0], none[1], none[2]), "red is only red");
 }
 
-/// Without any light of the scene's, there are the usual ones: the upper left is the bright side, and nothing is
-/// black.
+/// Checks the default lights of a scene that defines none: the upper left side of a ball is the bright one, and no pixel is black.
 #[test]
 fn the_usual_lights_are_pleasant() {
     let ball = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1.2, 0]\nmaterial = \"m\"\n";

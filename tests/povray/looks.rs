@@ -1,4 +1,4 @@
-//! What bodies are made of.
+//! Tests of the materials of bodies.
 
 use glam::{DVec2, DVec3};
 
@@ -11,13 +11,13 @@ fn front() -> Pinhole {
     Pinhole::new([0.0, 1.5, 8.0], [0.0, 0.5, 0.0])
 }
 
-/// A ball of radius 1 on the ground, of the material `m`.
+/// Returns a scene with a ball of radius 1 on the ground whose material `m` has the given keys.
 fn ball_of(material: &str) -> String {
     let body = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1, 0]\nmaterial = \"m\"\n[material.m]\n";
     format!("{body}{material}{}", front().toml())
 }
 
-/// The middle of the ball in the picture, and a place high on it.
+/// Returns the center of the ball in the picture, and a point near its top, both in pixels.
 fn middle_and_crown() -> (DVec2, DVec2) {
     (front().sees(DVec3::Y), front().sees(DVec3::new(0.0, 1.75, 0.6)))
 }
@@ -34,7 +34,7 @@ fn every_finish_is_to_be_seen() {
         assert!((60.0..230.0).contains(&image.brightness()), "{finish}: {}", image.brightness());
         let (middle, crown) = (image.at(middle), image.at(crown));
         match *finish {
-            // A mirror has no color of its own: its upper half shows the sky.
+            // A mirror has no color of its own: the upper half of a mirror ball shows the sky.
             "mirror" => assert!(crown[2] > crown[0], "{finish}: {crown:?}"),
             "luminous" => assert_eq!((middle, crown), ([0xc0, 0x30, 0x20], [0xc0, 0x30, 0x20])),
             _ => assert!(is_red(middle), "{finish}: {middle:?}"),
@@ -69,7 +69,7 @@ fn a_material_in_povrays_words_is_to_be_seen() {
     assert!(is_blue(glass.at(middle)), "through glass: {:?}", glass.at(middle));
 }
 
-/// Bodies of one plain material stand in one union, which bears it.
+/// Checks that bodies of one plain material, which the script puts into one union with this material, all have its color.
 #[test]
 fn bodies_of_one_material_all_have_it() {
     let camera = front();
@@ -94,7 +94,7 @@ fn the_scenes_own_sdl_stands_in_the_script() {
     assert!(is_green(image.at(place)), "{:?}", image.at(place));
 }
 
-/// A body's material is a name, or a table of the same keys as a material with a name.
+/// Checks a material in the body itself: a table with the same keys as a named material.
 #[test]
 fn a_material_can_stand_in_the_body() {
     let ball = "[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 1, 0]\n";

@@ -1,6 +1,6 @@
-//! The scripts before POV-Ray itself: it parses all of them without a word, and its pixels show what the scene says.
+//! Tests of the scripts in real POV-Ray: it parses all of them without warnings, and the pixels show the scene.
 //!
-//! A process of POV-Ray's sleeps most of its 0.6 s, so tests that render several scripts start all of them at once.
+//! A POV-Ray process sleeps for most of its 0.6 s, so tests that render several scripts start them all at once.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

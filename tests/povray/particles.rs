@@ -1,4 +1,4 @@
-//! Particles before POV-Ray: each is where it must be, in its color, and thousands are parsed without a word.
+//! Tests of particles in real POV-Ray: each has the right place and color, and thousands are parsed without warnings.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{self, render_all};
 use crate::scene::{DARK, script_of};
 
-/// Two that shine, of which one is young and red, and the other old and blue; one that has left a streak.
+/// Checks two glowing particles, a young red one and an old blue one, and a particle with a streak.
 #[test]
 fn particles_are_seen_where_they_are() {
     let camera = Pinhole::new([0.0, 0.0, 10.0], [0.0, 0.0, 0.0]);
@@ -29,7 +29,7 @@ fn particles_are_seen_where_they_are() {
     let [image] = render_all([script_of(&text, 1)], SIZE);
     let at = |x: f64, y: f64| image.at(camera.sees(DVec3::new(x, y, 0.0)));
     assert!(is_red(at(-2.0, 0.0)) && is_blue(at(2.0, 0.0)));
-    // Its head is at 2 m, and its tail 2 m below.
+    // The streak's front end is at 2 m, and its rear end 2 m below.
     assert!(is_red(at(0.0, 1.9)) && is_red(at(0.0, 0.5)));
     assert!(!is_red(at(0.0, -0.3)) && !is_red(at(0.3, 0.5)));
 }

@@ -1,36 +1,36 @@
-//! A camera of our own, to know what must be seen where.
+//! A pinhole camera for tests. It predicts where POV-Ray must draw a point.
 
 use glam::{DVec2, DVec3};
 
-/// A pinhole camera: right-handed, y up.
+/// A pinhole camera in a right-handed coordinate system with y up.
 pub(crate) struct Pinhole {
     pub(crate) location: DVec3,
     pub(crate) look_at: DVec3,
-    /// The horizontal field of view, degrees.
+    /// The horizontal angle of view, degrees.
     pub(crate) angle: f64,
-    /// What is up in the picture, as far as the line of sight leaves it free.
+    /// The direction that appears upward in the picture, as far as it is perpendicular to the line of sight.
     pub(crate) up: DVec3,
-    /// Width and height of the picture, pixels.
+    /// The width and the height of the picture, pixels.
     pub(crate) size: [u32; 2],
 }
 
-/// The size of most images here.
+/// The size of most test images, pixels.
 pub(crate) const SIZE: [u32; 2] = [160, 100];
 
 impl Pinhole {
-    /// A camera of 40°, for images of the usual size.
+    /// Returns a camera with an angle of view of 40° for images of [`SIZE`].
     pub(crate) fn new(location: [f64; 3], look_at: [f64; 3]) -> Pinhole {
         let (location, look_at) = (DVec3::from_array(location), DVec3::from_array(look_at));
         Pinhole { location, look_at, angle: 40.0, up: DVec3::Y, size: SIZE }
     }
 
-    /// The camera in a scene's words.
+    /// Returns the camera as TOML for a scene.
     pub(crate) fn toml(&self) -> String {
         let Pinhole { location, look_at, angle, .. } = self;
         format!("\n[camera]\nlocation = {location}\nlook_at = {look_at}\nangle = {angle}\n")
     }
 
-    /// Where in the picture a point is, in pixels from the upper left corner.
+    /// Returns the position of a point in the picture, in pixels from the upper left corner.
     pub(crate) fn sees(&self, point: DVec3) -> DVec2 {
         let forward = (self.look_at - self.location).normalize();
         let right = forward.cross(self.up).normalize();

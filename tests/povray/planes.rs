@@ -1,4 +1,4 @@
-//! Planes: where they are, however they are turned and whatever they are made of.
+//! Tests of planes: their place in the picture, for all orientations and materials.
 
 use glam::{DQuat, DVec3};
 
@@ -11,7 +11,8 @@ const PLAIN: &str = "material = \"m\"\n[material.m]\ncolor = \"#00ff00\"\nfinish
 const PATTERN: &str = "material = \"m\"\n[material.m]
 sdl = \"texture { pigment { checker rgb <0, 1, 0> rgb <0, 0.5, 0> } finish { diffuse 0 emission 1 } }\"\n";
 
-/// What a plane is made of decides how it is written: a plain one by normal and distance, another by a matrix.
+/// Checks the place of tilted planes. The material decides how a plane is written: a plain one by normal and distance, others with a
+/// matrix.
 #[test]
 fn a_turned_plane_is_where_it_should_be() {
     let location = DVec3::new(0.5, -0.4, 0.3);
@@ -25,7 +26,7 @@ fn a_turned_plane_is_where_it_should_be() {
         (format!("{with_normal}{turned}"), by_turn * upright),
     ];
     let camera = Pinhole { angle: 110.0, ..Pinhole::new([0.5, 0.5, 6.0], [0.5, -0.4, 0.0]) };
-    // The last of these fades into the black sky: it is to be seen where it is near.
+    // The last of these planes fades into the black sky, so it is checked nearer to the camera.
     let materials = [(PLAIN, false, 0.03), (PATTERN, false, 0.03), ("", false, 0.03), ("", true, 0.3)];
     for (material, fog, under) in materials {
         let scene = |words: &str| {
@@ -43,7 +44,7 @@ fn a_turned_plane_is_where_it_should_be() {
                 let pixel = image.at(camera.sees(location + along * (0.4 * f64::from(step))));
                 assert!(is_there(pixel), "{words}: {pixel:?} on the plane");
             }
-            // Far away, the plane ends at its horizon; two degrees over it there is nothing.
+            // In the distance, the plane ends at its horizon; two degrees above it the picture is empty.
             let away = (-back - normal * (-back).dot(*normal)).normalize();
             let horizon = |over: f64| camera.sees(camera.location + away + normal * over);
             let (over, under) = (image.at(horizon(0.03)), image.at(horizon(-under)));
@@ -52,7 +53,7 @@ fn a_turned_plane_is_where_it_should_be() {
     }
 }
 
-/// The distance of a plain plane from the origin has the right sign: a ball lies half in it.
+/// Checks the sign of a plain plane's distance from the origin: half of a ball is below the plane.
 #[test]
 fn a_plane_cuts_a_ball_where_it_should() {
     let camera = Pinhole::new([0.0, 3.0, 8.0], [0.0, 1.0, 0.0]);
@@ -75,7 +76,7 @@ fn a_plane_cuts_a_ball_where_it_should() {
     }
 }
 
-/// Turned towards the viewer by 45°, it leaves free the front of the ball, which a level one hides.
+/// Checks a plane tilted by 45° towards the viewer: it leaves the front of the ball visible, which a level plane hides.
 #[test]
 fn a_turned_plane_cuts_a_ball_where_it_should() {
     let camera = Pinhole::new([0.0, 3.0, 8.0], [0.0, 1.0, 0.0]);
@@ -92,7 +93,7 @@ fn a_turned_plane_cuts_a_ball_where_it_should() {
     }
 }
 
-/// A plane without a material has the checkered look of the ground.
+/// Checks that a plane without a material has the checkered look of the ground.
 #[test]
 fn a_plane_without_a_material_is_checkered() {
     let camera = Pinhole { up: DVec3::NEG_Z, ..Pinhole::new([0.0, 6.0, 0.0], [0.0; 3]) };
@@ -112,13 +113,13 @@ fn a_plane_without_a_material_is_checkered() {
     }
 }
 
-/// It fades into the horizon as the ground does, wherever its own location is, or does not where there is no fog.
+/// Checks that a plane without a material fades into the horizon like the ground, wherever its location is, and does not fade without fog.
 #[test]
 fn a_plane_without_a_material_looks_like_the_ground() {
     let camera = Pinhole::new([0.0, 2.0, 10.0], [0.0, 1.0, 0.0]);
     let ball = shining_ball("ball", [0.0, 1.0, 0.0], 1.0, "#ff0000");
     let of = |floor: &str| script(&format!("{ball}{floor}{}", camera.toml()));
-    // The tiles of this scene are 0.2 m long, so the plane is moved by an even number of them.
+    // The tiles of this scene are 0.2 m long, and the plane is moved by an even number of them.
     let plane = "[body.p]\nshape.plane = {}\nlocation = [40, -0.5, -20]\n";
     let no_fog = "[environment]\nfog = false\n";
     let grounds = ["ground.height = -0.5\n", "ground.height = -0.5\nfog = false\n"];

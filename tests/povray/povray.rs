@@ -1,4 +1,4 @@
-//! Runs POV-Ray, and holds it to silence.
+//! Runs POV-Ray, and asserts that it prints no warnings.
 
 use std::fs;
 use std::path::Path;
@@ -6,34 +6,34 @@ use std::process::{Command, Stdio};
 
 use crate::image::Image;
 
-/// What a run of POV-Ray had to say.
+/// The result of a run of POV-Ray.
 pub(crate) struct Said {
-    /// Whether it ended well.
+    /// True if POV-Ray succeeded.
     pub(crate) success: bool,
-    /// Its warnings.
+    /// The warnings that POV-Ray printed.
     pub(crate) warnings: String,
-    /// Its errors.
+    /// The errors that POV-Ray printed.
     pub(crate) errors: String,
 }
 
 impl Said {
-    /// Whether POV-Ray ended well and without a word.
+    /// Returns true if POV-Ray succeeded without warnings or errors.
     pub(crate) fn is_nothing(&self) -> bool {
         self.success && self.warnings.is_empty() && self.errors.is_empty()
     }
 
-    /// Panics unless POV-Ray ended well and without a word.
+    /// Panics unless POV-Ray succeeded without warnings or errors. `of` names the input in the message.
     pub(crate) fn nothing(&self, of: &str) {
         assert!(self.is_nothing(), "POV-Ray on {of}:\n{}{}", self.warnings, self.errors);
     }
 }
 
-/// Runs POV-Ray in a folder, where it leaves `warnings.txt` and `errors.txt`.
+/// Runs POV-Ray in a folder, and writes `warnings.txt` and `errors.txt` there.
 pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Said {
     let status = Command::new("povray")
         .current_dir(folder)
         .args(arguments)
-        // Its progress would be megabytes; warnings and errors go to files, unwrapped.
+        // Turn off the progress output, which takes megabytes. In files, lines of warnings and errors are not wrapped.
         .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
         .stdin(Stdio::null())
         .stdout(Stdio::null())
@@ -47,7 +47,7 @@ pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Said {
     Said { success: status.success(), warnings: said("warnings.txt"), errors: said("errors.txt") }
 }
 
-/// In a sequence, a banner over what is said of each frame says that it is appended.
+/// Removes the banner that POV-Ray prints before the messages of each frame of a sequence, and empty lines.
 fn without_banners(said: &str) -> String {
     said.lines()
         .filter(|line| !line.is_empty() && !line.starts_with('='))
@@ -55,7 +55,7 @@ fn without_banners(said: &str) -> String {
         .collect()
 }
 
-/// Renders a script in a folder of its own; POV-Ray must not say a word.
+/// Renders a script in a temporary folder with these arguments, and asserts that POV-Ray prints no warnings.
 pub(crate) fn render_with(script: &str, size: [u32; 2], arguments: &[&str]) -> Image {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("script.pov"), script).unwrap();
@@ -67,12 +67,12 @@ pub(crate) fn render_with(script: &str, size: [u32; 2], arguments: &[&str]) -> I
     Image::read(&folder.path().join("script.png"))
 }
 
-/// Renders a script as it is; POV-Ray must not say a word.
+/// Renders a script without further arguments, and asserts that POV-Ray prints no warnings.
 pub(crate) fn render(script: &str, size: [u32; 2]) -> Image {
     render_with(script, size, &[])
 }
 
-/// Renders several scripts at once.
+/// Renders several scripts at the same time.
 pub(crate) fn render_all<const N: usize>(scripts: [String; N], size: [u32; 2]) -> [Image; N] {
     std::thread::scope(|scope| {
         let threads = scripts.map(|script| scope.spawn(move || render(&script, size)));

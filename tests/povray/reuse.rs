@@ -1,4 +1,4 @@
-//! Scripts in somebody's own POV-Ray work, as docs/reuse.md shows it.
+//! Tests of using scripts in other POV-Ray projects, as `docs/reuse.md` describes.
 
 use std::fs;
 use std::path::Path;
@@ -20,7 +20,7 @@ velocity = [0, 3, 0]
 text = 't = ${t}'
 ";
 
-/// The example of the page that holds a word.
+/// Returns the first example of `docs/reuse.md` that contains a word.
 fn example(word: &str) -> String {
     let page = fs::read_to_string(root().join("docs/reuse.md")).unwrap();
     let blocks = page.split("```pov\n").skip(1).map(|rest| rest.split("```").next().unwrap().to_owned());
@@ -61,7 +61,7 @@ fn bodies_stand_without_camera_lights_and_ground() {
     for word in ["camera {", "light_source", "plane {", "sky_sphere"] {
         assert!(!script.contains(word), "{word}\n{script}");
     }
-    // Seen from the side of the page's camera: the red ball is there, and nothing is behind it.
+    // Seen from the side of the page's camera, the red ball is visible, and nothing is behind it.
     let mine = example("look_at").replace("<4, 3, 12>", "<0, 0, 9>").replace("<4, 2, 0>", "0");
     let image = render(folder.path(), &mine.replace("frame_number", "1"));
     let [r, g, b] = image.at(DVec2::new(32.0, 18.0));

@@ -1,9 +1,9 @@
-//! The pixels of a frame depend on its script alone.
+//! Tests that the pixels of a frame depend only on its script.
 
 use crate::image::Image;
 use crate::{povray, support};
 
-/// As `animation.ini` says, but for the size.
+/// The options of `animation.ini`, except for the size.
 const LIKE_THE_SEQUENCE: [&str; 3] = ["+A0.1", "+AM1", "+R3"];
 
 #[test]

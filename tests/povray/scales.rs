@@ -1,4 +1,4 @@
-//! A scene looks the same whatever its size: POV-Ray itself knows only numbers of a middling size.
+//! Tests that a scene of any size looks the same, although POV-Ray itself works only with numbers of moderate size.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
 use crate::scene::{script, shining_ball};
 
-/// A red ball on the ground and a blue box in the air, all lengths times a scale.
+/// Returns the script of a red ball on the ground and a blue box in the air, with all lengths multiplied by `scale`.
 fn scene(scale: f64, rest: &str) -> String {
     let length = |number: f64| format!("{:e}", number * scale);
     let [one, two, three] = [1.0, 2.0, 3.0].map(length);
@@ -24,7 +24,7 @@ fn the_tiny_and_the_huge_look_like_what_is_as_large_as_we_are() {
     let images = render_all(scales.map(|scale| script(&scene(scale, ""))), SIZE);
     assert!((80.0..230.0).contains(&images[0].brightness()), "{}", images[0].brightness());
     for (image, scale) in images.iter().zip(scales) {
-        // Rounding lets some edges and tiles fall on the other side of the middle of a pixel.
+        // Rounding moves some edges and tiles across the center of a pixel.
         let difference = image.difference(&images[0]);
         assert!(difference < 1.0, "times {scale:e}: {difference}");
     }
@@ -59,7 +59,7 @@ fn the_unit_of_the_scripts_changes_no_picture() {
     }
 }
 
-/// Far away from the origin, POV-Ray has fewer digits left; a kilometre away, metres are still sharp.
+/// Checks bodies far from the origin, where POV-Ray has fewer digits left: at a distance of 2 km, objects of one meter are still sharp.
 #[test]
 fn bodies_far_from_the_origin_are_to_be_seen() {
     let far = DVec3::new(1000.0, -500.0, 2000.0);

@@ -1,10 +1,10 @@
-//! `povray animation.ini` in the output folder renders the sequence.
+//! Tests that `povray animation.ini` in an output folder renders the sequence.
 
 use std::path::Path;
 
 use crate::{povray, support};
 
-/// Compiles a sequence of so many frames; of these, only the named ones are written.
+/// Compiles a sequence of this number of frames, of which only the frames `written` are written.
 fn compile(folder: &Path, frames: usize, written: &str) {
     let last = frames - 1;
     let scene = format!(
@@ -16,7 +16,7 @@ fn compile(folder: &Path, frames: usize, written: &str) {
     support::compile(&path, &folder.join("out"), &["--frames", written]);
 }
 
-/// The names of the files with an ending, without it.
+/// Returns the names of the files with this ending, without the ending.
 fn stems(folder: &Path, ending: &str) -> Vec<String> {
     let names = support::contents(folder).into_iter().map(|(name, _)| name);
     names.filter_map(|name| name.strip_suffix(ending).map(str::to_owned)).collect()
@@ -32,8 +32,8 @@ fn one_command_renders_all_frames() {
     assert_eq!(stems(&out, ".png"), expected);
 }
 
-/// POV-Ray numbers images by rules of its own: the names are right however many digits the last number has, and
-/// also where there is only one frame, which POV-Ray does not number at all.
+/// Checks the names of the images. POV-Ray numbers images by its own rules, and does not number a single frame. The names must match the
+/// scripts for any number of digits.
 #[test]
 fn images_are_named_as_scripts_for_sequences_of_any_length() {
     std::thread::scope(|scope| {
@@ -55,7 +55,7 @@ fn named_as_scripts(frames: usize) {
     assert_eq!(stems(&out, ".png"), scripts.collect::<Vec<_>>(), "{frames} frames");
 }
 
-/// The corner of the image is nothing, and the ball in its middle is not.
+/// Checks that a transparent background has alpha 0: a corner of the image is transparent, and the ball in its center is opaque.
 #[test]
 fn a_transparent_background_is_alpha() {
     let folder = tempfile::tempdir().unwrap();

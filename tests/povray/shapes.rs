@@ -1,4 +1,4 @@
-//! Shapes are drawn as large, and around the same centre, as mechanics has them.
+//! Tests that shapes are drawn with the size and the center that the dynamics uses.
 
 use glam::{DVec2, DVec3};
 use jabuka::Scene;
@@ -8,12 +8,12 @@ use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::render_all;
 use crate::scene::{DARK, script, script_of};
 
-/// Far away, so that all rays are nearly parallel: 4 m fill the width of the picture.
+/// Returns a camera so far away that its rays are nearly parallel. The picture is 4 m wide.
 fn far() -> Pinhole {
     Pinhole { angle: 4.0, ..Pinhole::new([0.0, 0.0, 2.0 / libm::tan(2f64.to_radians())], [0.0; 3]) }
 }
 
-/// A body of a shape, and of some more words, that shines in red.
+/// Returns a scene with a luminous red body; `words` are the keys of the body.
 fn body(words: &str) -> String {
     format!(
         "[body.it]\n{words}\nmaterial = \"red\"\n[material.red]\ncolor = \"red\"\nfinish = \"luminous\"\n{DARK}{}",
@@ -21,7 +21,7 @@ fn body(words: &str) -> String {
     )
 }
 
-/// The edges of what is red, m: left, right, bottom, top.
+/// Asserts that the red area in the picture of each body ends, on the left, right, bottom and top, where the body's shape ends.
 fn assert_fills<const N: usize>(bodies: &[String; N]) {
     let metres_per_pixel = 4.0 / f64::from(SIZE[0]);
     let scripts = bodies.each_ref().map(|body| script(body));
@@ -32,7 +32,7 @@ fn assert_fills<const N: usize>(bodies: &[String; N]) {
         for (direction, sign) in [(DVec2::X, 1.0), (DVec2::X, -1.0), (DVec2::Y, 1.0), (DVec2::Y, -1.0)] {
             let farthest = |place: &DVec2| sign * (*place - middle).dot(direction) * metres_per_pixel;
             let seen = places.iter().map(farthest).fold(f64::MIN, f64::max) + metres_per_pixel / 2.0;
-            // In the picture, y goes down.
+            // In the picture, y points down.
             let way = sign * DVec3::new(direction.x, -direction.y, 0.0);
             let reach = it.drawn().support(it.start.orientation, way).unwrap();
             assert!((seen - reach).abs() < 1.5 * metres_per_pixel, "{way}: {seen} m, not {reach} m\n{body}");
@@ -87,7 +87,7 @@ fn an_enlarged_body_is_drawn_larger_about_its_centre() {
     );
 }
 
-/// Words before the matrix turn and move with the body, words after it do not.
+/// Checks the keys for SDL in a body: a texture before the matrix turns and moves with the body, one after the matrix does not.
 #[test]
 fn own_words_stand_before_and_after_the_matrix() {
     let halves = "pigment { gradient x color_map { [0.5 rgb <1, 0, 0>] [0.5 rgb <0, 1, 0>] } scale 10 translate -x*5 }\
@@ -103,7 +103,7 @@ angular_velocity = [0, 0, 1.5707963267948966]\n{DARK}{}",
     let after = ball(&format!("look.sdl_after = \"texture {{ {halves}\\n}}\""));
     let hidden = ball("look.sdl_before = \"no_image\"");
     let [before, after, hidden] = render_all([before, after, hidden].map(|text| script_of(&text, 1)), SIZE);
-    // A quarter turn about z takes green from the right to the top; the middle of half a disk is 4 r / 3π from its edge.
+    // A quarter turn about z moves green from the right to the top. The centroid of a half disk is 4 r / 3π from its straight edge.
     for (image, way) in [(before, DVec2::NEG_Y), (after, DVec2::X)] {
         let found = image.spot(is_green).middle() - image.spot(is_red).middle();
         assert!(found.distance(way * 34.0) < 3.0, "red → green is {found}");
@@ -111,7 +111,8 @@ angular_velocity = [0, 0, 1.5707963267948966]\n{DARK}{}",
     assert_eq!(hidden.brightness(), 0.0);
 }
 
-/// Objects in POV-Ray's words are in metres, whatever the unit of the script, and are placed as their stand-in.
+/// Checks that an object given in SDL has lengths in meters, whatever the script's unit, and the location and orientation of its stand-in
+/// shape.
 #[test]
 fn an_object_in_sdl_is_drawn_in_place_of_its_stand_in() {
     let cone = "shape.sdl.object = \"object { cone { -y*0.45, 0.8, y*1.35, 0 } } // a cone\"

@@ -1,4 +1,4 @@
-//! What shows physics is where it must be.
+//! Tests of what is drawn to explain the physics: arrows, axes, trails, springs, labels, scale bars and grids are in the right places.
 
 use glam::{DVec2, DVec3};
 use jabuka::Run;
@@ -17,7 +17,7 @@ fn is_white([r, g, b]: Rgb) -> bool {
     r.min(g).min(b) > 120
 }
 
-/// Whether some pixel near to where the camera sees a place is of some kind.
+/// Returns true if a pixel within two pixels of a position satisfies a condition on its color.
 fn near(image: &Image, place: DVec2, is_wanted: impl Fn(Rgb) -> bool) -> bool {
     let steps = || (-2..=2).map(f64::from);
     steps().any(|dx| steps().any(|dy| is_wanted(image.at(place + DVec2::new(dx, dy)))))
@@ -40,7 +40,8 @@ fn arrows_begin_at_the_surface_and_are_as_long_as_their_scale_says() {
             assert!(near(image, sees(x, 0.0), is_red), "velocity at {x}");
         }
         assert!(!near(image, sees(1.6, 0.0), is_red), "0.5 m + 2 m/s × 0.5 is the end");
-        // The acceleration of 1 m/s² is 1 m long, the force of 3 N 0.3 m. They are parallel, and stand side by side.
+        // The acceleration of 1 m/s² is drawn 1 m long, the force of 3 N 0.3 m. The two arrows are parallel, so they are drawn side by
+        // side.
         let is_blue = |[r, g, b]: Rgb| b > r.saturating_add(40) && b > g.saturating_add(40);
         assert!(near(image, sees(-0.14, -0.7), is_blue), "the head of the force");
         for y in [-0.6, -1.0, -1.4] {
@@ -61,14 +62,14 @@ fn arrows_are_seen_where_the_ground_or_a_spring_would_hide_them() {
         script(&format!("[body.ball]\n{ball}{arrow}location = {place}\nforce = [0, -2, 0]\n{keys}\n{size}"))
     };
     let fall = |place: &str, keys: &str| seen(place, &format!("{keys}{}", camera.toml()));
-    // Its tip is 1.5 m below the ground, or below a plane.
+    // The tip of the arrow is 1.5 m below the ground or a plane.
     let ground = fall("[0, 1, 0]", "[environment]\nground.height = 0\n");
     let plane = fall("[0, 1, 0]", "[body.floor]\nshape.plane = {}\n");
     let parallel = seen(
         "[0, 1, 0]",
         "[environment]\nground.height = 0\n[camera]\nprojection = 'orthographic'\nwidth = 8\nlocation = [0, 3, 10]\nlook_at = [0, 0, 0]\n",
     );
-    // A spring is fastened where the force pulls to.
+    // A spring is attached where the arrow of the force points.
     let coil = "[force.s.spring]\nbetween = ['ball', [0, -3, 0]]\nstiffness = 0\ncoil = { color = 'lime', radius = 0.4, turns = 12 }\n";
     let coil = fall("[0, 2, 0]", &format!("{coil}{DARK}"));
     let images = render_all([ground, plane, parallel, coil], SIZE);
@@ -84,7 +85,7 @@ fn arrows_are_seen_where_the_ground_or_a_spring_would_hide_them() {
         let place = DVec2::new(80.0, 50.0 - y * across.y * 20.0);
         assert!(near(&images[2], place, is_red), "by parallel rays, at {y}");
     }
-    // Each row of the picture from the ball to the tip has some red of the shaft.
+    // Each row of pixels from the ball to the tip must show some red of the arrow's shaft.
     let spot = images[3].spot(is_red).0;
     let (top, end) = (sees(1.3).y as usize, sees(-0.3).y as usize);
     for row in top..end {
@@ -92,7 +93,7 @@ fn arrows_are_seen_where_the_ground_or_a_spring_would_hide_them() {
     }
 }
 
-/// In space, nothing but the stars is there to be mirrored: the night side of a planet is dark.
+/// Checks that the night side of a planet is dark: in space only the stars can be reflected.
 #[test]
 fn the_night_side_of_a_planet_is_dark() {
     let planet = "environment = 'space'\n[body.planet]\nshape.sphere.radius = 2\nmaterial.color = 'white'\n\
@@ -106,7 +107,7 @@ fn the_night_side_of_a_planet_is_dark() {
     }
 }
 
-/// Their finish counts, too: in the dark, axes shine.
+/// Checks that body axes are luminous, so that they are visible in the dark.
 #[test]
 fn axes_are_seen_by_night() {
     let ball = "environment = 'space'\n[body.b]\nshape.sphere.radius = 0.2\naxes.length = 2\n\
@@ -117,7 +118,7 @@ fn axes_are_seen_by_night() {
     assert!(near(&image, y, |[r, g, _]| g > 80 && r < 70), "y is green");
 }
 
-/// POV-Ray warns of a union of a single object, which large letters would be.
+/// Checks that scripts with large labels or a single grid line cause no warning: POV-Ray warns of a union of one object.
 #[test]
 fn large_labels_and_a_single_line_are_parsed_without_a_word() {
     let text = "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [0, -1, 0]\n\
@@ -129,8 +130,8 @@ fn large_labels_and_a_single_line_are_parsed_without_a_word() {
         .nothing("large letters");
 }
 
-/// Two places with the same digits are one to POV-Ray, which takes no line from a place to itself: what is so short is
-/// left out, and the rest is drawn.
+/// Checks that very short lines are left out and all others are drawn. With few digits the two ends of a short line become equal, and
+/// POV-Ray does not accept such a line.
 #[test]
 fn lines_from_a_place_to_itself_are_left_out() {
     let text = "povray.digits = 4\nsimulation.duration = 2\n[body.ball]\nshape.sphere.radius = 0.5\nlocation = [1000, 0, 0]
@@ -192,7 +193,7 @@ fn a_spring_is_drawn_between_its_ends_unless_it_must_not() {
         assert!((left.x - 7.0..=right.x + 1.0).contains(&pixel.x), "{pixel}");
     }
     assert!(spot.area() > 150.0, "{}", spot.area());
-    // Turns are all along.
+    // The turns of the coil must be visible along its whole length.
     for x in -12..=12 {
         let x = front().sees(DVec3::X * (0.1 * f64::from(x))).x;
         assert!(spot.0.iter().any(|pixel| (pixel.x - x).abs() < 4.0), "{x}");
@@ -200,8 +201,8 @@ fn a_spring_is_drawn_between_its_ends_unless_it_must_not() {
     assert_eq!(hidden.spot(is_green).area(), 0.0);
 }
 
-/// Labels stand in the corners, as large as they should be, whatever the camera: also in pictures of another shape, in
-/// front of whatever is there, and sharp while the rest is not.
+/// Checks that labels are in the corners and have the right size for every camera and every aspect ratio. They are in front of all
+/// objects, and sharp even if the scene is out of focus.
 #[test]
 fn labels_stand_in_the_corners_of_all_cameras() {
     let corners = ["top-left", "top-right", "bottom-left", "bottom-right", "top", "bottom"];
@@ -279,7 +280,7 @@ fn a_scale_bar_is_as_long_as_it_says() {
     let images = render_all([scene(ortho), scene(&front().toml())], SIZE.map(|pixels| 4 * pixels));
     let wide = [160.0, 4.0 * (front().sees(DVec3::X) - front().sees(-DVec3::X)).x];
     for (image, wide) in images.iter().zip(wide) {
-        // The longest row of white pixels.
+        // The scale bar is the longest row of white pixels.
         let spot = image.spot(is_white).0;
         let row = |y: f64| spot.iter().filter(|pixel| pixel.y == y).count();
         let longest = (0..4 * SIZE[1]).map(|y| row(f64::from(y) + 0.5)).max().unwrap();
@@ -304,7 +305,7 @@ fn a_grid_has_its_lines_where_its_numbers_say() {
     }
 }
 
-/// Images with motion blur show the past of each of their moments, and labels their time.
+/// Checks that each moment of an image with motion blur shows its own past in ghosts and trails, and its own time in labels.
 #[test]
 fn the_moments_of_a_shutter_have_their_own_past() {
     let text = "[simulation]\nduration = 1\n[camera]\nshutter = 0.04\nsamples = 2\n\

@@ -1,4 +1,4 @@
-//! Motion blur: the moments of an image are rendered by one command, and their mean is one blur and not many ghosts.
+//! Tests of motion blur: one command renders all moments of an image, and their mean looks like a smooth blur, not like separate ghosts.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -11,7 +11,7 @@ use jabuka::{Run, Scene};
 use crate::image::{Image, brightness};
 use crate::{povray, support};
 
-/// Renders all moments of a script, and tells their images in their order.
+/// Renders all moments of a script. Returns the paths of their images in order.
 fn moments(folder: &Path, script: &str, samples: usize, arguments: &[&str]) -> Vec<PathBuf> {
     let input = format!("+I{script}");
     let last = format!("+KFF{}", samples - 1);
@@ -22,7 +22,7 @@ fn moments(folder: &Path, script: &str, samples: usize, arguments: &[&str]) -> V
     (0..samples).map(|i| folder.join(format!("moment{i:0digits$}.png"))).collect()
 }
 
-/// The light of an image, each channel from 0 to 1, in the mean over all pixels.
+/// Returns the mean of an image's linear light over all pixels and channels, 0 to 1.
 fn light(image: &Image) -> f64 {
     let linear = |byte: u8| {
         let number = f64::from(byte) / 255.0;
@@ -32,9 +32,9 @@ fn light(image: &Image) -> f64 {
     pixels.iter().sum::<f64>() / pixels.len() as f64
 }
 
-/// A wheel with eight spokes, seen from its axis, of which 200 pixels are 3 m. It turns by 20° in the 20 ms for which
-/// the shutter is open, and its spokes are 7° wide where they are looked at: neither so thin that they would not overlap
-/// from one of 16 moments to the next, nor so thick that those of 4 moments would.
+/// Returns a scene with a wheel of eight spokes, seen along its axis; 200 pixels are 3 m. It turns by 20° in the 20 ms of exposure. At
+/// [`RADIUS`] its spokes are 7° wide: wide enough to overlap in consecutive moments if there are 16 of them, and too narrow to overlap if
+/// there are 4.
 fn wheel(samples: usize) -> String {
     let width = 2.0 * RADIUS * libm::sin(3.5_f64.to_radians());
     let spokes = (0..8).map(|i| {
@@ -74,11 +74,10 @@ size = [300, 300]
     )
 }
 
-/// Where the spokes are looked at, m from the axis.
+/// The distance from the axis at which the spokes are examined, m.
 const RADIUS: f64 = 1.5;
 
-/// How often the brightness along a circle through the spokes turns from rising to falling or back, where it changes by
-/// at least a tenth of what it can.
+/// Counts the local extremes of the brightness along a circle through the spokes. Changes below a tenth of the full range are ignored.
 fn turns(image: &Image) -> usize {
     const NOTICEABLE: f64 = 25.5;
     let at = |step: i32| {
@@ -86,7 +85,7 @@ fn turns(image: &Image) -> usize {
         brightness(image.at(DVec2::splat(150.0) + DVec2::new(cos, sin) * RADIUS * 300.0 / 4.5))
     };
     let (mut turns, mut rising, mut extreme) = (0, None, at(0));
-    // Twice around: what is found in the second round is not cut by its beginning.
+    // Go around twice, so that the starting point cuts off no extreme of the second round.
     for step in 0..2880 {
         let here = at(step);
         let onwards = match rising {
@@ -104,7 +103,8 @@ fn turns(image: &Image) -> usize {
     turns
 }
 
-/// The wheel, compiled and rendered: sharp, and the mean of its moments, whose light is that of all moments.
+/// Compiles and renders the wheel. Returns the sharp image and the blurred one, and asserts that the blurred image has the mean light of
+/// all moments.
 fn render(samples: usize) -> [Image; 2] {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wheel.toml");
@@ -137,15 +137,15 @@ fn a_wheel_that_turns_is_one_blur_and_not_several_wheels() {
         let [many, few] = [16, 4].map(|samples| scope.spawn(move || render(samples)));
         (many.join().unwrap(), few.join().unwrap())
     });
-    // Eight spokes, and eight gaps between them.
+    // Each of the eight spokes and of the eight gaps is an extreme.
     assert_eq!(turns(&sharp), 16);
     assert_eq!(turns(&blurred), 16);
     assert!(turns(&ghosts) > 16, "four moments are too few, and this test does not see it");
     assert!(sharp.difference(&blurred) > 5.0);
 }
 
-/// Much of what a script can hold: patterns, glass, a macro, axes, words of the scene's own which see the number of the
-/// frame and leave nothing behind, and a lens.
+/// A scene with many features of scripts: patterns, glass, a macro, axes, a lens, and SDL of its own that uses the frame's number and must
+/// not affect the next moment.
 const RICH: &str = "
 title = 'Rich'
 simulation.duration = 0.04
@@ -204,7 +204,7 @@ fn a_moment_is_rendered_as_if_it_were_alone_in_both_layouts() {
                 let images: Vec<Image> = images.iter().map(|path| Image::read(path)).collect();
                 assert!(images[2] == *alone, "{layout}");
                 assert!(images[0] != images[2]);
-                // By its number, and not by an animation.
+                // Render one moment by its number instead of as a part of an animation.
                 let one =
                     ["+Ishutter_0001.pov", "+Oone.png", "+FN8", "+W80", "+H60", "Declare=Shutter_Sample=2"];
                 povray::run(&out, &one).nothing("one moment");

@@ -1,4 +1,4 @@
-//! Right, up, near: bodies are where the scene's camera sees them.
+//! Tests that bodies appear in the picture where the scene's camera must see them: right, up and near.
 
 use glam::{DVec2, DVec3};
 
@@ -24,7 +24,7 @@ fn a_ball_is_where_the_camera_sees_it() {
         for ((location, _), is_color) in balls.iter().zip([is_red, is_green, is_blue]) {
             let expected = camera.sees(DVec3::from_array(*location));
             let off = image.spot(is_color).middle().distance(expected);
-            // A ball's picture is an ellipse about a point some hundredths of a pixel off.
+            // The picture of a ball is an ellipse, whose center is some hundredths of a pixel away from that of the ball.
             assert!(off < 0.4, "{off} pixels from {expected}");
         }
     }
@@ -39,12 +39,12 @@ fn x_goes_right_y_up_and_z_towards_the_viewer() {
     let [x, y, z, origin] = render_all(scripts, SIZE).map(|image| image.spot(is_red));
     assert!(x.middle().x > 100.0 && (x.middle().y - 50.0).abs() < 1.0);
     assert!(y.middle().y < 40.0 && (y.middle().x - 80.0).abs() < 1.0);
-    // At 6/10 of the distance, it has (10/6)² times the area.
+    // At 6/10 of the distance, the ball has (10/6)² times the area.
     let nearer = z.area() / origin.area();
     assert!((2.4..3.2).contains(&nearer), "{nearer} times as large");
 }
 
-/// Straight down and straight up are the ends of a nod: x stays on the right.
+/// Checks cameras that look straight down or up: they are the limits of tilting the camera, and x stays on the right.
 #[test]
 fn x_is_on_the_right_for_a_camera_that_looks_straight_down_or_up() {
     let bodies = shining_ball("x", [1.0, 0.0, 0.0], 0.2, "#ff0000")
@@ -62,7 +62,7 @@ fn x_is_on_the_right_for_a_camera_that_looks_straight_down_or_up() {
     }
 }
 
-/// A camera that the scene does not place shows the whole motion, from the first frame to the last.
+/// Checks that the default camera shows the whole motion, from the first frame to the last.
 #[test]
 fn the_usual_camera_sees_the_whole_motion() {
     let ball = shining_ball("ball", [-5.0, 0.0, 0.0], 0.5, "#ff0000");

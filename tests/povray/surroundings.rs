@@ -1,4 +1,4 @@
-//! Ground, sky and fog.
+//! Tests of the environment: ground, sky and fog.
 
 use glam::{DVec2, DVec3};
 
@@ -11,7 +11,7 @@ fn front() -> Pinhole {
     Pinhole::new([0.0, 2.0, 10.0], [0.0, 1.0, 0.0])
 }
 
-/// A red ball of radius 1 about the origin, in these surroundings.
+/// Returns the script of a red ball of radius 1 about the origin; `environment` holds the keys of the environment.
 fn scene(environment: &str) -> String {
     let ball = shining_ball("ball", [0.0; 3], 1.0, "#ff0000");
     script(&format!("{ball}[environment]\n{environment}\n{}", front().toml()))
@@ -61,7 +61,7 @@ fn the_ground_is_at_its_height() {
     }
 }
 
-/// A corner of a tile is over the origin.
+/// Checks the size of the ground's tiles. A corner of a tile is below the origin.
 #[test]
 fn tiles_are_as_large_as_they_should_be() {
     let down = Pinhole { up: DVec3::NEG_Z, ..Pinhole::new([0.0, 9.0, 0.0], [0.0; 3]) };
@@ -80,18 +80,18 @@ fn tiles_are_as_large_as_they_should_be() {
     assert!(!same(shade(&two, 0.5, 0.5), shade(&two, 2.5, 0.5)));
 }
 
-/// With fog, the ground ends in the color of the horizon; without, it ends in a line.
+/// Checks the horizon: with fog, the ground fades into the color of the horizon; without, it ends in a sharp line.
 #[test]
 fn fog_hides_the_horizon() {
     let [fog, clear] = render_all(["fog = true", "fog = false"].map(scene), SIZE);
-    // The camera looks down by 0.1: the horizon is 0.1 above the middle.
+    // The camera looks down with a slope of 0.1, so the horizon is 0.1 above the center.
     let along = |over: f64| front().sees(DVec3::new(-3.0, 2.0 + over, 0.0));
     let step = |image: &Image| brightness(image.at(along(0.08))) - brightness(image.at(along(-0.08)));
     assert!(step(&clear) > 30.0, "{}", step(&clear));
     assert!(step(&fog).abs() < 15.0, "{}", step(&fog));
 }
 
-/// A scene without bodies, or with nothing but a plane, is a picture, too.
+/// Checks that a scene without bodies, or with only a plane, gives a picture.
 #[test]
 fn an_empty_scene_has_surroundings() {
     for text in ["title = \"empty\"", "[body.floor]\nshape.plane = {}\n"] {
@@ -100,7 +100,7 @@ fn an_empty_scene_has_surroundings() {
     }
 }
 
-/// A ball of moon in these surroundings, which a scene names before all tables.
+/// Returns the script of a ball with the material `moon` in a preset environment, which the scene names before all tables.
 fn in_surroundings(preset: &str) -> String {
     let moon = "[body.ball]\nshape.sphere.radius = 1\nmaterial = \"moon\"\n";
     let sun = "[light.sun]\nsun.direction = [-1, 0, 0]\n";
@@ -120,7 +120,7 @@ fn every_preset_is_to_be_seen_and_is_a_look_of_its_own() {
     }
 }
 
-/// Ambient light follows the sky: at night and below a black sky, what no lamp reaches is dark.
+/// Checks that ambient light depends on the sky: at night and under a black sky, the side away from all lights is dark.
 #[test]
 fn the_far_side_of_the_moon_is_dark_at_night() {
     let scripts = ["daylight", "night", "space"].map(in_surroundings);
@@ -135,14 +135,14 @@ fn the_far_side_of_the_moon_is_dark_at_night() {
     }
 }
 
-/// The same moon, in surroundings of its own.
+/// Returns the script of the same ball; `environment` holds the keys of the environment.
 fn scene_of_moon(environment: &str) -> String {
     let moon = "[body.ball]\nshape.sphere.radius = 1\nmaterial = \"moon\"\n";
     let sun = "[light.sun]\nsun.direction = [-1, 0, 0]\n";
     script(&format!("{moon}{sun}[environment]\n{environment}\n{}", front().toml()))
 }
 
-/// A lamp in a body that shines by itself shines out.
+/// Checks that a light inside a luminous ball lights the scene.
 #[test]
 fn a_lamp_in_a_luminous_ball_lights_the_scene() {
     let scene = |material: &str| {

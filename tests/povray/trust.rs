@@ -1,4 +1,4 @@
-//! What SDL may do without `--trust`, held against POV-Ray's words, include files and examples.
+//! Tests of the SDL that is allowed without `--trust`, compared with POV-Ray's reserved words, include files and examples.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,11 +8,11 @@ use std::process::Command;
 
 use jabuka::scene::sdl::{Token, Tokens, WRITING_MACROS, Where, refusals};
 
-/// Where Debian installs POV-Ray's include files and the examples.
+/// The folders in which Debian installs POV-Ray's include files and its examples.
 const INCLUDES: &str = "/usr/share/povray-3.7/include";
 const EXAMPLES: &str = "/usr/share/doc/povray/examples";
 
-/// Pieces of SDL that artists keep and share: what a `#declare` or a top-level object spans, and macros.
+/// Returns the parts of an SDL text that artists keep and share: `#declare` statements, top-level objects and macros.
 fn pieces(text: &str) -> Vec<&str> {
     let mut pieces = Vec::new();
     let mut tokens = Tokens::of(text).peekable();
@@ -23,7 +23,7 @@ fn pieces(text: &str) -> Vec<&str> {
             continue;
         }
         let is_macro = next == "macro";
-        // Up to the `#end` of a macro, or to the brace that closes the first one.
+        // A part ends at the `#end` of a macro, or at the brace that closes its first brace.
         for (token, range) in tokens.by_ref() {
             match token {
                 Token::Word("if" | "ifdef" | "ifndef" | "while" | "for" | "switch" | "macro") if hash => {
@@ -46,7 +46,7 @@ fn pieces(text: &str) -> Vec<&str> {
     pieces
 }
 
-/// Whether a piece reads or writes files as data, which no scene may do without `--trust`.
+/// Returns true if a part reads or writes data files, which is not allowed without `--trust`.
 fn does_io(piece: &str) -> bool {
     let words = ["fopen", "fclose", "read", "write", "save_file", "load_file"];
     Tokens::of(piece).any(|(token, _)| {
@@ -63,7 +63,7 @@ fn what_artists_use_passes() {
     let mut refused = BTreeMap::<String, usize>::new();
     for path in files {
         let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
-        // An artist lists the files beside an example as assets.
+        // The files next to an example count as assets, as an artist would list them.
         let folder = path.parent().unwrap();
         let is_asset = |name: &str| !name.contains("..") && folder.join(name).is_file();
         let mut passes = |text: &str| {
@@ -89,7 +89,7 @@ fn what_artists_use_passes() {
     assert!(whole > 400 && whole_passed * 100 >= whole * 90, "{whole_passed} of {whole}: {refused:#?}");
 }
 
-/// SDL files below a folder.
+/// Adds all SDL files below a folder to `files`.
 fn below(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -112,7 +112,8 @@ fn the_macros_of_povray_that_write_files_are_known() {
             continue;
         }
         let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
-        // Which `#end` closes a macro, and which something in it.
+        // One entry for each open directive: `Some` with the name of a macro, `None` for others. It shows whether an `#end` closes a
+        // macro.
         let mut open: Vec<Option<String>> = Vec::new();
         let (mut hash, mut opens_macro) = (false, false);
         for (token, _) in Tokens::of(&text) {
@@ -154,7 +155,7 @@ fn the_macros_of_povray_that_write_files_are_known() {
     assert_eq!(writing, WRITING_MACROS.map(str::to_owned).into());
 }
 
-/// POV-Ray has no reserved word that the lists lack: it declares every other word that its program holds.
+/// Checks that the lists contain all reserved words of POV-Ray: every other word in its program file can be declared by a script.
 #[test]
 fn all_reserved_words_of_povray_are_known() {
     let program = ["/usr/bin/povray", "/usr/local/bin/povray"]

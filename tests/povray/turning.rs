@@ -1,4 +1,4 @@
-//! Rotations: their hand, and that what a body is made of turns with it.
+//! Tests of rotations: their sense follows the right-hand rule, and materials turn with the body.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ fn front() -> Pinhole {
     Pinhole::new([0.0, 0.0, 10.0], [0.0; 3])
 }
 
-/// A red box, 4 m long along x, with some more of its words.
+/// Returns a scene with a red box, 4 m long along x; `words` are the keys of the body.
 fn rod(words: &str) -> String {
     format!(
         "[simulation]\nduration = 1\nframe_rate = 1\n[body.rod]\nshape.box.size = [4, 0.3, 0.3]\n{words}
@@ -20,7 +20,7 @@ material = \"red\"\n[material.red]\ncolor = \"red\"\nfinish = \"luminous\"\n{DAR
     )
 }
 
-/// Whether red goes from the lower left to the upper right, and not from the upper left to the lower right.
+/// Returns true if the red rod goes from the lower left to the upper right, and false if it goes from the upper left to the lower right.
 fn rises(image: &Image) -> bool {
     let side = |x: f64, y: f64| is_red(image.at(DVec2::new(80.0 + 15.0 * x, 50.0 + 15.0 * y)));
     let (rising, falling) = ([side(-1.0, 1.0), side(1.0, -1.0)], [side(-1.0, -1.0), side(1.0, 1.0)]);
@@ -39,7 +39,7 @@ fn a_turn_about_z_takes_x_towards_y() {
     ];
     let images = render_all(scripts, SIZE);
     assert_eq!(images.each_ref().map(rises), [true, true, true, true, false]);
-    // From corner to corner, by 22 pixels a metre; the nearer face looks 1.5 % larger.
+    // The width from corner to corner at 22 pixels per meter; the nearer face looks 1.5 % larger.
     let width = |image: &Image| {
         let xs = image.spot(is_red).0.into_iter().map(|place| place.x);
         xs.clone().fold(f64::MIN, f64::max) - xs.fold(f64::MAX, f64::min)
@@ -50,7 +50,7 @@ fn a_turn_about_z_takes_x_towards_y() {
     }
 }
 
-/// A ball whose half on the positive side of one of its axes is green, and the other red.
+/// Returns a scene with a ball that is green on the positive side of one of its axes, and red on the other side.
 fn halves(axis: char, words: &str) -> String {
     format!(
         "[simulation]\nduration = 1\nframe_rate = 1\n[body.ball]\nshape.sphere.radius = 2\n{words}
@@ -61,8 +61,8 @@ translate -{axis}*5 }} finish {{ ambient 0 diffuse 0 emission 1 }} }}\"\n{DARK}{
     )
 }
 
-/// By the right-hand rule, a quarter turn about x takes y to z, about y z to x, and about z x to y. So the green
-/// half comes to face the viewer, to be on the right, and to be on top.
+/// Checks that patterns turn with their bodies. By the right-hand rule, a quarter turn about x takes y to z, about y z to x, and about z x
+/// to y. So the green half faces the viewer, is on the right, or is on top.
 #[test]
 fn a_pattern_turns_with_its_body() {
     const QUARTER_PER_SECOND: &str = "1.5707963267948966";
@@ -75,7 +75,7 @@ fn a_pattern_turns_with_its_body() {
     ];
     let [about_x, about_y, about_z, at_once, not_turned] = render_all(scripts, SIZE);
     assert!(about_x.spot(is_red).area() < 0.02 * about_x.spot(is_green).area());
-    // The middle of half a disk is 4 r / 3π from its edge: 0.85 of the radius of 2, of which one unit is 22 pixels.
+    // The centroid of a half disk is 4 r / 3π from its straight edge: 0.85 m for a radius of 2 m, at 22 pixels per meter.
     let middle = |image: &Image| image.spot(is_green).middle() - image.spot(is_red).middle();
     for (image, x, y) in
         [(about_y, 1.0, 0.0), (about_z, 0.0, -1.0), (at_once, 0.0, -1.0), (not_turned, 1.0, 0.0)]
@@ -86,7 +86,7 @@ fn a_pattern_turns_with_its_body() {
     }
 }
 
-/// jabuka writes a matrix where a person would write POV-Ray's own `rotate`.
+/// Checks that Euler angles mean the same as in POV-Ray: the matrix that jabuka writes equals a `rotate` with these angles.
 #[test]
 fn euler_angles_are_those_of_povray() {
     let scene = format!(
@@ -101,7 +101,7 @@ sdl = \"texture {{ pigment {{ checker rgb <1, 0, 0> rgb <0, 1, 0> scale 0.5 }} f
     let with = |rotate: &str| format!("{before}{rotate} translate <0.5, 0.25, 0>{after}");
     let scripts = [with("rotate <30, 40, 50>"), with("rotate z*50 rotate y*40 rotate x*30"), ours.clone()];
     let [by_rotate, in_another_order, by_matrix] = render_all(scripts, SIZE);
-    // The matrix is rounded to nine digits: an edge may fall on the other side of the middle of a pixel.
+    // The matrix is rounded to nine digits, so an edge may move across the center of a pixel.
     let same = by_matrix.difference(&by_rotate);
     assert!(same < 0.02, "{same}");
     let other = by_matrix.difference(&in_another_order);

@@ -1,4 +1,4 @@
-//! Who may ask the server: nobody but its own page, and that only with the token.
+//! Tests of the access to the preview's server: it answers only its own page, and only with the token.
 
 use std::net::{IpAddr, SocketAddr, TcpStream, UdpSocket};
 use std::time::Duration;
@@ -7,20 +7,20 @@ use crate::http::{Answer, ask, get};
 use crate::server::{Scene, Server};
 use crate::support::root;
 
-/// A scene that nobody else has.
+/// A scene with an unusual name, so that a leak of it is noticed.
 const SECRET: &str = "title = 'Sekret'\nsimulation.duration = 1\n[body.sekret]\nshape.sphere.radius = 1\n";
 
-/// A server that has read its scene.
+/// Starts a server, and waits until it has begun the run of its scene.
 fn server() -> Server {
     let server = Scene::of(SECRET).served();
     server.wait_for_the_run();
     server
 }
 
-/// Methods and paths.
+/// Requests as pairs of method and path.
 type Asked = Vec<(&'static str, String)>;
 
-/// All paths of the server, by its source, with a run and a body in them.
+/// Returns the paths of the server's interface and of its page, read from its source code, with a run and a body inserted.
 fn paths() -> (Asked, Asked) {
     let read = |file: &str| std::fs::read_to_string(root().join("src/preview").join(file)).unwrap();
     let (routes, page) = (read("routes.rs"), read("page.rs"));
@@ -38,14 +38,14 @@ fn paths() -> (Asked, Asked) {
     (api, files)
 }
 
-/// What is sent where an order is expected.
+/// The body of a request that asks for another integration method.
 const ORDER: &str = r#"{"integrator":"rk4","step":"","run":"1","frame":0}"#;
 
 fn host(port: u16) -> String {
     format!("Host: 127.0.0.1:{port}\r\nContent-Type: application/json\r\n")
 }
 
-/// Asserts that nothing of the scene is in an answer.
+/// Asserts that an answer has this status and contains nothing of the scene.
 fn assert_refused(answer: &Answer, status: u16, what: &str) {
     assert_eq!(answer.status, status, "{what}: {}", answer.text());
     assert!(!answer.text().to_lowercase().contains("sekret"), "{what}: {}", answer.text());
@@ -195,14 +195,14 @@ fn every_answer_says_what_a_page_may_do_with_it() {
     }
 }
 
-/// The addresses of this machine that other machines can reach, as far as one can tell without sending anything.
+/// Returns this machine's addresses that other machines can reach, as far as they can be found without sending anything.
 fn reachable() -> Vec<IpAddr> {
     let toward = |from: &str, to: &str| {
         let socket = UdpSocket::bind(from).ok()?;
         socket.connect(to).ok()?;
         Some(socket.local_addr().ok()?.ip())
     };
-    // Addresses that are reserved for examples: a UDP socket only looks up the way there.
+    // These addresses are reserved for examples. Connecting a UDP socket sends nothing; it only chooses the local address for the route.
     let found = [toward("0.0.0.0:0", "192.0.2.1:9"), toward("[::]:0", "[2001:db8::1]:9")];
     found.into_iter().flatten().filter(|address| !address.is_loopback()).collect()
 }
@@ -216,7 +216,7 @@ fn it_listens_on_the_loopback_address_alone() {
         let tried = TcpStream::connect_timeout(&SocketAddr::new(address, port), Duration::from_secs(2));
         assert!(tried.is_err(), "{address} answers");
     }
-    // The kernel's own list: port and address of what this process listens on.
+    // The kernel's table lists the address and the port of every listening socket.
     let Ok(table) = std::fs::read_to_string("/proc/net/tcp") else { return };
     let listens = |line: &&str| line.split_whitespace().nth(3) == Some("0A");
     let locals: Vec<&str> =

@@ -1,12 +1,12 @@
-//! Requests as anybody can send them, who need not be a browser.
+//! HTTP requests that need no browser.
 
 use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 
-/// What a server has answered.
+/// The server's answer to a request.
 pub(crate) struct Answer {
     pub(crate) status: u16,
-    /// Names in small letters.
+    /// The headers as pairs of name and value; names are in lower case.
     headers: Vec<(String, String)>,
     pub(crate) body: Vec<u8>,
 }
@@ -21,26 +21,27 @@ impl Answer {
     }
 }
 
-/// Asks the server at a port of this machine; `headers` are all that are sent, each with its end of line.
+/// Sends a request to a port of this machine, and reads the answer. `headers` are all headers that are sent, each with its line break.
 pub(crate) fn ask(port: u16, method: &str, path: &str, headers: &str, body: &str) -> Answer {
     let (mut stream, head) = begun(port, method, path, headers, body);
     let mut answer = head;
-    // The stream of events has no end, and its head is all that is wanted of it.
+    // The event stream never ends, so only its head is read.
     if answer.header("content-type") != Some("text/event-stream") {
         stream.read_to_end(&mut answer.body).unwrap();
     }
     answer
 }
 
-/// Asks as the page does.
+/// Sends a GET request with the headers that the page sends.
 pub(crate) fn get(port: u16, path: &str) -> Answer {
     ask(port, "GET", path, &format!("Host: 127.0.0.1:{port}\r\n"), "")
 }
 
-/// Sends a request, and reads the head of the answer, and what has come with it.
+/// Sends a request. Returns the connection and the answer with its head, and with the part of the body that arrived together with the
+/// head.
 pub(crate) fn begun(port: u16, method: &str, path: &str, headers: &str, body: &str) -> (TcpStream, Answer) {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
-    // By the older protocol, an answer ends with the connection, and comes in one piece.
+    // With HTTP/1.0, an answer ends with the connection and is not split into chunks.
     let length = body.len();
     let request = format!(
         "{method} {path} HTTP/1.0\r\n{headers}Content-Length: {length}\r\nConnection: close\r\n\r\n{body}"

@@ -1,4 +1,4 @@
-//! The page of `jabuka preview`, in a real browser, and its server.
+//! Tests of `jabuka preview`: its page in a real browser, and its server.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests are tests")]
 
 #[path = "../support/mod.rs"]

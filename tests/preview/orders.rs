@@ -1,10 +1,10 @@
-//! What a scene and an order may do.
+//! Tests of what a previewed scene, and a request for another method, are allowed to do.
 
 use crate::http::{ask, get};
 use crate::server::Scene;
 use crate::support::stderr;
 
-/// The page may be open while somebody else's scene is looked at.
+/// Checks that the preview needs `--trust` for the same scenes as every other command, since a user may preview a scene by somebody else.
 #[test]
 fn what_a_scene_may_do_needs_trust_as_in_every_command() {
     let scenes = [
@@ -26,7 +26,7 @@ fn what_a_scene_may_do_needs_trust_as_in_every_command() {
     }
 }
 
-/// An order is a method and a step, and can set nothing else.
+/// Checks that a request for another method can change only the method and its step.
 #[test]
 fn an_order_cannot_change_more_of_a_scene_than_its_method() {
     let server = Scene::gallery("parabola").served();

@@ -1,4 +1,4 @@
-//! The command: how it begins, and how it ends.
+//! Tests of the command `jabuka preview`: how it starts, and how it ends.
 
 use std::fs;
 
@@ -14,13 +14,13 @@ fn parabola() -> Scene {
 fn ctrl_c_ends_it_even_while_pages_are_open() {
     let server = parabola().served();
     let events = format!("/api/events?token={}", server.token());
-    // Nobody reads on, but the connection stays open.
+    // The test stops reading, but keeps the connection open.
     let mut open = std::net::TcpStream::connect(("127.0.0.1", server.port())).unwrap();
     let request = format!("GET {events} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", server.port());
     std::io::Write::write_all(&mut open, request.as_bytes()).unwrap();
     let mut first = [0; 1];
     std::io::Read::read_exact(&mut open, &mut first).unwrap();
-    // As other commands end that somebody has stopped.
+    // An interrupted command has the exit code 130, as other commands have.
     assert_eq!(server.ended_by("INT").code(), Some(130));
     assert_eq!(parabola().served().ended_by("TERM").code(), Some(130));
 }
@@ -43,7 +43,7 @@ fn a_port_that_is_taken_is_an_error() {
     let said = stderr(&output);
     let expected = format!("error: the page cannot be served on port {port}: Address already in use");
     assert!(said.starts_with(&expected), "{said}");
-    // The first one has not noticed.
+    // The first server must still answer.
     assert_eq!(get(server.port(), "/").status, 200);
 }
 
@@ -52,7 +52,7 @@ fn the_port_is_the_one_that_is_asked_for() {
     let free = parabola().served();
     let port = free.port();
     drop(free);
-    // Another program may have taken it meanwhile; then it says so, which is the test above.
+    // Another program may have taken the port meanwhile; the test above covers this case.
     let output = parabola().previewed_with(&["--port", &port.to_string()]).served();
     assert_eq!(output.port(), port);
     assert_ne!(parabola().previewed_with(&["--port", "0"]).served().port(), 0);
@@ -86,7 +86,7 @@ fn two_at_once_keep_to_themselves() {
     assert!(!run(&two, two.token()).text().contains("Parabola"));
 }
 
-/// Without a run, the page is served all the same: its errors are shown on it.
+/// Checks that a server starts even if its scene is invalid: the page shows the errors.
 #[test]
 fn it_says_its_address_and_what_is_wrong() {
     let server = Scene::of("[body.ball]\nshape.sphere.radius = -1\n").served();

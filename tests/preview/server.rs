@@ -1,4 +1,4 @@
-//! A preview that serves a scene from a folder of its own.
+//! A running preview of a scene in a temporary folder.
 
 use std::fs::{self, File};
 use std::io::{BufRead as _, BufReader};
@@ -8,28 +8,28 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use crate::http::get;
 use crate::support::{self, jabuka, root, scene};
 
-/// A folder with a scene, and what it needs; `jabuka` works there, so that nothing is written elsewhere.
+/// A temporary folder with a scene and its files. `jabuka` runs in it, so that it writes nothing elsewhere.
 pub(crate) struct Scene {
     folder: tempfile::TempDir,
     pub(crate) name: String,
     arguments: Vec<String>,
 }
 
-/// A preview that runs, and ends with this.
+/// A running preview. Dropping it ends the process.
 pub(crate) struct Server {
     pub(crate) scene: Scene,
     child: Child,
-    /// The address that it has printed, with the token.
+    /// The address that the preview has printed, with the token.
     pub(crate) address: String,
 }
 
 impl Scene {
-    /// A scene as it is written here, in `scene.toml`.
+    /// Makes a folder whose `scene.toml` has this text.
     pub(crate) fn of(text: &str) -> Scene {
         Scene { name: "scene".to_owned(), ..Scene::in_folder() }.with("scene.toml", text)
     }
 
-    /// A copy of a scene of the gallery, with all meshes.
+    /// Makes a folder with a copy of a scene of the gallery and all meshes.
     pub(crate) fn gallery(name: &str) -> Scene {
         let text = fs::read_to_string(scene(name)).unwrap();
         let copy = Scene { name: name.to_owned(), ..Scene::in_folder() }.with(&format!("{name}.toml"), &text);
@@ -44,7 +44,7 @@ impl Scene {
         Scene { folder: tempfile::tempdir().unwrap(), name: String::new(), arguments: Vec::new() }
     }
 
-    /// With another file beside it.
+    /// Adds another file to the folder.
     pub(crate) fn with(self, name: &str, text: &str) -> Scene {
         let path = self.folder().join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -52,7 +52,7 @@ impl Scene {
         self
     }
 
-    /// Previewed with further arguments.
+    /// Adds arguments for `jabuka preview`.
     pub(crate) fn previewed_with(mut self, arguments: &[&str]) -> Scene {
         self.arguments.extend(arguments.iter().map(|&argument| argument.to_owned()));
         self
@@ -62,22 +62,22 @@ impl Scene {
         self.folder.path()
     }
 
-    /// The file of the scene.
+    /// Returns the path of the scene's file.
     pub(crate) fn path(&self) -> PathBuf {
         self.folder().join(&self.name).with_extension("toml")
     }
 
-    /// `jabuka` in the folder.
+    /// Returns a command that runs `jabuka` in the folder.
     pub(crate) fn jabuka(&self, arguments: &[&str]) -> Command {
         let mut command = jabuka();
         command.current_dir(self.folder()).args(arguments);
         command
     }
 
-    /// Begins the preview.
+    /// Starts the preview.
     pub(crate) fn served(self) -> Server {
         let said = File::create(self.folder().join("stderr")).unwrap();
-        // What runs the tests in the background may have them ignore Ctrl-C, and children inherit that.
+        // A test runner in the background may make its children ignore SIGINT, so reset it to its default.
         let mut command = Command::new("env");
         command.arg("--default-signal=INT").arg(env!("CARGO_BIN_EXE_jabuka"));
         command.arg("preview").arg(self.path()).arg("--no-open").args(&self.arguments);
@@ -100,28 +100,28 @@ impl Server {
         }
     }
 
-    /// The port.
+    /// Returns the port from the printed address.
     pub(crate) fn port(&self) -> u16 {
         let host = self.address.strip_prefix("http://127.0.0.1:").unwrap();
         host.split('/').next().unwrap().parse().unwrap()
     }
 
-    /// The token, without which nobody is told anything of the scene.
+    /// Returns the token from the printed address. Without it, the server reveals nothing of the scene.
     pub(crate) fn token(&self) -> &str {
         self.address.split_once("token=").unwrap().1
     }
 
-    /// What it has said to standard error.
+    /// Returns all that the preview has written to standard error.
     pub(crate) fn said(&self) -> String {
         fs::read_to_string(self.scene.folder().join("stderr")).unwrap()
     }
 
-    /// The number of its process.
+    /// Returns the process ID of the preview.
     pub(crate) fn process(&self) -> u32 {
         self.child.id()
     }
 
-    /// Sends it a signal, by its name, and waits for its end.
+    /// Sends the preview a signal by its name, and waits for its end. Returns its exit status.
     pub(crate) fn ended_by(mut self, signal: &str) -> ExitStatus {
         support::signal(signal, self.process());
         self.child.wait().unwrap()
@@ -130,7 +130,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // Killing fails if the preview has already ended, which does no harm.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,6 +1,6 @@
-//! `docs/validation.md`: how right the methods are, measured by the tests.
+//! Measures the accuracy of the methods, and writes the results to `docs/validation.md`.
 //!
-//! After a change: `JABUKA_UPDATE_DOCS=1 cargo test --test physics validation`.
+//! After a change, this command writes the page again: `JABUKA_UPDATE_DOCS=1 cargo test --test physics validation`.
 
 mod orders;
 mod page;
@@ -11,7 +11,7 @@ use jabuka::dynamics::Method;
 use orders::{PROBLEMS, Point, Problem};
 use references::{Outcome, REFERENCES, Reference};
 
-/// A problem, and what each method that can solve it has made of it.
+/// A problem, and the measured errors of each method that can solve it.
 type Solved = (&'static Problem, Vec<(&'static Method, Vec<Point>)>);
 
 fn solved() -> Vec<Solved> {

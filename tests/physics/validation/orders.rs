@@ -1,4 +1,4 @@
-//! The orders of all methods, measured: errors over steps, and over evaluations of the forces.
+//! Measures the orders of all methods: errors over the number of steps, and over the number of force evaluations.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,7 +11,7 @@ use jabuka::dynamics::{
 
 use crate::common::{air, ball, distance, method, tether};
 
-/// Counts how often the forces are evaluated.
+/// A force that has no effect and counts its evaluations.
 #[derive(Clone, Default)]
 pub(crate) struct Counter(Arc<AtomicU64>);
 
@@ -39,22 +39,23 @@ impl Force for Counter {
     }
 }
 
-/// A problem that is solved by steps of equal length.
+/// A problem that is solved with steps of equal length.
 pub(crate) struct Problem {
     pub(crate) name: &'static str,
     pub(crate) meaning: &'static str,
-    /// Its duration for methods up to order 8 and for those beyond, s. The error of these can only be seen where steps are long.
+    /// The durations of the problem, s: for methods up to order 8, and for methods of higher order. The errors of the latter are visible
+    /// only with long steps.
     durations: [f64; 2],
     build: fn() -> World,
-    /// The exact end, of a world that is there.
+    /// Replaces a world's state by the exact solution at the given time.
     exact: fn(f64, &mut State),
-    /// How far two states are apart.
+    /// Returns the difference between two states as one number.
     off: fn(&State, &State) -> f64,
-    /// Whether planets move about a heavy body.
+    /// True if the problem is one of planets that move around a heavy body.
     pub(crate) is_of_planets: bool,
 }
 
-/// What a method has made of a problem.
+/// The result of a method on a problem with one number of steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     pub(crate) steps: u32,
@@ -107,7 +108,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
         durations: [0.7 * ORBIT; 2],
         build: kepler,
         exact: |t, state| {
-            // E − e sin E = 2π t / T, by Newton's method.
+            // Solve Kepler's equation E − e sin E = 2π t / T by Newton's method.
             let (e, mean) = (0.1_f64, std::f64::consts::TAU * t / ORBIT);
             let mut anomaly = mean;
             for _ in 0..30 {
@@ -141,7 +142,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
     },
 ];
 
-/// 2π / √1.001.
+/// The period of the orbit, s: 2π / √1.001.
 const ORBIT: f64 = 6.280_046_068_758_707;
 
 fn oscillator() -> World {
@@ -218,7 +219,7 @@ fn advanced(mut world: World, method: &'static Method, end: f64, steps: u32) -> 
 }
 
 impl Problem {
-    /// The errors of a method at ever shorter steps.
+    /// Returns the errors of a method for a series of decreasing steps.
     pub(crate) fn solve(&self, method: &'static Method) -> Vec<Point> {
         let end = self.durations[usize::from(method.order > 8)];
         let mut exact = (self.build)().state().clone();
@@ -248,7 +249,8 @@ impl Problem {
     }
 }
 
-/// By the method of planets, which makes its steps in a row; its corrector stands before the first and behind the last.
+/// Solves a problem with the method for planets, which takes all its steps in a row. Its symplectic corrector is applied before the first
+/// step and after the last. Returns the final state.
 fn by_ahead(mut world: World, method: &'static Method, end: f64, steps: u32) -> State {
     let mut state = world.state().clone();
     world.set_integrator(method);
@@ -265,8 +267,8 @@ fn by_ahead(mut world: World, method: &'static Method, end: f64, steps: u32) -> 
     state
 }
 
-/// The order that errors show: the slope of their logarithms over those of the steps, by least squares, of the finest of them that are
-/// larger than rounding; none where all are rounding.
+/// Returns the measured order: the slope of the errors' logarithms over those of the steps, by least squares. It uses the errors of the
+/// shortest steps that are above rounding. `None` if fewer than two errors are above rounding.
 pub(crate) fn order(points: &[Point]) -> Option<f64> {
     const ROUNDING: f64 = 2e-14;
     let seen: Vec<_> = points.iter().filter(|point| point.error > ROUNDING && point.error < 0.2).collect();
@@ -284,14 +286,14 @@ pub(crate) fn order(points: &[Point]) -> Option<f64> {
     Some(-above / below)
 }
 
-/// The order that a method must show: that of its table, less 0.2. That of Gauss and Radau is seen in the little that rounding leaves, so 13 is
-/// asked of it, and of it and `dop853` nothing on an ellipse, where the sign of their errors depends on the step. Along an ellipse the method of planets is
-/// exact.
+/// Returns the order that a method must show on a problem: that of its table, minus 0.2. The Gauss–Radau method reaches rounding so early
+/// that only 13 is required. On an ellipse nothing is required of this method and of `dop853`, because the sign of their errors depends on
+/// the step, and nothing of the method for planets, which is exact there.
 pub(crate) fn required(problem: &Problem, method: &Method) -> Option<f64> {
     match (problem.name, method.order) {
         ("Kepler", 5..) => None,
         ("Kepler", _) if method.is_of_planets() => None,
-        // It leaves the orbits before its steps are short enough.
+        // A first-order method leaves the orbits unless its steps are shorter than those used here.
         ("planets", 1) => None,
         (_, 9..) => Some(13.0),
         (_, order) => Some(f64::from(order) - 0.2),

@@ -1,4 +1,4 @@
-//! The page and its plot.
+//! Writes the page `docs/validation.md` and its plot.
 
 use std::fmt::Write as _;
 
@@ -8,11 +8,11 @@ use jabuka::report::plot::{Chart, Curve, Picture, svg};
 use super::orders::{self, Point};
 use super::{REFERENCES, Reference, Solved};
 
-/// The errors of all methods on all problems, over what they cost.
+/// Returns an SVG plot of the errors of all methods on all problems, over their costs.
 pub(crate) fn plot(solved: &[Solved]) -> String {
     let chart = |(problem, methods): &Solved| {
         let curve = |(method, points): &(&Method, Vec<Point>)| {
-            // The method of planets asks no force: it knows gravitation itself.
+            // The method for planets computes gravitation itself and evaluates no force, so its cost is the number of its steps.
             let cost = |point: &Point| match method.is_of_planets() {
                 true => f64::from(point.steps),
                 false => point.evaluations as f64,
@@ -28,7 +28,7 @@ pub(crate) fn plot(solved: &[Solved]) -> String {
     svg(&Picture::of_charts("Errors of all methods", &charts))
 }
 
-/// The page.
+/// Returns the text of the page.
 pub(crate) fn page(solved: &[Solved]) -> String {
     let mut page = HEAD.to_owned();
     table_of_references(&mut page);
@@ -90,7 +90,7 @@ fn table_of_orders(page: &mut String, solved: &[Solved]) {
     }
 }
 
-/// What other programs make of the same problems, as it was recorded: tables of lines `key = value`.
+/// Adds a table with the recorded results of other programs on the same problems. The files hold tables of lines `key = value`.
 #[allow(clippy::unwrap_used, reason = "it is part of tests")]
 fn table_of_peers(page: &mut String) {
     page.push_str("| problem | program | method | settings | steps or evaluations | error | seconds |\n");
@@ -123,7 +123,7 @@ fn table_of_peers(page: &mut String) {
     }
 }
 
-/// A number with two digits, which rounding does not change.
+/// Formats a number with two significant digits, so that differences in rounding do not change the page.
 fn short(number: f64) -> String {
     if number == 0.0 {
         return "0".to_owned();

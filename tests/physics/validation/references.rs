@@ -1,4 +1,4 @@
-//! The reference problems, each as a scene, with what is known of its end.
+//! The reference problems: scenes whose final states are known.
 
 use std::f64::consts::TAU;
 
@@ -9,22 +9,22 @@ use jabuka::simulate::world;
 
 use super::orders::Counter;
 
-/// A problem with a known end.
+/// A problem whose final state is known.
 pub(crate) struct Reference {
     pub(crate) name: &'static str,
-    /// Where the known values come from.
+    /// The source of the known values.
     pub(crate) source: &'static str,
-    /// What the error is of.
+    /// The quantity whose error is measured.
     pub(crate) what: &'static str,
-    /// The scene, or the path of its file. What stands in braces is the method with its step or tolerance.
+    /// The text of the scene, or the path of its file. A placeholder in braces stands for the method with its step or tolerance.
     scene: &'static str,
-    /// The methods with their steps or tolerances, and the errors that they may have.
+    /// The runs: a method, its step or tolerance, and its largest allowed error.
     pub(crate) runs: &'static [(&'static str, f64, f64)],
-    /// Runs the scene, and says by how much it is off.
+    /// Runs the scene, and returns its error.
     error: fn(&mut dyn Dynamics) -> f64,
 }
 
-/// What a run has come to.
+/// The error of a run and its cost.
 pub(crate) struct Outcome {
     pub(crate) error: f64,
     pub(crate) steps: u64,
@@ -32,12 +32,12 @@ pub(crate) struct Outcome {
 }
 
 impl Reference {
-    /// Whether the scene is one of the gallery.
+    /// Returns the path of the scene's file if it is a scene of the gallery.
     pub(crate) fn file(&self) -> Option<&'static str> {
         self.scene.ends_with(".toml").then_some(self.scene)
     }
 
-    /// Runs the scene by a method.
+    /// Runs the scene by a method with this step or tolerance.
     #[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
     pub(crate) fn run(&self, method: &str, setting: f64) -> Outcome {
         let is_adaptive = jabuka::dynamics::Method::by_name(method).unwrap().adaptive;
@@ -68,7 +68,7 @@ impl Reference {
     }
 }
 
-/// The moment at a time.
+/// Advances a run to a time. Returns the snapshot at this time.
 #[allow(clippy::unwrap_used, reason = "it is part of tests")]
 fn at(run: &mut dyn Dynamics, time: f64) -> Snapshot {
     run.advance(time, &[], &mut |_| {}).unwrap();
@@ -79,18 +79,18 @@ fn largest(off: impl Iterator<Item = f64>) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-/// The angular velocity of a body as seen in its own frame.
+/// Returns the angular velocity of the first body in body axes, rad/s.
 fn in_body(snapshot: &Snapshot) -> DVec3 {
     let body = snapshot.bodies[0];
     body.orientation.conjugate() * body.angular_velocity
 }
 
-/// The angle of a pendulum of 1 m about the origin, from straight down.
+/// Returns the angle of a pendulum about the origin from the downward vertical, rad. `place` is the location of its bob.
 fn angle(place: DVec3) -> f64 {
     libm::atan2(place.x, -place.y)
 }
 
-/// By how much the period of a pendulum is off, relatively: after 25¼ periods it passes the lowest place.
+/// Returns the relative error of a pendulum's period: after 25¼ periods the pendulum passes its lowest point.
 fn period(run: &mut dyn Dynamics, period: f64) -> f64 {
     let time = 25.25 * period;
     let body = at(run, time).bodies[0];
@@ -161,7 +161,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
         scene: "scenes/wing_nut.toml",
         runs: &[("gauss-radau", 1e-9, 1e-3), ("dop853", 1e-13, 1e-3), ("velocity-verlet", 2.5e-4, 1e-3), ("rk4", 2.5e-4, 1e-3)],
         error: |run| {
-            // Where the angular velocity about the middle axis is zero, by a straight line through two moments near to it.
+            // Find the zero of the angular velocity about the intermediate axis, by linear interpolation between two times near it.
             let [one, two] = [3.5385, 3.5395].map(|time| in_body(&at(run, time)).y);
             (3.5385 + 1e-3 * one / (one - two) - 3.539).abs()
         },
@@ -247,7 +247,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
     },
 ];
 
-/// The first three of `scenes/trojans.toml`: sun, Jupiter, and a body at L4.
+/// The first three bodies of `scenes/trojans.toml`: the sun, Jupiter, and a body at the Lagrange point L4.
 const TROJAN: &str = r#"
 variables = { m = 0.000954791938424, a = 5.2, n = "2*pi*sqrt((1 + m)/a^3)", sun = "-a*m/(1 + m)" }
 [simulation]

@@ -1,4 +1,4 @@
-//! Where bodies are: what the page holds is what the scripts say.
+//! Tests that the page places bodies where the scripts place them.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,7 @@ in_the_browser! { Scene::gallery("parabola"), "bodies.mjs":
     a_click_beside_all_bodies_chooses_none_and_names_can_be_typed,
 }
 
-/// One of two balls is there from 1 s to 2 s; the picture is seen from in front.
+/// A scene with two balls, of which one exists only from 1 s to 2 s. The camera looks from the front.
 const COMING: &str = "
     simulation = { duration = 3, frame_rate = 4 }
     environment = 'blackboard'
@@ -39,7 +39,7 @@ in_the_browser! { Scene::of(COMING), "bodies.mjs":
     a_body_is_seen_while_it_is_there,
 }
 
-/// A particle that is there from 1 s to 2 s, and moves up; the picture is seen from in front.
+/// A scene with a particle that exists from 1 s to 2 s and moves up. The camera looks from the front.
 const PARTICLE: &str = "
     simulation = { duration = 3, frame_rate = 4 }
     environment = 'blackboard'
@@ -66,7 +66,7 @@ in_the_browser! { Scene::of(PARTICLE), "bodies.mjs":
     a_particle_is_seen_while_it_lives,
 }
 
-/// What the page holds.
+/// The names of the bodies and their poses in each frame, as the page holds them.
 #[derive(Deserialize)]
 struct Held {
     names: Vec<String>,
@@ -79,21 +79,21 @@ struct Pose {
     orientation: [f64; 4],
 }
 
-/// Where a script puts a body: its location, and where that puts the unit vectors, as far as it says so.
+/// The place of a body in a script: its location, and the images of its unit vectors if the script contains them, in units of the script.
 #[derive(Debug)]
 struct Put {
     location: [f64; 3],
     axes: Option<[[f64; 3]; 3]>,
 }
 
-/// The numbers in the first `<…>` after a word.
+/// Returns the numbers in the first `<…>` after a word.
 fn numbers(line: &str, word: &str) -> Option<Vec<f64>> {
     let (_, rest) = line.split_once(word)?;
     let (list, _) = rest.split_once('>')?;
     list.trim_start_matches([' ', '<']).split(',').map(|number| number.trim().parse().ok()).collect()
 }
 
-/// Where each body is, by the comments with the names in a script.
+/// Returns the place of each body in a script, found by the comments with the bodies' names.
 fn put(script: &str) -> BTreeMap<&str, Put> {
     let three = |numbers: &[f64]| [numbers[0], numbers[1], numbers[2]];
     let of_line = |line: &str| {
@@ -110,18 +110,18 @@ fn put(script: &str) -> BTreeMap<&str, Put> {
         .collect()
 }
 
-/// The metres of a unit of a script, as its head says.
+/// Returns the length of a script's unit in meters, from the comment at its top.
 fn unit(script: &str) -> f64 {
     let said = script.lines().find_map(|line| line.split_once("one unit is ")?.1.strip_suffix(" m"));
     said.unwrap().parse().unwrap()
 }
 
-/// A vector turned by a quaternion x y z w.
+/// Returns a vector rotated by the quaternion x y z w.
 fn turned([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
     glam::DQuat::from_xyzw(x, y, z, w).mul_vec3(v.into()).to_array()
 }
 
-/// Asserts that the page and the scripts of a scene of the gallery say the same.
+/// Asserts that the page and the scripts of a scene of the gallery place all bodies equally.
 fn assert_same_poses(name: &str) {
     let server = Scene::gallery(name).served();
     let held: Held = serde_json::from_str(&server.shows("bodies.mjs", "poses")).unwrap();
@@ -134,7 +134,7 @@ fn assert_same_poses(name: &str) {
         let path = server.scene.folder().join(format!("compiled/frame_{frame:0digits$}.pov"));
         let script = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let (put, unit) = (put(&script), unit(&script));
-        // In other units than metres, nine digits are of the size of the scene.
+        // If the script's unit is not the meter, the nine digits of a number are relative to the size of the scene.
         let size = if unit == 1.0 {
             1.0
         } else {
@@ -152,7 +152,7 @@ fn assert_same_poses(name: &str) {
             let Some(axes) = put.axes else { continue };
             matrices += 1;
             for (n, axis) in axes.into_iter().enumerate() {
-                // What is drawn larger than it is has longer axes.
+                // A body that is drawn larger than it is has longer axis vectors in the script.
                 let long = glam::DVec3::from(axis).length();
                 let mut along = [0.0; 3];
                 along[n] = long;

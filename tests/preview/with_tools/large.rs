@@ -1,4 +1,4 @@
-//! Runs that take long: memory does not grow with them, and the page need not wait.
+//! Tests of long runs: memory does not grow with them, and the page works while they continue.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use crate::server::{Scene, Server};
 const BODIES: u64 = 10_000;
 const FRAMES: u64 = 1_000;
 
-/// Few steps a frame, and nothing that could meet; but enough for a page to be opened meanwhile.
+/// A scene with few steps per frame and without contacts, that still runs long enough for a page to be opened.
 const MANY: &str = "
     [simulation]
     duration = 9.99
@@ -21,14 +21,14 @@ const MANY: &str = "
     repeat.grid = { count = [100, 100], spacing = [1, 1] }
     ";
 
-/// The most memory that a server has needed so far, in bytes.
+/// Returns the peak memory of a server so far, bytes.
 fn peak(server: &Server) -> u64 {
     let status = fs::read_to_string(format!("/proc/{}/status", server.process())).unwrap();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
     line.trim().strip_suffix(" kB").unwrap().parse::<u64>().unwrap() * 1024
 }
 
-/// Asks, and reads what is answered in pieces, without keeping it: how many bytes there were.
+/// Sends a GET request, and reads the answer piece by piece without keeping it. Returns the number of bytes.
 fn count(port: u16, path: &str) -> u64 {
     let (mut stream, head) = begun(port, "GET", path, &format!("Host: 127.0.0.1:{port}\r\n"), "");
     assert_eq!(head.status, 200);
@@ -38,7 +38,7 @@ fn count(port: u16, path: &str) -> u64 {
 #[test]
 fn the_page_works_while_the_run_goes_on() {
     let server = Scene::of(MANY).served();
-    // Another page has all poses sent to it, from the first frame on, as soon as they are there.
+    // A second client receives all poses from the first frame on, as soon as they are computed.
     let poses = std::thread::scope(|scope| {
         let streamed = scope.spawn(|| {
             server.wait_for_the_run();
@@ -48,14 +48,14 @@ fn the_page_works_while_the_run_goes_on() {
         streamed.join().unwrap()
     });
     assert_eq!(poses, BODIES * FRAMES * 7 * 8);
-    // There is no such list elsewhere.
+    // Only Linux has `/proc` with the peak memory.
     if cfg!(target_os = "linux") {
         let peak = peak(&server);
         assert!(peak < 300_000_000, "{peak}");
     }
 }
 
-/// Where labels stand is known when a run is finished; this one never is, as far as a test can wait.
+/// A scene whose run does not finish during a test. The positions of labels are known only when a run is finished.
 const ENDLESS: &str = "
     [simulation]
     duration = 1e4

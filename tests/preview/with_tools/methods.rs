@@ -1,8 +1,8 @@
-//! Another method, in place of the scene's or beside it.
+//! Tests of the page's choice of another integration method, in place of the scene's or next to it.
 
 use crate::server::Scene;
 
-/// A ball that falls so fast that methods part.
+/// A scene in which a ball falls so fast that different methods give visibly different results.
 const FALL: &str = "
     [simulation]
     duration = 10

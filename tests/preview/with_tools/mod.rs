@@ -1,13 +1,13 @@
-//! The page in a real browser.
+//! Tests of the preview's page in a real browser.
 //!
-//! Tests that are written in JavaScript are run by `browser`, each in a browser of its own, against a server of its own.
+//! `tests/preview/browser` runs the tests written in JavaScript, each in its own browser and with its own server.
 
 use std::process::Command;
 
 use crate::server::{Scene, Server};
 use crate::support::root;
 
-/// Tests of a script that have the same scene.
+/// Declares tests of a JavaScript file that preview the same scene.
 macro_rules! in_the_browser {
     ($scene:expr, $script:literal: $($(#[$about:meta])* $test:ident),+ $(,)?) => {
         $(
@@ -29,19 +29,19 @@ mod saving;
 mod strangers;
 
 impl Scene {
-    /// Whether a test of a script holds while the scene is previewed.
+    /// Starts a preview of the scene, and asserts that a test of a JavaScript file succeeds.
     pub(super) fn shows(self, script: &str, test: &str) {
         self.served().shows(script, test);
     }
 }
 
 impl Server {
-    /// Runs a test of a script in a browser, which must succeed, and returns what it prints.
+    /// Runs a test of a JavaScript file in a browser, and asserts that it succeeds. Returns its output.
     pub(super) fn shows(&self, script: &str, test: &str) -> String {
         self.shows_at(&self.address, script, test)
     }
 
-    /// The same with another address in place of its own.
+    /// Runs a test of a JavaScript file like [`Server::shows`], but with this address instead of the server's own.
     pub(super) fn shows_at(&self, address: &str, script: &str, test: &str) -> String {
         let output = Command::new(root().join("tests/preview/browser"))
             .args([script, test, address])
@@ -61,7 +61,7 @@ impl Server {
     }
 }
 
-/// A test that nobody runs would not be missed.
+/// Checks that every test in the JavaScript files is listed in a Rust file; otherwise it would never run.
 #[test]
 fn every_test_in_a_script_is_run() {
     let folder = root().join("tests/preview");

@@ -1,4 +1,4 @@
-//! What is drawn, how the film is played, and that all of it is in reach.
+//! Tests of the page: what is drawn, how the film is played, and that all controls can be reached.
 
 use crate::server::Scene;
 use crate::support;
@@ -37,7 +37,7 @@ fn every_scene_of_the_gallery_is_drawn_without_a_complaint() {
     });
     let scenes: Vec<String> = scenes.collect();
     assert!(scenes.len() > 15, "{scenes:?}");
-    // One after another: each server simulates its scene at once, and many together take long.
+    // Run the scenes one after another: each server simulates its scene at once, so many servers at the same time would take long.
     for name in &scenes {
         let shorter = support::shorter(&support::scene(name));
         let scene = Scene::gallery(name).previewed_with(shorter);

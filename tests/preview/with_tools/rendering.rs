@@ -1,4 +1,4 @@
-//! A frame by POV-Ray is the one that `jabuka still` makes.
+//! Tests that a frame rendered by the preview equals the image that `jabuka still` makes.
 
 use std::fs;
 
@@ -16,12 +16,13 @@ const SMALL: &str = "
     material = 'marble'
     ";
 
-/// A PNG without the notes that POV-Ray writes into it, such as the time: all that says how it looks has a capital.
+/// Returns a PNG without its optional chunks, such as the time that POV-Ray writes. The type of every chunk that is needed to decode the
+/// image begins with a capital letter.
 fn timeless(png: &[u8]) -> Vec<u8> {
     let mut kept = png[..8].to_vec();
     let mut rest = &png[8..];
     while let Some((length, _)) = rest.split_first_chunk::<4>() {
-        // Length, kind, data, checksum.
+        // A chunk consists of length, type, data and checksum.
         let (chunk, after) = rest.split_at(u32::from_be_bytes(*length) as usize + 12);
         if chunk[4].is_ascii_uppercase() {
             kept.extend_from_slice(chunk);
@@ -35,7 +36,7 @@ fn timeless(png: &[u8]) -> Vec<u8> {
 fn a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image() {
     let server = Scene::of(SMALL).served();
     server.shows("rendering.mjs", "a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image");
-    // Frame 6 of 25 a second.
+    // Frame 6 at 25 frames per second is at 0.24 s.
     for quality in ["draft", "final"] {
         let still = ["still", "scene.toml", "--time", "0.24", "--quality", quality, "-o", "still.png"];
         let output = server.scene.jabuka(&still).output().unwrap();

@@ -1,4 +1,4 @@
-//! What is saved is seen: the page follows the files of the scene.
+//! Tests that the page follows changes of the scene's files when they are saved.
 
 use std::fs;
 
@@ -17,7 +17,7 @@ fn a_mistake_is_shown_as_in_the_terminal_and_the_last_good_run_stays() {
         .shows("live.mjs", "a_mistake_is_shown_as_in_the_terminal_and_the_last_good_run_stays")
         .trim()
         .to_owned();
-    // The terminal in which it was begun says the same, and each mistake once.
+    // The terminal of the command shows the same messages, and each mistake only once.
     let said = server.said();
     for text in shown.split("\nerror").map(|text| text.trim_start_matches("error")) {
         assert_eq!(said.matches(text).count(), 1, "{text}\n… in …\n{said}");
@@ -45,7 +45,7 @@ in_the_browser! { Scene::of("[body.ball]\nshape.sphere.radius = -1\n"), "live.mj
     a_scene_with_errors_is_shown_once_they_are_mended,
 }
 
-/// With steps of 0.02 s, a spring of 10,000 N/m is far too stiff for the simplest of methods.
+/// A scene with a spring of 10,000 N/m, which is far too stiff for the explicit Euler method with steps of 0.02 s.
 const STIFF: &str = "
     [simulation]
     duration = 30

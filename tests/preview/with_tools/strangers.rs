@@ -1,4 +1,4 @@
-//! Pages of others, and words in a scene that would like to be more than words.
+//! Tests of attacks: web pages of others that contact the server, and texts in a scene that contain HTML.
 
 use crate::server::Scene;
 
