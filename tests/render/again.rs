@@ -1,4 +1,4 @@
-//! Nothing is done twice, and nothing is stale.
+//! Tests of rendering again: up-to-date images are kept, and outdated ones are rendered again.
 
 use std::fs;
 use std::os::unix::fs::MetadataExt;
@@ -6,7 +6,7 @@ use std::os::unix::fs::MetadataExt;
 use crate::scene::{Place, SCENE, assert_tidy, pixels};
 use crate::support::stdout;
 
-/// What tells whether a file has been written again.
+/// Returns the names and inode numbers of the images. The inode number changes when an image is written again.
 fn inodes(place: &Place) -> Vec<(String, u64)> {
     let inode = |name: &String| fs::metadata(place.path("out/scene/images").join(name)).unwrap().ino();
     place.images().iter().map(|name| (name.clone(), inode(name))).collect()
@@ -31,7 +31,7 @@ fn after_a_change_only_what_has_changed_is_rendered() {
     let place = Place::new(SCENE);
     place.succeed(&["render", "scene.toml"]);
     let before = inodes(&place);
-    // As an edit of the scene would that moves one body from frame 20 on.
+    // Change scripts as an edit of the scene would that moves one body from frame 20 on.
     for frame in 20..26 {
         let path = place.path(&format!("out/scene/frame_{frame:04}.pov"));
         let script = fs::read_to_string(&path).unwrap();
@@ -52,7 +52,7 @@ fn equal_scripts_are_rendered_once() {
     assert!(said.contains("copied    25, equal to others\n") && said.contains("rendered  1 in "), "{said}");
     assert_eq!(place.images().len(), 26);
     assert_tidy(&place.path("out/scene/images"));
-    // A copy that is lost is copied again.
+    // A lost copy is copied again from its equal image.
     fs::remove_file(place.path("out/scene/images/frame_0007.png")).unwrap();
     let said = stdout(&place.succeed(&["render", "scene.toml"]));
     assert!(said.contains("copied    1, equal to others\n") && said.contains("rendered  0 in "), "{said}");
@@ -90,7 +90,8 @@ fn other_options_another_povray_and_other_includes_make_other_images() {
     assert_eq!(render(&["--", "+Q8"]), "2", "the include stands in common.inc");
 }
 
-/// What an include file reads may lie elsewhere, and be read without a `#`, in a file that another one includes.
+/// Checks that images depend on all files that their include files read. These files may be in other folders, and a file may be included
+/// without a `#` by another include file.
 #[test]
 fn an_image_follows_whatever_its_include_files_read() {
     let place = Place::new("");
@@ -123,7 +124,7 @@ fn images_of_frames_that_are_no_more_go() {
     assert!(place.path("out/scene/images/notes.txt").exists());
 }
 
-/// Changes one byte of an image, and leaves its length.
+/// Changes one byte of an image, and keeps its length.
 fn damage(place: &Place, frame: usize) {
     let path = place.path(&format!("out/scene/images/frame_{frame:04}.png"));
     let mut bytes = fs::read(&path).unwrap();
@@ -158,7 +159,7 @@ fn an_image_of_which_a_byte_has_changed_is_rendered_again_where_it_is_verified()
     assert_eq!(status(&["--verify"]), ("done     5 of 5\n".to_owned(), Some(0)));
     assert_eq!(place.run(&["status", "out/scene", "--verify", "--watch"]).status.code(), Some(2));
 
-    // A record of an earlier version has no digest: its image counts as before, but cannot be verified.
+    // A record of an earlier version has no digest. Its image still counts as done, but cannot be verified.
     let record = place.path("out/scene/images/.jabuka/frame_0003.txt");
     let text = fs::read_to_string(&record).unwrap();
     let old: String = text.split_inclusive('\n').take(6).collect();

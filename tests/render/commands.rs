@@ -1,4 +1,4 @@
-//! What `render` and its kin make of the images: films, contact sheets, stills, blurred frames.
+//! Tests of the commands that make films, contact sheets, stills and blurred frames from images.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use jabuka::render::linear_light;
 use crate::scene::{Place, SCENE, assert_tidy, names, pixels};
 use crate::support::{stderr, stdout};
 
-/// The number of pictures in a film, which are decoded, and its pictures a second.
+/// Returns the number of decoded frames of a film, and its frame rate.
 fn film(path: &Path) -> (usize, String) {
     let probe = Command::new("ffprobe")
         .args(["-v", "error", "-count_frames", "-select_streams", "v"])
@@ -31,7 +31,7 @@ fn one_command_makes_images_a_film_and_a_contact_sheet() {
     assert_eq!(film(&place.path("film.mp4")), (26, "25/1".to_owned()));
     assert!(pixels(&place.path("sheet.png")).0 > 64);
 
-    // Every fifth frame makes a film of the same length.
+    // A film of every fifth frame has the same duration.
     let said = stdout(&place.succeed(&[
         "render",
         "out/scene",
@@ -62,7 +62,7 @@ fn what_no_film_can_be_is_said_before_anything_is_done() {
     }
 }
 
-/// A scene of three frames whose time no film can show as it passes.
+/// A scene of three frames that are 100 s apart, too slow for a film in real time.
 const SLOW: &str = "
     [simulation]
     duration = 200
@@ -89,13 +89,13 @@ fn a_scene_of_any_time_makes_a_film_and_its_pace_is_said() {
     assert_eq!((&*said, &*rate), ("b.mp4, 0.30 s, 1000 times faster than life", "10/1"));
     let own = ["--set", "output.video_rate=5"];
     assert_eq!(made(&own, "c.webm").1.1, "5/1");
-    // A rate on the command line counts more, and that of the scene is for all frames.
+    // A rate on the command line overrides that of the scene. The scene's rate is for all frames, so every second frame halves it.
     assert_eq!(made(&[&own[..], &["--video-rate", "20"]].concat(), "d.mp4").1.1, "20/1");
     assert_eq!(made(&[&own[..], &["--every", "2"]].concat(), "e.mp4").1, (2, "5/2".to_owned()));
     let (said, _) =
         made(&["--set", "simulation.frame_rate=0.02", "--set", "output.video_rate=0.01"], "f.mp4");
     assert!(said.ends_with(", 2 times slower than life"), "{said}");
-    // The better a film, the larger.
+    // A film of higher quality is larger.
     let length = |quality: &str| {
         made(&["--video-quality", quality], "q.mp4");
         fs::metadata(place.path("q.mp4")).unwrap().len()
@@ -157,7 +157,7 @@ fn what_is_read_or_kept_is_never_replaced() {
     for name in ["h.png", "wall.gif", "wall.png"] {
         assert!(fs::read(place.path(name)).unwrap() == before, "{name}");
     }
-    // Also by commands that know no scene.
+    // This holds also for commands that read no scene.
     place.succeed(&["render", "scene.toml", "--frames", "0-1"]);
     let frame = "out/scene/images/frame_0001.png";
     for arguments in [
@@ -173,7 +173,7 @@ fn what_is_read_or_kept_is_never_replaced() {
     place.succeed(&["average", "-o", "mean.png", "h.png", "hard.png"]);
 }
 
-/// A small image for a landscape.
+/// Writes a small image for a heightfield. Returns its path.
 fn support_image(place: &Place) -> std::path::PathBuf {
     let path = place.path("heights.png");
     let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 8, 8);
@@ -204,11 +204,11 @@ fn a_still_is_the_image_of_any_moment() {
         assert!(stdout(&output).starts_with(&format!("{name}: t = {time} s, in ")), "{}", stdout(&output));
         pixels(&place.path(name))
     };
-    // At the time of a frame it is the frame.
+    // At the time of a frame, a still equals this frame.
     let at_frame = still("0.4", "frame.png");
     place.succeed(&["render", "scene.toml", "--frames", "10"]);
     assert!(at_frame == pixels(&place.path("out/scene/images/frame_0010.png")));
-    // Between two it is neither, but where the ball is then.
+    // Between two frames, a still shows the ball at its location at that time.
     assert!(still("0.42", "between.png") != at_frame);
     let script = fs::read_to_string(place.path("out/.still/scene/frame_0010.pov")).unwrap();
     assert!(script.contains("sphere { <0.42, 0, 0>, 1 "), "{script}");
@@ -228,7 +228,7 @@ fn a_still_is_the_image_of_any_moment() {
 fn a_still_sees_the_clock_of_its_moment() {
     let sdl = "sphere { <0, 3, 0>, 1 pigment { color rgb <clock * 2 - 0.84, 0, 0> } finish { emission 1 } }";
     let place = Place::new(&format!("povray.sdl = '{sdl}'\n{SCENE}"));
-    // In the middle of the upper half, at the given time: black at 0.42 s, and red half a second later.
+    // Look at the upper half of the picture: black at 0.42 s, and red half a second later.
     for (time, red) in [("0.42", false), ("0.92", true)] {
         place.succeed(&["still", "scene.toml", "--time", time, "-o", "x.png"]);
         let (width, _, bytes) = pixels(&place.path("x.png"));
@@ -260,7 +260,7 @@ fn a_blurred_frame_is_the_mean_of_its_moments_in_linear_light() {
     assert_eq!(film(&place.path("film.gif")).0, 6);
     assert_tidy(&place.path("out/scene/images"));
 
-    // The moments of frame 2, each by itself, and their mean by the command that is there for it.
+    // Render each moment of frame 2 separately, and average them with `jabuka average`.
     for moment in 0..5 {
         let status = Command::new("povray")
             .args(["-D", "-GA", "+FN16", "+W64", "+H36", "+A0.1", "+AM1", "+R3", "+KFI0", "+KFF4"])
@@ -280,7 +280,7 @@ fn a_blurred_frame_is_the_mean_of_its_moments_in_linear_light() {
     let paths: Vec<_> = moments.iter().map(|name| place.path(name)).collect();
     assert!(linear_light::mean(&paths).is_ok());
 
-    // Nothing is done twice here either, and a still is blurred as the frame is.
+    // Blurred frames are not rendered twice, and a still is blurred like the frame at its time.
     let said = stdout(&place.succeed(&["render", "scene.toml"]));
     assert!(said.contains("as before 6, up to date\n"), "{said}");
     place.succeed(&["still", "scene.toml", "--time", "0.08", "-o", "still.png"]);
@@ -293,7 +293,7 @@ fn a_moment_that_is_broken_fails_its_frame_and_no_other() {
     place.succeed(&["compile", "scene.toml"]);
     let path = place.path("out/scene/shutter_0003.pov");
     let script = fs::read_to_string(&path).unwrap();
-    // The last of its moments.
+    // Break the last moment of the frame.
     let at = script.rfind("sphere {").unwrap();
     fs::write(&path, format!("{}{}", &script[..at], script[at..].replacen("sphere {", "sphere { oops", 1)))
         .unwrap();

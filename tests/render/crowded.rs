@@ -1,13 +1,13 @@
-//! Disks that are full, and folders that cannot be written to.
+//! Tests of full disks, and of folders without permission to write.
 //!
-//! Both are mounts of a namespace of their own, which needs no rights and goes with its last process.
+//! Both are mounts in a private namespace, which needs no privileges and ends with its last process.
 
 use std::process::{Command, Output};
 
 use crate::scene::{Place, SCENE, pixels};
 use crate::support::stderr;
 
-/// Runs a shell script in the place, in which mounts can be made that nobody else sees. `$JABUKA` is the command.
+/// Runs a shell script in a private mount namespace, with the test's folder as current folder. `$JABUKA` is the path of the command.
 fn in_own_mounts(place: &Place, script: &str) -> Output {
     Command::new("unshare")
         .args(["--user", "--map-root-user", "--mount", "sh", "-ec", script])
@@ -39,7 +39,7 @@ fn a_full_disk_is_said_and_made_good() {
     assert_eq!(read("code.txt"), "1\n");
     let said = read("errors.txt");
     assert!(said.contains("error[disk-full]: no space is left for") && said.contains("make room"), "{said}");
-    // What was there when the disk was full was whole.
+    // Images written before the disk was full must be complete.
     for entry in std::fs::read_dir(place.path("kept")).unwrap() {
         pixels(&entry.unwrap().path());
     }

@@ -1,4 +1,4 @@
-//! One frame fails alone; what POV-Ray does wrong is tried again.
+//! Tests of failures during rendering: a broken script fails alone, and failures of POV-Ray itself are tried again.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -68,7 +68,7 @@ fn where_every_frame_fails_it_stops() {
 #[test]
 fn a_povray_that_is_killed_is_started_again() {
     let place = Place::new(SCENE);
-    // The first one to come to frame 13 dies of it.
+    // The first process that renders frame 13 is killed.
     let povray = place.stand_in(
         "if grep -q frame_0013 run.pov && mkdir \"$(dirname \"$0\")/once\" 2>/dev/null; then kill -9 $$; fi
         exec povray \"$@\"",

@@ -1,4 +1,4 @@
-//! Folders that are somebody else's, in use, or not there; programs that are not there.
+//! Tests of folders that belong to others, are in use or are missing, and of missing programs.
 
 use std::fs;
 use std::process::Stdio;
@@ -44,7 +44,7 @@ fn a_folder_in_the_place_of_a_record_is_named() {
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("`images/.jabuka/frame_0000.txt`: "), "{}", stderr(&output));
 
-    // As is one in the place of the image, or of what an image is copied from.
+    // A folder in the place of an image is an error as well, also if an equal image would be copied.
     fs::remove_dir(place.path("images/.jabuka/frame_0000.txt")).unwrap();
     fs::remove_file(place.path("images/frame_0000.png")).unwrap();
     fs::create_dir_all(place.path("images/frame_0000.png/mine")).unwrap();

@@ -1,4 +1,4 @@
-//! Kills and interrupts: nothing half is left, and the next run goes on from there.
+//! Tests of killed and interrupted renders: no file is left half-written, and the next run continues.
 
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::scene::{Place, SCENE, assert_tidy, pixels};
 
-/// Starts to render, and comes back when some images are there.
+/// Starts a render, and returns when this number of images exists.
 fn started(place: &Place, images: usize) -> Child {
     let mut command = place.jabuka(&["render", "scene.toml"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -18,7 +18,7 @@ fn started(place: &Place, images: usize) -> Child {
     child
 }
 
-/// The processes of POV-Ray's whose folder of work is in the place.
+/// Returns the number of POV-Ray processes whose working folder is in the output folder of a test.
 fn povrays(place: &Place) -> usize {
     let folder = place.path("").canonicalize().unwrap();
     let processes = std::fs::read_dir("/proc").unwrap().flatten();
@@ -58,7 +58,7 @@ fn a_run_that_is_killed_is_made_good_by_the_next() {
             assert!(start.elapsed() < Duration::from_secs(5), "POV-Ray outlives jabuka");
             sleep(Duration::from_millis(5));
         }
-        // Every image that is there is whole.
+        // Every image that exists must be complete.
         for name in place.images() {
             pixels(&place.path("out/scene/images").join(name));
         }

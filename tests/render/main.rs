@@ -1,4 +1,5 @@
-//! `jabuka render`, with real POV-Ray: images that are right, nothing done twice, and whatever can happen in a night.
+//! Tests of `jabuka render` with real POV-Ray: the images are right, nothing is rendered twice, and failures during a long render do no
+//! damage.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "these are tests")]
 
 mod again;

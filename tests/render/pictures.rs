@@ -1,4 +1,4 @@
-//! The images are those that POV-Ray makes of the scripts, whoever starts it.
+//! Tests that the images equal those that POV-Ray makes of the same scripts without jabuka.
 
 use std::process::{Command, Stdio};
 
@@ -13,7 +13,7 @@ fn every_frame_is_the_image_of_its_script() {
     assert!(said.starts_with("out/scene/images: 26 of 26 frames\n"), "{said}");
     assert_eq!(place.images().len(), 26);
     assert_tidy(&place.path("out/scene/images"));
-    // By POV-Ray's own loop, which `animation.ini` describes.
+    // Render the sequence with POV-Ray's own animation loop, as `animation.ini` describes it.
     let status = Command::new("povray")
         .args(["animation.ini", "-GA", "-V"])
         .current_dir(place.path("out/scene"))
@@ -77,7 +77,7 @@ fn size_quality_and_options_reach_povray() {
     assert_ne!(draft, good);
     place.succeed(&["render", "scene.toml", "--frames", "3", "--size", "80x45", "--quality", "final"]);
     assert!(image() != draft && image() != good);
-    // Without lights all is black but what shines by itself.
+    // The quality `+Q0` leaves out the lights, so the image must differ.
     place.succeed(&["render", "scene.toml", "--frames", "3", "--size", "80x45", "--", "+Q0"]);
     assert_ne!(image(), good);
 }

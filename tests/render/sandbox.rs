@@ -1,4 +1,4 @@
-//! The sandbox: what POV-Ray, started by jabuka, may write and read.
+//! Tests of the sandbox, which limits what a POV-Ray process may read and write.
 
 use std::fs;
 use std::process::Command;
@@ -6,13 +6,13 @@ use std::process::Command;
 use crate::scene::{Place, SCENE};
 use crate::support::{jabuka, stderr, stdout};
 
-/// A scene whose SDL writes to a file.
+/// Returns a scene whose SDL writes to a file.
 fn writing(file: &std::path::Path) -> String {
     let sdl = format!("#fopen F \"{}\" write\n#write (F, \"gone\")\n#fclose F", file.display());
     format!("povray.sdl = '''\n{sdl}\n'''\n{SCENE}")
 }
 
-/// A place and a file of somebody else's, outside of it.
+/// Makes a second folder with a file that scenes in other folders must not change. Returns the folder and the file.
 fn victim() -> (Place, std::path::PathBuf) {
     let other = Place::new("keep");
     let file = other.path("scene.toml");
@@ -54,7 +54,7 @@ fn scripts_that_nobody_vouches_for_write_and_read_nothing_outside() {
     place.succeed(&["compile", "scene.toml", "--trust", "--frames", "0"]);
     let output = place.run(&["render", "out/scene"]);
     assert!(stderr(&output).starts_with("error[outside-sandbox]: frame 0: "), "{}", stderr(&output));
-    // Who knows the scripts may say so.
+    // With `--trust`, the scripts may write.
     place.succeed(&["render", "out/scene", "--trust"]);
 }
 
@@ -98,7 +98,7 @@ fn a_povray_that_cannot_start_there_reads_everything_and_that_is_said() {
     let said = stderr(&output);
     assert!(said.contains("may read all files, since it does not start in the sandbox: it says `"), "{said}");
     assert!(said.contains("Permission denied"), "{said}");
-    // What it writes is limited all the same.
+    // Writing is limited all the same.
     let (_another, victim) = self::victim();
     fs::write(place.path("scene.toml"), writing(&victim)).unwrap();
     place.succeed(&["compile", "scene.toml", "--trust", "--frames", "0"]);
@@ -106,7 +106,7 @@ fn a_povray_that_cannot_start_there_reads_everything_and_that_is_said() {
     assert_eq!(fs::read_to_string(&victim).unwrap(), "keep");
 }
 
-/// Runs a shell script in the sandbox of a folder, and tells whether it succeeds.
+/// Runs a shell script in the sandbox, with access to one folder for reading and to one for writing. Returns true if it succeeds.
 fn shell(place: &Place, script: &str) -> bool {
     let (read, write) = (place.path("read"), place.path("write"));
     fs::create_dir_all(&read).unwrap();
@@ -167,7 +167,7 @@ fn a_program_passes_on_its_code_and_ends_with_who_wanted_it() {
     assert_eq!(code(&["--", "sh", "-c", "exit 7"]), Some(7));
     assert_eq!(code(&["--", "no-such-program"]), Some(127));
     assert_eq!(code(&["--write", "no/such/folder", "--", "true"]), Some(126));
-    // The parent is this test, and not the first process of the system.
+    // The parent must be this test, not the first process of the system.
     assert_eq!(code(&["--parent", "1", "--", "true"]), Some(126));
     assert_eq!(code(&["--parent", &std::process::id().to_string(), "--", "true"]), Some(0));
 }

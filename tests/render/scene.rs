@@ -1,4 +1,4 @@
-//! A small scene, and what is made of it.
+//! A folder with a small scene, and helpers that run `jabuka` there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use crate::support::{jabuka, stderr};
 
-/// A ball that flies and a box at rest; 64 × 36 pixels.
+/// A scene with a moving ball and a box at rest, in pictures of 64 × 36 pixels.
 pub(crate) const SCENE: &str = "
     [simulation]
     duration = 1.0
@@ -23,7 +23,7 @@ pub(crate) const SCENE: &str = "
     location = [-2, 0, 0]
     ";
 
-/// A folder with a scene in it.
+/// A temporary folder with a scene.
 pub(crate) struct Place(tempfile::TempDir);
 
 impl Place {
@@ -33,12 +33,12 @@ impl Place {
         Place(folder)
     }
 
-    /// A path in the folder.
+    /// Returns the path of a file in the folder.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    /// The command `jabuka`, in the folder.
+    /// Returns a command that runs `jabuka` in the folder.
     pub(crate) fn jabuka(&self, arguments: &[&str]) -> Command {
         let mut command = jabuka();
         command.current_dir(self.0.path()).args(arguments);
@@ -50,14 +50,14 @@ impl Place {
         self.jabuka(arguments).output().unwrap()
     }
 
-    /// Runs `jabuka` in the folder, which must succeed.
+    /// Runs `jabuka` in the folder, and asserts success.
     pub(crate) fn succeed(&self, arguments: &[&str]) -> Output {
         let output = self.run(arguments);
         assert!(output.status.success(), "{arguments:?}: {}", stderr(&output));
         output
     }
 
-    /// A program in the folder that takes the place of POV-Ray; it may `exec povray "$@"`.
+    /// Writes a stand-in for POV-Ray: a shell script that may `exec povray "$@"`. Returns its path.
     pub(crate) fn stand_in(&self, script: &str) -> String {
         use std::os::unix::fs::PermissionsExt;
         let path = self.path("stand_in");
@@ -67,13 +67,13 @@ impl Place {
         path.display().to_string()
     }
 
-    /// The names of the images.
+    /// Returns the sorted names of the images.
     pub(crate) fn images(&self) -> Vec<String> {
         names(&self.path("out/scene/images")).into_iter().filter(|name| name.ends_with(".png")).collect()
     }
 }
 
-/// The names in a folder, in their order.
+/// Returns the sorted names of a folder's entries.
 pub(crate) fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<String> = entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
@@ -81,7 +81,7 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Size and pixels of an image.
+/// Returns the width, the height and the bytes of an image.
 pub(crate) fn pixels(path: &Path) -> (u32, u32, Vec<u8>) {
     let file = fs::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
@@ -90,7 +90,7 @@ pub(crate) fn pixels(path: &Path) -> (u32, u32, Vec<u8>) {
     (info.width, info.height, bytes)
 }
 
-/// Nothing but images, records and what belongs to the folder is there.
+/// Asserts that a folder of images contains no leftovers, only images, their records and jabuka's own files.
 pub(crate) fn assert_tidy(images: &Path) {
     for name in names(images) {
         assert!(name == ".jabuka" || name.ends_with(".png"), "{name} is left over");

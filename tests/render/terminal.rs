@@ -1,4 +1,4 @@
-//! Names reach a terminal with nothing in them that could command it, and commands that are suggested can be pasted.
+//! Tests of hostile file names: they cannot control the terminal, and suggested commands can be pasted into a shell.
 
 use std::fs;
 use std::process::Command;
@@ -6,10 +6,11 @@ use std::process::Command;
 use crate::scene::{Place, SCENE};
 use crate::support::{stderr, stdout};
 
-/// A name that clears the screen, starts a line, turns the direction of writing, and ends a word of a shell.
+/// A file name that would clear the screen, start a new line, reverse the direction of writing, and end a quoted word of a shell.
 const HOSTILE: &str = "-a b'$(touch PWNED)\nerror\u{1b}[2J\u{9b}31m\u{202e}\u{2066}\u{200f}";
 
-/// Whether a text could do anything to a terminal but show letters.
+/// Returns true if a text contains no control characters except for line breaks and tabs, and no characters that change the direction of
+/// writing.
 fn is_harmless(text: &str) -> bool {
     !text.chars().any(|c| {
         c.is_control() && !matches!(c, '\n' | '\t')
@@ -67,7 +68,7 @@ fn no_command_lets_a_name_command_the_terminal() {
         assert!(!(result + &said).is_empty(), "{command:?}");
     }
     assert!(!place.path("PWNED").exists());
-    // To programs, the name is what it is.
+    // JSON for programs holds the name unchanged.
     let json = stdout(&place.run(&["check", &bad, "--format", "json"]));
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json[0]["file"], bad.as_str());

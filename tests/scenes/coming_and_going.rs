@@ -1,4 +1,4 @@
-//! Bodies that are there for a time only: what the scene says, and all that is drawn and written of it.
+//! Tests of bodies with a limited lifetime: their keys in the scene, the pictures and the tables.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -24,7 +24,7 @@ fn scripts(scene: &Scene) -> Vec<String> {
     run.frames().map(|frame| run.script(&frame.unwrap()).unwrap()).collect()
 }
 
-/// The numbers of the bodies that are there in each frame.
+/// Returns the numbers of the bodies that exist in each frame.
 fn present(scene: &Scene) -> Vec<Vec<usize>> {
     frames(scene).iter().map(|frame| frame.bodies.iter().map(|body| body.id).collect()).collect()
 }
@@ -53,14 +53,14 @@ fn start_and_end_are_formulas_of_copies_and_defaults_of_all() {
         start = -1
         "
     ));
-    // 0.1 (1 + 2) is not the number 0.3, and yet the time of the third frame.
+    // 0.1 (1 + 2) differs from 0.3 by rounding, but must count as the time of the third frame.
     assert_eq!(scene.bodies[1].presence, Presence::during(&[[0.3, 0.8]]));
     let mut expected = vec![vec![3]; 2];
     expected.extend([vec![0, 3], vec![0, 1, 3]]);
     expected.extend(vec![vec![0, 1, 2, 3]; 5]);
     expected.extend(vec![vec![]; 2]);
     assert_eq!(present(&scene), expected);
-    // Each begins at its own start: 0.5 s later, v t − ½ g t² is −0.75 m.
+    // Each body's motion begins at its own start: 0.5 s later, v t − ½ g t² is −0.75 m.
     for (id, frame) in [(0, 7), (1, 8)] {
         let body = frames(&scene)[frame].body(id).copied().unwrap();
         let exact = DVec3::new([0.0, 1.0][id], -0.75, 0.0);
@@ -68,7 +68,8 @@ fn start_and_end_are_formulas_of_copies_and_defaults_of_all() {
     }
 }
 
-/// Also their group: POV-Ray would warn of a union of one.
+/// Checks that scripts contain only the bodies that exist. The group of a material is left out if it has one member, as POV-Ray warns of a
+/// union of one object.
 #[test]
 fn scripts_hold_the_bodies_that_are_there_and_no_others() {
     let scene = scene(&format!(
@@ -131,11 +132,11 @@ fn trails_and_ghosts_stay_and_arrows_coils_and_labels_go() {
     let asks = [", trail", "Ghost_", "Arrow(", ", axes", "// s", "\"here\"", "\"x = ?\""];
     let says = |frame: usize| asks.map(|text| scripts[frame].rsplit("#end").next().unwrap().contains(text));
     assert_eq!(says(1), [false, false, false, false, false, false, true]);
-    // At 0.6 s it is still there.
+    // At 0.6 s the body still exists.
     assert_eq!(says(6), [true, true, true, true, true, true, false]);
     assert_eq!(says(7), [true, true, false, false, false, false, true]);
     assert_eq!(says(10), says(7));
-    // The trail ends where the body was last, and has no other points afterwards.
+    // The trail ends at the body's last location, and does not grow afterwards.
     let trail = |frame: usize| frames(&scene)[frame].past.trails[0].points.clone();
     assert_eq!((trail(1).len(), trail(6).len(), trail(10)), (0, 5, trail(6)));
 }
@@ -159,13 +160,13 @@ fn a_trail_of_a_body_that_comes_back_begins_anew() {
     let points = |frame: usize| frames[frame].past.trails[0].points.iter().map(|point| point.location.x);
     assert_eq!(points(2).collect::<Vec<_>>(), [0.0, 1.0]);
     assert_eq!(points(4).collect::<Vec<_>>(), [9.0, 8.0]);
-    // The slopes beside the gap are those of its own side: 1 m/s there, -1 m/s here.
+    // Next to the gap, velocities follow from the rows on the same side of the gap: 1 m/s before it, −1 m/s after it.
     let velocity = |frame: usize| frames[frame].body(0).unwrap().velocity.x;
     assert_eq!((velocity(1), velocity(3)), (1.0, -1.0));
 }
 
-/// Bodies with rows at times of their own have no gaps, however many rows of others lie between; one row missing among regular
-/// ones is a gap.
+/// Checks which missing rows are gaps in a body's presence. A body with rows at its own times has no gap, however many rows of other
+/// bodies lie between. A missing row among regular ones is a gap.
 #[test]
 fn a_gap_is_where_a_body_lacks_rows_for_longer_than_usual() {
     let mut rows = String::from("t,body,x,y,z\n");
@@ -203,7 +204,7 @@ fn a_gap_is_where_a_body_lacks_rows_for_longer_than_usual() {
     }
     let there = present(&scene);
     assert_eq!((&there[7][..], &there[20][..]), (&[0, 1, 2, 3][..], &[0, 1, 4][..]));
-    // What is exported of it is the table again, and so is what is read from that.
+    // Exporting the scene gives the table again, and so does exporting a scene that reads this exported table.
     let export = |scene: &str, file: &str| {
         let (scene, file) = (place.path(scene), place.path(file));
         let output = jabuka().arg("export").arg(scene).arg("-o").arg(&file).output().unwrap();
@@ -238,7 +239,8 @@ fn a_file_that_is_shorter_than_the_run_is_said_once_and_bodies_that_are_never_th
     }
 }
 
-/// It stays where the body was last, also in a still; before the body comes, it looks where that will come.
+/// Checks a camera that follows a body: after the body's end it stays where the body was last, also in a still. Before the body's start it
+/// looks at the place of the start.
 #[test]
 fn a_camera_stays_where_the_body_was_that_it_follows() {
     for lag in ["", ", lag = 0.5"] {
@@ -268,7 +270,7 @@ fn a_camera_stays_where_the_body_was_that_it_follows() {
     }
 }
 
-/// A formula needs a value while its body is there, and no longer.
+/// Checks that a formula for a motion needs a value only while its body exists.
 #[test]
 fn a_motion_has_to_be_known_while_the_body_is_there() {
     let scene = scene(&format!(
@@ -289,7 +291,7 @@ fn a_motion_has_to_be_known_while_the_body_is_there() {
     assert!(last.body(1).unwrap().location.is_finite());
 }
 
-/// Sparks are born inside each other, and may do as they like; a ball that flies into another one is said.
+/// Checks that bodies which appear inside each other cause no warning, as sparks do, but that a ball flying into another one does.
 #[test]
 fn bodies_that_are_born_in_each_other_belong_together() {
     let pair = |keys: &str| {
@@ -312,7 +314,8 @@ fn bodies_that_are_born_in_each_other_belong_together() {
     assert_eq!(found("location = [2, 0, 0]\nstart = 0.3\nend = 0.6"), None);
 }
 
-/// One that is born above a floor goes through it later; one that is born below it does not, nor while the floor is not there.
+/// Checks the warning for bodies that pass through a plane without contacts. A body that starts above the floor passes it later; one that
+/// starts below does not, and nothing passes a floor that does not exist at that time.
 #[test]
 fn planes_are_crossed_by_bodies_that_come_later() {
     let crossing = |floor: &str, height: f64| {
@@ -329,14 +332,14 @@ fn planes_are_crossed_by_bodies_that_come_later() {
         ));
         survey(&scene, |_| {}).unwrap().crossings.first().map(|crossing| crossing.time)
     };
-    // ½ g t² > 0.3 m after 0.245 s.
+    // The body falls by ½ g t² > 0.3 m after 0.245 s.
     assert_eq!(crossing("", 0.4), Some(0.5));
     assert_eq!(crossing("", -0.4), None);
     assert_eq!(crossing("end = 0.4", 0.4), None);
     assert_eq!(crossing("start = 0.7", 0.4), None);
 }
 
-/// At a moment between two frames as well, and in the mean of a shutter.
+/// Checks that stills show exactly the existing bodies, also between two frames and in the moments of an open shutter.
 #[test]
 fn stills_show_who_is_there() {
     let scene = scene(&format!(
@@ -359,11 +362,12 @@ fn stills_show_who_is_there() {
     let shutter = scene.camera.shutter.unwrap();
     let exposure = recorded.at(0.3).unwrap();
     let seen: Vec<usize> = exposure.moments(shutter).map(|moment| moment.unwrap().bodies.len()).collect();
-    // At 0.305, 0.315, 0.325, 0.335 and 0.345 s.
+    // The moments are 0.305, 0.315, 0.325, 0.335 and 0.345 s.
     assert_eq!(seen, [1, 1, 1, 2, 2]);
 }
 
-/// Where the whole run would leave bodies too small to be seen, a start of it is framed: one by which all have come.
+/// Checks the automatic camera. If showing the whole run would make the bodies too small, the camera shows only a first part of it, in
+/// which all bodies have appeared.
 #[test]
 fn no_body_comes_outside_of_what_an_automatic_camera_frames() {
     let scene = scene(
@@ -399,7 +403,7 @@ fn no_body_comes_outside_of_what_an_automatic_camera_frames() {
     assert!(moves("") && !moves("end = 9"), "a camera goes along with a body that is there");
 }
 
-/// A ball on a rod flies off when the hook is gone: from then on, gravity alone changes its velocity.
+/// Checks a ball on a rod: when the hook disappears, the ball flies off, and only gravity changes its velocity.
 #[test]
 fn a_joint_holds_while_both_of_its_ends_are_there() {
     let scene = scene(&format!(

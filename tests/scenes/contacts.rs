@@ -1,4 +1,4 @@
-//! Contacts from the scene to what is drawn and written, most with impacts that are made up; how bodies bounce is asked in tests/physics.
+//! Tests of contacts in labels, drawings and tables, mostly with made-up impacts. The physics of impacts is tested in `tests/physics`.
 
 use crate::support::{jabuka, stderr, stdout};
 use glam::DVec3;
@@ -7,7 +7,7 @@ use jabuka::export::write_events;
 use jabuka::simulate::{Recorded, world};
 use jabuka::{Run, Scene};
 
-/// A world that tells of impacts that did not happen.
+/// A world that reports given impacts, which did not happen.
 struct Told {
     world: World,
     impacts: Vec<Impact>,
@@ -56,7 +56,7 @@ const SCENE: &str = "
     text = 'b: ${impacts}'
     ";
 
-/// Three impacts in the second interval, of which one is at the time of its frame, and one that is over before the last.
+/// Returns three impacts in the second interval, one of them at the time of its frame, and one before the last frame.
 fn impacts() -> Vec<Impact> {
     let impact = |(time, bodies): (f64, [usize; 2])| Impact {
         time,
@@ -85,12 +85,12 @@ fn labels_count_the_impacts_up_to_their_frame() {
     said(2, "3 in all, 2 of a, 1 of both, 1");
     said(2, "b: 2");
     said(10, "4 in all, 3 of a, 2 of both, 1");
-    // Also a moment between two frames, with a frame alone.
+    // A single moment counts the impacts before it, too.
     let exposures: Vec<_> = [0.1, 0.2].map(|time| run.at(time).unwrap().frame.impacts).into();
     assert_eq!((exposures[0].of_run(), exposures[1].of_run()), (0.0, 3.0));
 }
 
-/// The moments in which a shutter is open lie between frames: each impact is counted once, in its own moment.
+/// Checks that the moments of an open shutter, which lie between frames, count each impact once, in the first moment after it.
 #[test]
 fn moments_between_frames_count_what_was_before_them() {
     let scene = Scene::parse(&format!("{SCENE}\n[camera]\nshutter = 0.08\nsamples = 2")).unwrap();
@@ -137,7 +137,7 @@ fn events_need_contacts_and_a_table() {
     assert!(said.contains("`simulation.contacts = \"event-driven\"` finds them"), "{said}");
 }
 
-/// `--events FILE`, `--events -o FILE`, and the flag before the scene write the same table.
+/// Checks that `--events FILE`, `--events -o FILE`, and the option before the scene write the same table.
 #[test]
 fn the_file_of_events_can_be_named_in_three_ways() {
     let folder = tempfile::tempdir().unwrap();
@@ -168,7 +168,8 @@ fn the_file_of_events_can_be_named_in_three_ways() {
     }
 }
 
-/// A scene whose bodies never touch is the same with contacts and without.
+/// Checks that a scene whose bodies never touch gives the same frames with and without contacts, and that the ground is not one of the
+/// bodies.
 #[test]
 fn the_ground_is_no_body_of_any_frame() {
     let scene = Scene::parse(SCENE).unwrap();
@@ -200,7 +201,7 @@ fn arrows_show_weight_from_the_centre_in_front_of_the_body() {
     assert!(!script.contains("// a, normal"), "nothing touches it");
 }
 
-/// The blocks of the scene, from the command line: so many digits of π.
+/// Checks the number of impacts in the scene of colliding blocks, for mass ratios set on the command line: it has the digits of π.
 #[test]
 fn the_scene_spells_pi_for_every_ratio() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/pi_by_collisions.toml");

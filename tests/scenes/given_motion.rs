@@ -1,4 +1,4 @@
-//! Motion that is given: formulas, keyframes, trajectories from files; and cameras and lights that move.
+//! Tests of prescribed motion by formulas, keyframes and tables, and of moving cameras and lights.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,7 +15,7 @@ fn frames(text: &str) -> Vec<Frame> {
     Frames::new(&scene).map(Result::unwrap).collect()
 }
 
-/// The scripts of all frames.
+/// Returns the scripts of all frames of a scene.
 fn scripts(text: &str) -> Vec<String> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{}", report.to_text(false)));
     let run = Run::new(&scene).unwrap();
@@ -49,7 +49,7 @@ fn a_body_goes_where_its_formulas_say_and_its_velocities_follow() {
             "m a, {}",
             body.force
         );
-        // About z by w, and about the y axis, which that turns along, by 30° a second.
+        // The body turns about z with the rate w, and by 30°/s about its y axis, which the first rotation turns as well.
         let spin = DVec3::Z * 3.0 + DVec3::new(-sin, cos, 0.0) * 30f64.to_radians();
         assert!(body.angular_velocity.abs_diff_eq(spin, 1e-13), "{} {spin}", body.angular_velocity);
         assert_eq!(frame.balance.drift, 0.0);
@@ -91,7 +91,8 @@ fn what_is_wrong_with_a_formula_is_said_with_its_place_and_time() {
     assert!(said.contains("scene.toml:3:42") && said.contains(", at t = 3.04 s"), "{said}");
 }
 
-/// Formulas are checked at the times of frames; what is between is found when somebody looks there.
+/// Checks the error of a camera or light whose formula has no value between two frames. The check evaluates formulas only at the times of
+/// frames.
 #[test]
 fn a_camera_or_a_light_that_is_nowhere_between_frames_is_named() {
     let place = |what: &str| {
@@ -107,7 +108,7 @@ fn a_camera_or_a_light_that_is_nowhere_between_frames_is_named() {
     assert!(place("[light.lamp]\npoint.location").contains("at t = 0.5 s the light `lamp` is"));
 }
 
-/// By whatever name it goes.
+/// Checks that an export does not overwrite a file that the scene reads, also if a link gives it another name.
 #[test]
 fn a_file_that_a_scene_is_made_from_is_not_overwritten() {
     let csv = "t [s],x [m],y [m],z [m]\n0,0,0,0\n1,5,0,0\n";
@@ -179,13 +180,13 @@ fn an_exported_run_drives_the_same_bodies() {
             assert!(a.orientation.dot(b.orientation).abs() > 1.0 - 1e-15);
         }
     }
-    // Between the rows too: a free flight is a parabola, which cubic polynomials hold exactly.
+    // Locations between the rows are exact as well: the path of a free flight is a parabola, which cubic interpolation reproduces.
     let between: Vec<Frame> = Frames::new(&place.read("between.toml")).map(Result::unwrap).collect();
     let y = |t: f64| 5.0 * t - 9.81 * t * t / 2.0;
     for frame in &between {
         assert!((frame.bodies[1].location.y - y(frame.time)).abs() < 1e-12, "{}", frame.time);
     }
-    // What is exported of the driven scene is the same table, but for rounding.
+    // Exporting the driven scene gives the same table, up to rounding.
     export("same.toml", "again.csv");
     assert_eq!(run.lines().count(), fs::read_to_string(place.path("again.csv")).unwrap().lines().count());
     assert_eq!(fs::read_dir(place.0.path()).unwrap().count(), 5, "nothing is left over");
@@ -298,7 +299,7 @@ fn another_file_is_another_scene() {
     assert_ne!(place.read("scene.toml").digest, before);
 }
 
-/// The camera's part of a script.
+/// Returns the camera's part of a script.
 fn camera(script: &str) -> &str {
     assert_eq!(script.matches("\ncamera {").count(), 1, "{script}");
     let start = script.find("\ncamera {").unwrap();
@@ -340,7 +341,7 @@ fn a_camera_moves_by_formulas_keyframes_along_a_body_and_around() {
     let script = with("location = [0, 5, 10]\nlook_at = [0, 0, 0]\norbit.period = 4");
     assert!(camera(&script[4]).contains("location <10, 5, "), "{}", camera(&script[4]));
 
-    // In the shared layout, what moves stands in each script.
+    // In the shared layout, a moving camera is written into each script.
     let shared = scripts(&format!("{BALL}\n[output]\nlayout = 'shared'\n[camera]\norbit.period = 4\n"));
     assert!(camera(&shared[1]) != camera(&shared[2]));
     let views = format!("{BALL}\n[camera]\nlocation = [0, 0, 9]\n[view.along]\nfollow.body = 'ball'\n");
@@ -361,7 +362,7 @@ fn a_light_moves_by_formulas() {
     assert_eq!(scripts[2].matches("light_source").count(), 2);
 }
 
-/// Rest lengths, followers and what else follows from the start, follows from where the motion begins.
+/// Checks that initial values such as the rest length of a spring follow from the start of a prescribed motion.
 #[test]
 fn a_motion_begins_where_its_body_begins() {
     let last = frames(
@@ -430,12 +431,12 @@ fn what_a_file_does_not_say_is_as_the_body_says() {
     let scene = place.read("scene.toml");
     let last = Frames::new(&scene).last().unwrap().unwrap();
     assert!((last.bodies[0].orientation * DVec3::X).abs_diff_eq(DVec3::Y, 1e-15));
-    // A pattern that the motion overrides is not overridden in silence.
+    // A location pattern that the motion overrides causes a warning.
     let warned = scene.warnings.to_text(false);
     assert!(warned.contains("`location` of `ring[0]` has no effect"), "{warned}");
 }
 
-/// A step of a picosecond would make 10¹⁸ of them.
+/// Checks that a run of prescribed motion takes no integration steps: a step of 1 ps would mean 10¹⁸ of them.
 #[test]
 fn motion_that_is_given_takes_no_steps_and_none_of_their_limits() {
     for method in ["integrator = 'rk4'\nstep = 1e-12", "integrator = 'gauss-radau'", "integrator = 'dop853'"]

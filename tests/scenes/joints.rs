@@ -1,9 +1,10 @@
-//! What a scene with joints means, beside their physics.
+//! Tests of joints in scenes, apart from their physics.
 
 use glam::DVec3;
 use jabuka::Scene;
 
-/// A door of 0.8 m at 2 rad/s: its centre moves at 0.8 m/s, as a velocity that is written would say.
+/// Checks the initial velocity of a door of 0.8 m on a hinge that turns at 2 rad/s: its center moves at 0.8 m/s, as if this velocity were
+/// given.
 #[test]
 fn a_body_that_turns_about_a_hinge_moves_with_it() {
     let door = |velocity: &str, hinge: &str| {
@@ -21,13 +22,13 @@ fn a_body_that_turns_about_a_hinge_moves_with_it() {
         let start = door("", joint).bodies[1].start;
         assert!(start.velocity.distance(DVec3::new(0.0, 0.0, -0.8)) < 1e-15, "{joint}: {}", start.velocity);
     }
-    // What is written stays, and so does a body that no joint holds there.
+    // A given velocity stays, and so does the velocity of a body that no hinge holds.
     assert_eq!(door("velocity = [0, 0, -0.5]", hinge).bodies[1].start.velocity, DVec3::new(0.0, 0.0, -0.5));
     let rod = "[joint.h.rod]\nbetween = [[0, 0, 0], 'door']";
     assert_eq!(door("", rod).bodies[1].start.velocity, DVec3::ZERO);
 }
 
-/// A hinge that is driven at 30° sin t and a slider at 0.5 sin t m, half a period later.
+/// Checks labels with the angle of a hinge driven at 30° sin t, and the displacement of a slider at 0.5 sin t m, half a period later.
 #[test]
 fn labels_show_the_angle_of_a_hinge_and_the_way_of_a_slider() {
     let folder = tempfile::tempdir().unwrap();

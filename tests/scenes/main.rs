@@ -1,4 +1,4 @@
-//! Scenes from the text to the frames, scripts, tables and reports that are made of them.
+//! Tests that lead from the text of a scene to its frames, scripts, tables and reports.
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
 
 mod coming_and_going;

@@ -1,4 +1,4 @@
-//! Many from few: what short scenes of many bodies come to in scripts.
+//! Tests of short scenes with many bodies, and of their scripts.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -7,7 +7,7 @@ use jabuka::{Run, Scene};
 
 use crate::support;
 
-/// The text of a scene of the gallery.
+/// Returns the text of a scene of the gallery.
 fn text(name: &str) -> String {
     std::fs::read_to_string(support::scene(name)).unwrap()
 }
@@ -25,7 +25,7 @@ fn a_spiral_of_500_dominoes_is_at_most_25_lines() {
     for body in &scene.bodies {
         assert!(bottom(body).abs() < 1e-12, "{} does not stand", body.name);
     }
-    // Of the same distance along a curve, no two neighbours in a spiral are at more than that.
+    // Dominoes at equal distances along the spiral are at nearly equal distances in a straight line.
     let gaps = scene.bodies.windows(2).map(|pair| pair[0].start.location.distance(pair[1].start.location));
     let (least, most) = gaps.fold((f64::MAX, 0.0f64), |(least, most), gap| (least.min(gap), most.max(gap)));
     assert!(least > 0.99 * most && most < 0.4, "{least} {most}");
@@ -46,19 +46,19 @@ fn a_thousand_scattered_balls_without_overlap_are_at_most_10_lines() {
     }
 }
 
-/// The line of every body in a script, by its name.
+/// Returns each body's line in a script, by the body's name.
 fn lines(script: &str) -> BTreeMap<&str, &str> {
     script.lines().filter_map(|line| Some((line.rsplit_once(" // ")?.1, line))).collect()
 }
 
-/// The scripts of the first frames of a scene.
+/// Returns the scripts of the first three frames of a scene.
 fn scripts(text: &str) -> Vec<String> {
     let scene = Scene::parse(text).unwrap();
     let run = Run::new(&scene).unwrap();
     run.frames().take(3).map(|frame| run.script(&frame.unwrap()).unwrap()).collect()
 }
 
-/// Asserts that a scene with more bodies has the bodies of another one in the same lines, and some more.
+/// Asserts that the scripts of the larger scene contain all body lines of the smaller one unchanged, and more.
 fn assert_only_more(before: &str, after: &str) {
     for (before, after) in scripts(before).iter().zip(&scripts(after)) {
         let (before, after) = (lines(before), lines(after));
@@ -79,14 +79,14 @@ fn a_body_added_at_the_end_changes_no_line_of_another_in_any_script() {
     }
 }
 
-/// A body that has been the only one of its material is written as one of many.
+/// Checks that a second body with the same material does not change the line of the first.
 #[test]
 fn a_second_body_of_a_material_changes_no_line_of_the_first() {
     for (shape, material) in [
         ("sphere.radius = 1", "brass"),
         ("box.size = [1, 2, 3]", "brass"),
         ("compound.parts = [{ sphere.radius = 1 }, { sphere.radius = 1, location = [3, 0, 0] }]", "brass"),
-        // Its pattern is that of the body, also where others have the same.
+        // A pattern belongs to its body, also if several bodies have the same material.
         ("sphere.radius = 1", "marble"),
         ("plane.normal = [0, 1, 0]", "brass"),
     ] {
@@ -116,7 +116,7 @@ fn more_copies_change_no_line_of_the_others() {
     }
 }
 
-/// How long it takes is measured by `benches/reading.rs`.
+/// Checks the locations of ten thousand bodies with formulas. `benches/reading.rs` measures the time.
 #[test]
 fn ten_thousand_bodies_with_formulas_are_where_these_put_them() {
     let mut text = String::from("simulation.duration = 0\n[variables]\nr = 0.2\nspacing = 1.5\n");
@@ -139,7 +139,7 @@ fn ten_thousand_bodies_with_formulas_are_where_these_put_them() {
     assert!((last.mass - 4.0 / 3.0 * std::f64::consts::PI * 0.008).abs() < 1e-15);
 }
 
-/// A mesh is as large as its file says, also before it is known what it weighs.
+/// Checks that scattered meshes do not overlap: their sizes are read from the file before their masses are known.
 #[test]
 fn scattered_meshes_do_not_overlap() {
     let folder = tempfile::tempdir().unwrap();
@@ -187,7 +187,7 @@ fn labels_know_copies_by_their_names() {
     assert!(script.contains("a = 9, b = 16.0") && script.contains("c = "), "{script}");
 }
 
-/// Bobs that hang from hooks, each on a rod, and a chain of rods from bob to bob.
+/// A scene with bobs that hang from hooks on rods, and rods between neighboring bobs.
 const PENDULUMS: &str = r#"
         [variables]
         count = 4
@@ -206,7 +206,8 @@ const PENDULUMS: &str = r#"
         between = ["bob[i]", { body = "bob[i+1]", at = [0, 0, 0] }]
 "#;
 
-/// Twenty pendulums are one body and one joint; a chain is one body and one joint, too.
+/// Checks that an indexed name such as `hook[i]` in a joint or a force makes one for each copy: twenty pendulums need one body and one
+/// joint, and so does a chain.
 #[test]
 fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
     let scene = Scene::parse(
@@ -220,7 +221,7 @@ fn ends_that_are_named_by_an_index_make_one_joint_or_force_for_each() {
         spring.stiffness = "1 + i"
         "#),
     );
-    // The last rod holds nothing that moves.
+    // Both ends of the last rod are fixed.
     let report = scene.unwrap_err().to_text(false);
     assert_eq!(report.matches("error").count(), 1, "{report}");
     assert!(report.contains("the joint `last` cannot hold anything"), "{report}");
@@ -241,7 +242,7 @@ fn copies_of_joints_and_forces_have_names_and_numbers_of_their_own() {
         names,
         ["string[0]", "string[1]", "string[2]", "string[3]", "chain[0]", "chain[1]", "chain[2]"]
     );
-    // One by one, they are the same joints and forces.
+    // Written one by one, they are the same joints and forces.
     let mut by_hand: String = text.split("[joint").next().unwrap().to_owned();
     for i in 0..4 {
         by_hand += &format!("[joint.\"string[{i}]\".rod]\nbetween = [\"hook[{i}]\", \"bob[{i}]\"]\n");
@@ -261,7 +262,7 @@ fn copies_of_joints_and_forces_have_names_and_numbers_of_their_own() {
     assert_eq!(format!("{:?}", scene.forces), format!("{:?}", by_hand.forces));
 }
 
-/// A train of wheels is one body, one hinge and one gear.
+/// Checks that a gear train can be written as one repeated body, one repeated hinge and one repeated gear.
 #[test]
 fn gears_couple_copies_of_joints() {
     let train = |gears: &str| {

@@ -1,9 +1,9 @@
-//! What a scene asks for and no picture shows gets a warning, once for a run.
+//! Tests of the warnings for requested drawings that no picture shows; each appears once for a run.
 
 use jabuka::diagnostic::Code;
 use jabuka::{Run, Scene};
 
-/// What is said of a scene with some keys, each message with its help.
+/// Returns the warnings for a scene with these keys, each with its help.
 fn said(keys: &str) -> Vec<String> {
     let text = format!(
         "simulation = {{ duration = 1, gravity = [0, -10, 0] }}
@@ -13,11 +13,11 @@ fn said(keys: &str) -> Vec<String> {
     said_of(&text)
 }
 
-/// What is said of a scene, each message with its help.
+/// Returns the warnings of the code `not-drawn` for a scene, each with its help.
 fn said_of(text: &str) -> Vec<String> {
     let scene = Scene::parse(text).unwrap();
     let run = Run::new(&scene).unwrap();
-    // Whatever is left out, every frame has its script.
+    // Every frame has a script, whatever is left out of it.
     for frame in run.frames() {
         run.script(&frame.unwrap()).unwrap();
     }
@@ -25,7 +25,7 @@ fn said_of(text: &str) -> Vec<String> {
     warnings.map(|warning| format!("{}: {}", warning.message, warning.help.unwrap_or_default())).collect()
 }
 
-/// A ball that is thrown.
+/// A thrown ball, as a part of a scene.
 const BALL: &str = "[body.ball]\nshape.sphere.radius = 0.5\nvelocity = [1, 2, 0]\n";
 
 #[test]
@@ -36,10 +36,10 @@ fn arrows_that_no_picture_shows() {
         ["the arrow for the velocity of `ball` is not seen: at most 0.0142 pixels long: \
          write `arrows.velocity.scale = 0.1`, or leave `arrows.velocity.scale` out"]
     );
-    // With what the warning says, it is seen.
+    // The change that the warning suggests makes the arrow visible.
     assert_eq!(said(&format!("{BALL}arrows.velocity.scale = 0.1")), [""; 0]);
     assert_eq!(said(&format!("{BALL}arrows.velocity = true")), [""; 0]);
-    // A vector that is zero all the time has no arrow, and needs none.
+    // A vector that is always zero has no arrow, and causes no warning.
     assert_eq!(
         said("[body.b]\nshape.sphere.radius = 0.5\nfixed = true\narrows.velocity.scale = 1e-5"),
         [""; 0]
@@ -77,7 +77,7 @@ fn trails_and_axes_that_no_picture_shows() {
     assert!(thin[0].ends_with("write `axes.length = 1`, or leave `axes.length` out"), "{thin:?}");
     assert!(thin[1].starts_with("the trail of `ball` is not seen: at most 0.000"), "{thin:?}");
     assert!(thin[1].ends_with("write `trail.width = 0.01`, or leave `trail.width` out"), "{thin:?}");
-    // In one second it goes 1 m to the right, 2 − 5 m up.
+    // Within one second the ball moves 1 m to the right, and by 2 − 5 m upward.
     let wide = said(&format!("{BALL}trail.width = 9"));
     assert_eq!(
         wide,
@@ -104,7 +104,7 @@ fn coils_without_room_or_width() {
     );
     let touching = spring("[0.5, 0, 0]", "");
     assert!(touching[0].ends_with("move the ends apart, or write `line = \"none\"`"), "{touching:?}");
-    // POV-Ray takes no such number: without the warning, there would be no picture either.
+    // POV-Ray does not accept such a small number: if the coil were written, there would be no picture.
     let thin = spring("[3, 0, 0]", "coil.radius = 1e-13");
     assert!(thin[0].starts_with("the coil of the spring `s` is not seen: at most"), "{thin:?}");
 }
@@ -130,10 +130,10 @@ fn ghosts_of_what_stays_where_it_is() {
         ["the ghosts of `ball` are not drawn: the body stays where it is: leave `ghosts` out"]
     );
     assert_eq!(said(&resting.replace("0.005", "0.5")), [""; 0]);
-    // What turns in its place is seen to.
+    // A body that rotates in place has visible ghosts.
     let turning = format!("{ball}motion.formula = {{ location = [0, 0, 0], orientation = [0, '90*t', 0] }}");
     assert_eq!(said(&turning), [""; 0]);
-    // What is fixed has none, and needs none.
+    // A fixed body has no ghosts, and causes no warning.
     assert_eq!(said(&format!("{ball}fixed = true")), [""; 0]);
 }
 

@@ -1,4 +1,4 @@
-//! Emitters of particles, from the scene to the scripts.
+//! Tests of particle emitters from the scene to the scripts.
 
 use glam::DVec3;
 use jabuka::simulate::{Frame, Frames, Recorded, Selection};
@@ -12,7 +12,7 @@ fn frames(scene: &Scene) -> Vec<Frame> {
     Frames::new(scene).map(Result::unwrap).collect()
 }
 
-/// What all lives and forces can be, in one scene: a body that turns and is thrown sends out charged particles.
+/// A scene with every kind of lifetime and force for particles: a thrown, rotating body emits charged particles.
 const ALL: &str = "
     [simulation]
     duration = 2
@@ -57,7 +57,7 @@ const ALL: &str = "
 #[test]
 fn a_selection_of_frames_has_the_particles_of_the_whole_run() {
     selections_agree(ALL);
-    // A trail asks for all frames before.
+    // A trail needs all earlier frames.
     selections_agree(&ALL.replace("mass = 3", "mass = 3\n    trail = true"));
 }
 
@@ -97,11 +97,11 @@ fn moments_between_frames_have_particles_of_their_own() {
     let script = run.shutter_script(&exposure).unwrap().unwrap();
     assert_eq!(script.matches("sphere { <0, ").count(), 3, "{script}");
     let first = script.lines().find(|line| line.starts_with("  sphere")).unwrap();
-    // The first is 0.1083 s after its birth: 5 t − 5 t² is 0.4829 m, written to a millimetre.
+    // The first particle is 0.1083 s old: 5 t − 5 t² is 0.4829 m, written with an accuracy of 1 mm.
     assert_eq!(first.trim(), "sphere { <0, 0.483, 0>, 0.1 }");
 }
 
-/// A spark leaves the rim of a wheel with the speed of the rim, at a right angle to the spoke.
+/// Checks that a spark leaves the rim of a wheel with the velocity of the rim, perpendicular to the spoke.
 #[test]
 fn what_a_body_sends_out_has_its_velocity() {
     let scene = scene(
@@ -115,7 +115,7 @@ fn what_a_body_sends_out_has_its_velocity() {
     for spark in last.particles[0].iter() {
         let (sin, cos) = libm::sincos(200.0 * spark.born);
         let velocity = DVec3::new(2.0 - 100.0 * sin, 100.0 * cos, 0.0);
-        // By a wheel that turns by 8 rad a frame, between frames by its first angular velocity.
+        // The wheel turns by 8 rad per frame. Between two frames, its angular velocity at the first of them is used.
         assert!(spark.velocity.abs_diff_eq(velocity, 1e-9), "{} {velocity}", spark.velocity);
         let left = DVec3::new(2.0 * spark.born + 0.5 * cos, 0.5 * sin, 0.0);
         assert!(spark.location.abs_diff_eq(left + (0.4 - spark.born) * velocity, 1e-9));
@@ -161,7 +161,7 @@ fn the_camera_sees_where_particles_go() {
         [emitter.jet]\nshape.sphere.radius = 0.01\nrate = 50000\nlifetime = 1\nspeed = 10\nspread = 5",
     );
     let bounds = Run::new(&scene).unwrap().survey().bounds().unwrap();
-    // They fly 5 m up, less by the first order of the method, and are back after 2 s, or dead.
+    // The particles rise by 5 m, up to the error of the first-order method, and after 2 s have returned or ended.
     assert!((4.9..5.1).contains(&bounds.max.y) && bounds.min.y.abs() < 0.1, "{bounds:?}");
     assert!(bounds.max.x > 0.5 && bounds.min.z < -0.5, "{bounds:?}");
 }
@@ -176,7 +176,8 @@ fn looks_follow_the_age() {
     let run = Run::new(&scene).unwrap();
     let frame = run.frames().nth(1).unwrap().unwrap();
     let script = run.script(&frame).unwrap();
-    // Born at 0, 0.5 and 1 s; at 1 s they have 0.8, 0.4 and 0 of their lives behind them: groups 25, 12 and 0 of 32.
+    // The particles are born at 0, 0.5 and 1 s. At 1 s, the fractions 0.8, 0.4 and 0 of their lifetimes have passed, which are the groups
+    // 25, 12 and 0 of 32.
     let lines: Vec<&str> =
         script.split("// dots\n").skip(1).map(|rest| rest.lines().next().unwrap()).collect();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Particles that come from meshes, and that meshes and several moving bodies stop.
+//! Tests of particles that start from meshes, and of particles stopped by meshes and by several moving bodies.
 
 use std::fs;
 
@@ -8,12 +8,12 @@ use jabuka::simulate::{Frame, Frames};
 use crate::support::place::Place;
 use crate::support::{jabuka, stderr, stdout};
 
-/// A cube with edges of 2, closed.
+/// An OBJ file of a closed cube with edges of 2.
 const CUBE: &str = "
 v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6
 ";
-/// The same without its upper face.
+/// An OBJ file of the same cube without its upper face.
 const TRAY: &str = "
 v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
 f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 1 5 8 4\nf 2 3 7 6
@@ -25,7 +25,7 @@ fn frames(text: &str) -> Vec<Frame> {
     Frames::new(&place.read("scene.toml")).map(Result::unwrap).collect()
 }
 
-/// What leaves a mesh at no speed of its own goes along with it.
+/// Checks that particles emitted by a mesh without a speed of their own move with the mesh.
 #[test]
 fn particles_leave_the_surface_of_a_mesh_that_moves() {
     let all = frames(
@@ -42,8 +42,8 @@ fn particles_leave_the_surface_of_a_mesh_that_moves() {
     }
 }
 
-/// Faces and edges of a mesh and of a box are the same, so balls bounce off both alike. Each bounce off an edge makes what rounding
-/// has done larger; it begins with 1e-16.
+/// Checks that particles bounce off a cubic mesh as off a box. Each bounce off an edge amplifies the rounding error, which is 1e-16 at
+/// first.
 #[test]
 fn a_cube_of_triangles_stops_particles_as_a_box_does() {
     for (scheme, method) in SCHEMES {
@@ -69,7 +69,7 @@ fn a_cube_of_triangles_stops_particles_as_a_box_does() {
     }
 }
 
-/// A tray is a surface without thickness; what is poured into it stays, though its walls are struck from within.
+/// Checks that grains stay in a tray, a mesh without thickness whose walls they hit from inside.
 #[test]
 fn grains_stay_in_a_tray_of_triangles() {
     for (scheme, method) in SCHEMES {
@@ -89,8 +89,8 @@ fn grains_stay_in_a_tray_of_triangles() {
     }
 }
 
-/// Two plates come towards each other at 0.5 m/s, as boxes or as meshes, and a ball flies to and fro between them: every bounce adds
-/// twice that speed (Fermi's acceleration). Its way is followed here bounce by bounce.
+/// Checks a ball between two plates, boxes or meshes, that approach each other at 0.5 m/s: every bounce adds twice this speed (Fermi
+/// acceleration). The test computes the expected path bounce by bounce.
 #[test]
 fn a_ball_between_two_plates_becomes_faster() {
     for (scheme, method) in SCHEMES {
@@ -106,7 +106,7 @@ fn a_ball_between_two_plates_becomes_faster() {
             let wall = |t: f64| 0.95 - 0.5 * t;
             let (mut place, mut velocity, mut now, mut bounces) = (0.0, 2.0, 0.0, 0);
             for frame in &all {
-                // It meets the plate ahead where ±place ± v (t − now) is the way that plate leaves.
+                // The ball hits the plate ahead when the path of both in this time adds up to the distance between them.
                 loop {
                     let speed = f64::abs(velocity);
                     let hit = now + (wall(now) - place * f64::signum(velocity)) / (speed + 0.5);
@@ -132,7 +132,7 @@ fn a_ball_between_two_plates_becomes_faster() {
     }
 }
 
-/// A table of zeros would look like an answer.
+/// Checks that exporting joint forces of time-stepping is an error, as they are unknown there; a table of zeros would be misleading.
 #[test]
 fn no_table_has_forces_of_joints_that_time_stepping_does_not_know() {
     let text = "simulation = { duration = 0.1, contacts = 'time-stepping' }
@@ -172,7 +172,7 @@ fn a_table_has_the_particles_of_each_frame() {
         ["0,drops,0,0,0,0,0,3,0,0,0.15", "0,drops,1,0,0,0,0,3,0,0,0.15", "0,stones,0,1,2,3,0,0,0,0,"]
     );
     assert!(!rows[9..].iter().any(|row| row.starts_with("0.2,drops,0,")), "it is dead: {rows:?}");
-    // What leaves particles out says so, and how they can be had.
+    // The output says that particles are left out, and how to export them.
     let output = export(&["scene.toml", "-o", "b.csv"]);
     assert!(stdout(&output).ends_with("; particles are left out: `--particles` makes a table of them\n"));
     let output = export(&["scene.toml", "-o", "b.glb"]);

@@ -1,4 +1,4 @@
-//! Particles that bodies and the ground stop.
+//! Tests of particles that collide with bodies and the ground.
 
 use glam::DVec3;
 use jabuka::simulate::{Frame, Frames, Recorded, Selection};
@@ -14,7 +14,7 @@ fn frames(text: &str) -> Vec<Frame> {
     Frames::new(&scene(text)).map(Result::unwrap).collect()
 }
 
-/// One particle: its place and its velocity at each frame.
+/// Simulates a scene with one particle. Returns its time, location and velocity in each frame.
 fn path(text: &str) -> Vec<(f64, DVec3, DVec3)> {
     let one = |frame: Frame| {
         let particle = frame.particles[0][0];
@@ -23,8 +23,8 @@ fn path(text: &str) -> Vec<(f64, DVec3, DVec3)> {
     frames(text).into_iter().map(one).collect()
 }
 
-/// Under gravity alone, methods from order 2 up are exact but for rounding. In flight, y − r + v²/2g is the height of the next apex; each
-/// impact multiplies it by the square of the restitution.
+/// Checks the height of rebounds. Under gravity alone, methods of order 2 and higher are exact up to rounding. In flight, y − r + v²/2g is
+/// the height of the next apex; each impact multiplies it by the square of the restitution.
 #[test]
 fn a_rebound_is_as_high_as_the_restitution_says() {
     for method in ["velocity-verlet", "rk4"] {
@@ -49,7 +49,7 @@ fn a_rebound_is_as_high_as_the_restitution_says() {
     }
 }
 
-/// Under a steady acceleration, each step is exact; the ends of frames are as exact as their numbers.
+/// Checks sliding friction: under a constant acceleration each step is exact, so the states at the frames are exact up to rounding.
 #[test]
 fn friction_slows_down_what_slides_and_stops_it() {
     let (mu, speed) = (0.3, 2.0);
@@ -80,10 +80,10 @@ fn friction_slows_down_what_slides_and_stops_it() {
     }
 }
 
-/// A slope of 30° with a particle on it.
+/// Returns the path of a particle on a slope of 30°, with this coefficient of friction.
 fn slope(mu: f64) -> Vec<(f64, DVec3, DVec3)> {
     let (normal, radius) = (DVec3::new(-0.5, 0.75_f64.sqrt(), 0.0), 0.02);
-    // The upper face of the box leads through the origin.
+    // The upper face of the box contains the origin.
     let start = normal * radius;
     let centre = normal * -0.5;
     path(&format!(
@@ -98,7 +98,7 @@ fn slope(mu: f64) -> Vec<(f64, DVec3, DVec3)> {
 
 #[test]
 fn a_slope_holds_up_to_the_angle_of_friction() {
-    // tan 30° = 0.577.
+    // The angle of friction is reached at tan 30° = 0.577.
     let held = slope(0.6);
     for (time, place, velocity) in &held {
         assert!(place.distance(held[0].1) < 1e-12 && velocity.length() < 1e-12, "{time}: {place} {velocity}");
@@ -113,7 +113,7 @@ fn a_slope_holds_up_to_the_angle_of_friction() {
     }
 }
 
-/// In a step of 4 ms it flies 8 m.
+/// Checks that a fast particle does not pass through a thin wall: it moves 8 m within a step of 4 ms.
 #[test]
 fn no_wall_is_too_thin_for_what_is_fast() {
     let path = path(
@@ -126,12 +126,12 @@ fn no_wall_is_too_thin_for_what_is_fast() {
     let last = path.last().unwrap();
     assert!(path.iter().all(|(_, place, _)| place.x < 2.995 - 0.001 + 1e-9));
     assert!((last.2.x + 1000.0).abs() < 1e-6, "{}", last.2);
-    // It is there after 2.994 m, and flies back half as fast.
+    // The particle hits the wall after 2.994 m, and returns at half its speed.
     let expected = 2.994 - (last.0 - 2.994 / 2000.0) * 1000.0;
     assert!((last.1.x - expected).abs() < 1e-6, "{} {expected}", last.1);
 }
 
-/// Between frames, the way of a paddle of steady speed is exact but for rounding.
+/// Checks the rebound from a moving paddle. Between frames, the location of a paddle with constant speed is exact up to rounding.
 #[test]
 fn a_paddle_throws_with_twice_its_speed() {
     let path = path(
@@ -143,12 +143,12 @@ fn a_paddle_throws_with_twice_its_speed() {
     let (first, last) = (path[0], path[path.len() - 1]);
     assert_eq!((first.1, first.2), (DVec3::ZERO, DVec3::ZERO));
     assert!(last.2.distance(6.0 * DVec3::X) < 1e-9, "{}", last.2);
-    // The paddle has a way of 1 m less half its thickness and the radius.
+    // The paddle moves 1 m, less half its thickness and the particle's radius, before it hits the particle.
     let hit = 0.9 / 3.0;
     assert!((last.1.x - 6.0 * (last.0 - hit)).abs() < 1e-9, "{}", last.1);
 }
 
-/// A lift that starts and stops, and a table that turns: grains on them go along.
+/// Checks that grains move with a body that carries them: a lift that starts and stops, and a turntable.
 #[test]
 fn what_moves_carries_what_rests_on_it() {
     let lift = path(&format!(
@@ -160,12 +160,12 @@ fn what_moves_carries_what_rests_on_it() {
     ));
     for (time, place, _) in &lift[2..] {
         let height = 0.5 * libm::sin(2.0 * time) + 0.1;
-        // Within a frame of 40 ms, the way of the lift is a cubic: off by (0.04)⁴ · 16 · 0.5/384 m.
+        // Within a frame of 40 ms, the lift's path is interpolated by a cubic, with an error of (0.04)⁴ · 16 · 0.5/384 m.
         assert!((place.y - height).abs() < 1e-7, "{time}: {} {height}", place.y);
         let aside = place.x - 0.3 * libm::sin(3.0 * time);
         assert!(aside.abs() < 1e-6, "{time}: {aside}");
     }
-    // 2² · 0.5 m/s² is less than 0.5 g, and more than 0.2 g.
+    // The acceleration 2² · 0.5 m/s² is less than 0.5 g, and more than 0.2 g.
     for (time, place, _) in &table(0.5) {
         let expected = DVec3::new(0.5 * libm::cos(2.0 * time), 0.15, -0.5 * libm::sin(2.0 * time));
         assert!(place.distance(expected) < 1e-9, "{time}: {place} {expected}");
@@ -174,7 +174,7 @@ fn what_moves_carries_what_rests_on_it() {
     assert!(libm::hypot(thrown.x, thrown.z) > 0.52 && (thrown.y - 0.15).abs() < 1e-9, "{thrown}");
 }
 
-/// A grain that turns with a table.
+/// Returns the path of a grain on a turntable, with this coefficient of friction.
 fn table(friction: f64) -> Vec<(f64, DVec3, DVec3)> {
     path(&format!(
         "simulation = {{ duration = 2, gravity = [0, -{G}, 0], contacts = 'event-driven', integrator = 'rk4' }}
@@ -185,7 +185,7 @@ fn table(friction: f64) -> Vec<(f64, DVec3, DVec3)> {
     ))
 }
 
-/// A box without a lid, of five walls, turned about two axes.
+/// A scene with an open box of five walls, rotated about two axes.
 const BOX: &str = "
     environment.ground = false
     [body.box]
@@ -220,7 +220,7 @@ fn grains_stay_in_a_box_that_they_are_poured_into() {
         let body = all[0].bodies[0];
         let within = |place: DVec3| {
             let local = body.orientation.conjugate() * (place - body.location);
-            // The centre of mass is not where the floor is: the walls raise it.
+            // The walls raise the center of mass above the center of the floor, so only x and z are simple limits.
             local.x.abs() < 0.43 + 1e-9 && local.z.abs() < 0.43 + 1e-9
         };
         let last = all.last().unwrap();
@@ -234,7 +234,7 @@ fn grains_stay_in_a_box_that_they_are_poured_into() {
                 grain.velocity
             );
         }
-        // All are on the floor or in a corner of it: none has fallen through.
+        // All grains lie on the floor or in its corners; none has fallen through.
         let lowest = |grain: DVec3| (body.orientation.conjugate() * (grain - body.location)).y;
         let low = last.particles[0].iter().map(|grain| lowest(grain.location)).fold(f64::INFINITY, f64::min);
         let high =
@@ -266,7 +266,7 @@ fn frames_alone_have_the_grains_of_the_whole_run() {
     }
 }
 
-/// What comes near nothing moves as it would without obstacles, to the same bits.
+/// Checks that a particle far from all obstacles moves as without them, to the last bit.
 #[test]
 fn what_touches_nothing_moves_as_without_obstacles() {
     let text = |collides: bool| {
@@ -284,7 +284,7 @@ fn what_touches_nothing_moves_as_without_obstacles() {
     }
 }
 
-/// An emitter within a body: what begins there passes out.
+/// Checks that a particle emitted inside a body passes out of it.
 #[test]
 fn what_begins_within_a_body_leaves_it() {
     let path = path(
@@ -297,8 +297,8 @@ fn what_begins_within_a_body_leaves_it() {
     assert!(path.iter().all(|(time, place, _)| (place.y + 0.3 - 2.0 * time).abs() < 1e-12));
 }
 
-/// It slides down a ball without friction and leaves it where its height above the centre has fallen to two thirds. Slid in steps of 1 ms, with an
-/// error of second order.
+/// Checks a particle that slides down a ball without friction: it leaves the ball when its height above the center has fallen to two
+/// thirds of the initial height. It slides in steps of 1 ms, with an error of second order.
 #[test]
 fn what_slides_down_a_ball_leaves_it_at_two_thirds_of_its_height() {
     let (radius, small) = (1.0, 0.01);

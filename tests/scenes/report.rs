@@ -1,4 +1,4 @@
-//! `jabuka report`: how right a run is, as people and programs get it.
+//! Tests of the text and the JSON of `jabuka report`, which describes the accuracy of a run.
 
 use std::fs;
 use std::process::Output;
@@ -56,7 +56,7 @@ fn a_plot_is_the_same_bytes_each_time_and_replaces_nothing_that_is_read() {
     let svg = fs::read_to_string(path("one.svg")).unwrap();
     assert!(svg.contains(">Explicit Euler, gone wrong</text>"), "{svg}");
 
-    // A scene may have any name.
+    // A scene's file may have any extension.
     fs::copy(root().join("scenes/explicit_euler.toml"), path("scene.svg")).unwrap();
     let output = report(&[&path("scene.svg"), "--plot", &path("scene.svg")]);
     assert_eq!(output.status.code(), Some(1));

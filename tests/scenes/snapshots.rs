@@ -1,4 +1,4 @@
-//! The first, a middle and the last script of every scene of the gallery. To add a test is to add a scene.
+//! Snapshot tests of the first, a middle and the last script of every scene of the gallery. Each new scene is tested automatically.
 
 use jabuka::{Run, Scene};
 
@@ -21,7 +21,7 @@ fn scripts_of_the_gallery() {
     });
 }
 
-/// What makes scripts of thousands of particles short, and long runs.
+/// Returns overrides that reduce the number of particles and the duration of some scenes, so that their scripts are short.
 fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
     let settings: &[&str] = match path.file_stem().and_then(std::ffi::OsStr::to_str) {
         Some("fountain") => &["variables.drops=40"],
@@ -34,7 +34,7 @@ fn fewer(path: &std::path::Path) -> Vec<jabuka::scene::Override> {
     settings.iter().map(|setting| jabuka::scene::Override::new(*setting)).collect()
 }
 
-/// The figures that the tutorial's scene is known for.
+/// Checks the known results of the tutorial's scene for several methods.
 #[test]
 fn the_ball_of_the_tutorial_is_where_each_method_takes_it() {
     let ball = |settings: &[&str], frame: usize| {
@@ -47,7 +47,7 @@ fn the_ball_of_the_tutorial_is_where_each_method_takes_it() {
         let line = script.lines().find(|line| line.ends_with("// ball")).unwrap();
         line.trim_start().strip_suffix(" } // ball").unwrap().to_owned()
     };
-    // By hand: y = v t − ½ t² (exact) − ½ t dt (Euler–Cromer's error), at t = 2 s, dt = 0.01 s and 0.1 s.
+    // By hand: y = v t − ½ t² (exact) − ½ t dt (the error of Euler–Cromer), at t = 2 s with dt = 0.01 s and 0.1 s.
     assert_eq!(ball(&[], 50), "sphere { <24, 17.99, 0>, 2");
     assert_eq!(ball(&["simulation.integrator=rk4"], 50), "sphere { <24, 18, 0>, 2");
     assert_eq!(ball(&["simulation.frame_rate=10", "simulation.step=0.1"], 20), "sphere { <24, 17.9, 0>, 2");

@@ -1,4 +1,4 @@
-//! Commands in texts for people: whether jabuka has them, and what they do.
+//! Finds the `jabuka` commands in texts for users, checks that they are valid, and runs them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -6,26 +6,30 @@ use std::process::{Command, Output};
 
 use super::{jabuka, root, stderr, stdout};
 
-/// Whether these lines are commands, each after `$ `.
+/// Returns true if all lines are commands, each after `$ `.
 pub(crate) fn are(lines: &str) -> bool {
     lines.lines().all(|line| line.starts_with("$ "))
 }
 
-/// The commands `jabuka …` in a line of a shell, without what comes after `&&`, `;`, `|` or `#`.
+/// Returns the commands `jabuka …` in a line of shell input, without the text after `&&`, `;`, `|` or `#`.
 pub(crate) fn of_line(line: &str) -> Vec<String> {
     let line = line.split(" #").next().unwrap_or_default();
     let pieces = line.split(['&', ';', '|', '>', '<']).map(str::trim);
     pieces.filter_map(|piece| piece.find("jabuka ").map(|at| piece[at..].to_owned())).collect()
 }
 
-/// Whether jabuka has such a command with such arguments: with `--help` behind them, it only says what it makes of them.
+/// Checks that a command with its arguments is valid. `--help` is appended, so the command itself does not run.
+///
+/// # Errors
+///
+/// If the command is not valid: the message that it printed.
 pub(crate) fn parses(command: &str) -> Result<(), String> {
     let arguments = command.split(" -- ").next().unwrap();
     let output = run(&format!("{arguments} --help"), root());
     if output.status.success() { Ok(()) } else { Err(stderr(&output)) }
 }
 
-/// Runs lines of commands in a folder that is also the user's home. The first that fails ends them.
+/// Runs the commands of several lines in a folder, which is also the home folder. Stops at the first command that fails.
 pub(crate) fn run(lines: &str, folder: &Path) -> Output {
     let script: String = lines.lines().map(|line| format!("{}\n", line.trim_start_matches("$ "))).collect();
     let jabuka = Path::new(env!("CARGO_BIN_EXE_jabuka")).parent().unwrap();
@@ -41,7 +45,7 @@ pub(crate) fn run(lines: &str, folder: &Path) -> Output {
         .unwrap()
 }
 
-/// The subcommands of jabuka, each with its long options, as its help lists them.
+/// Returns jabuka's subcommands, each with its long options, from the output of `--help`.
 pub(crate) fn tree() -> BTreeMap<String, BTreeSet<String>> {
     let help = |arguments: &[&str]| {
         let output = jabuka().args(arguments).arg("--help").output().unwrap();
@@ -50,19 +54,19 @@ pub(crate) fn tree() -> BTreeMap<String, BTreeSet<String>> {
     };
     let top = help(&[]);
     let list = top.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    // A line that is indented further goes on with the one above.
+    // A line with a deeper indentation continues the line above.
     let lines = list.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
     let names = lines.filter_map(|line| line.split_whitespace().next());
     let options_of = |name: &str| match name {
         "help" => BTreeSet::new(),
         name => options(&help(&[name])),
     };
-    // `sandbox` is hidden: only jabuka itself starts it.
+    // `sandbox` is hidden from the help, because only jabuka itself starts it.
     let tree = names.chain(["sandbox"]).map(|name| (name.to_owned(), options_of(name)));
     tree.chain([(String::new(), options(&top))]).collect()
 }
 
-/// The long options that a text names: `--video`.
+/// Returns the long options that a text mentions, such as `--video`.
 pub(crate) fn options(text: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     for (at, _) in text.match_indices("--") {

@@ -1,4 +1,4 @@
-//! What the tests of the `jabuka` command share.
+//! Helpers for the tests of the `jabuka` command.
 #![allow(dead_code, reason = "each test program uses some of it")]
 
 pub(crate) mod commands;
@@ -10,24 +10,24 @@ use std::process::{Command, Output};
 
 use jabuka::diagnostic::Code;
 
-/// The `jabuka` command, as built for the tests. It keeps no runs.
+/// Returns a command that runs `jabuka` as built for the tests. It keeps no runs in the cache.
 pub(crate) fn jabuka() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_jabuka"));
     command.current_dir(root()).env("JABUKA_CACHE_SIZE", "0");
     command
 }
 
-/// The project's folder.
+/// Returns the root folder of the project.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A scene of the gallery, by its name.
+/// Returns the path of a scene of the gallery, by the scene's name.
 pub(crate) fn scene(name: &str) -> PathBuf {
     root().join("scenes").join(name).with_extension("toml")
 }
 
-/// What makes a scene of the gallery short whose whole run takes long: its beginning shows the same.
+/// Returns arguments that shorten the long scenes of the gallery, so that tests are fast.
 pub(crate) fn shorter(scene: &Path) -> &'static [&'static str] {
     match scene.file_stem().and_then(std::ffi::OsStr::to_str) {
         Some("domino_spiral") => &["--set", "simulation.duration=2"],
@@ -37,30 +37,30 @@ pub(crate) fn shorter(scene: &Path) -> &'static [&'static str] {
     }
 }
 
-/// What a command said to standard output.
+/// Returns the standard output of a command.
 pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-/// What a command said to standard error.
+/// Returns the standard error of a command.
 pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// Compiles a scene into a folder, which must succeed.
+/// Compiles a scene into a folder, and asserts success.
 pub(crate) fn compile(scene: &Path, folder: &Path, arguments: &[&str]) -> Output {
     let output = jabuka().arg("compile").arg(scene).arg("-o").arg(folder).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     output
 }
 
-/// Sends a signal to a process. Shells have `kill`; not every machine has a program of that name.
+/// Sends a signal to a process. It uses the `kill` of the shell, as some machines have no program of this name.
 pub(crate) fn signal(name: &str, process: u32) {
     let kill = format!("kill -s {name} {process}");
     assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
 }
 
-/// All files of a folder: names and bytes, in the order of the names.
+/// Returns the names and bytes of all files of a folder, sorted by name.
 pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(folder)
         .unwrap()
@@ -73,7 +73,7 @@ pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// Every code that is named in the sources below a folder, but for the list of all.
+/// Returns every error code that the sources below a folder use, apart from the list of all codes.
 pub(crate) fn codes(folder: &Path) -> BTreeSet<Code> {
     let mut codes = BTreeSet::new();
     for entry in std::fs::read_dir(folder).unwrap() {

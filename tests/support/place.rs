@@ -1,11 +1,11 @@
-//! A folder with the files of a test.
+//! A temporary folder with the files of a test.
 
 use std::fs;
 use std::path::PathBuf;
 
 use jabuka::Scene;
 
-/// A folder with files, which is gone with the test.
+/// A temporary folder with files. Dropping it deletes them.
 pub(crate) struct Place(pub(crate) tempfile::TempDir);
 
 impl Place {
@@ -17,18 +17,18 @@ impl Place {
         place
     }
 
-    /// The path of a file in it.
+    /// Returns the path of a file in the folder.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    /// A scene in it, which must be right.
+    /// Reads a scene in the folder, and asserts that it is valid.
     #[allow(clippy::panic, reason = "a test stops at the first surprise")]
     pub(crate) fn read(&self, name: &str) -> Scene {
         Scene::from_path(self.path(name)).unwrap_or_else(|report| panic!("{}", report.to_text(false)))
     }
 
-    /// What is said of a scene in it, which must be wrong.
+    /// Checks a scene in the folder, and asserts that it is invalid. Returns the error messages.
     pub(crate) fn errors(&self, name: &str) -> String {
         let output = super::jabuka().current_dir(self.0.path()).args(["check", name]).output().unwrap();
         assert_eq!(output.status.code(), Some(1));

@@ -1,4 +1,4 @@
-//! The colors of a film are those of the images.
+//! Tests that the colors of a film are those of its images.
 
 use png::ColorType;
 
@@ -50,7 +50,7 @@ fn images_of_all_kinds_are_read() {
 fn what_is_transparent_is_shown_before_white() {
     let folder = tempfile::tempdir().unwrap();
     let image = folder.path().join("image.png");
-    // Black, half opaque: half of the light of white is 188 in sRGB.
+    // Half-transparent black on white leaves half of the light, which is 188 in sRGB.
     for (rgba, expected) in [([0, 0, 0, 0], 255), ([0, 0, 0, 128], 187), ([40, 40, 40, 255], 40)] {
         write(&image, (16, 16), ColorType::Rgba, &rgba.repeat(256));
         for extension in ["mp4", "webm"] {

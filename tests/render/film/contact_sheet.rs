@@ -1,4 +1,4 @@
-//! Contact sheets show the images they should, in their colors.
+//! Tests that contact sheets show the right images in their colors.
 
 use std::fs::{self, File};
 use std::io::BufReader;
@@ -8,7 +8,7 @@ use jabuka::render::{ContactSheet, FilmError, Shot};
 
 use super::images::plain;
 
-/// Shots of one color each: the red of each is the number of its frame.
+/// Writes images of one color each, whose red value is the frame's number. Returns them as the shots of a contact sheet.
 fn shots(folder: &Path, count: usize, size: (u32, u32)) -> Vec<Shot> {
     let shot = |frame: usize| {
         let image = folder.join(format!("{frame}.png"));
@@ -18,7 +18,7 @@ fn shots(folder: &Path, count: usize, size: (u32, u32)) -> Vec<Shot> {
     (0..count).map(shot).collect()
 }
 
-/// Width and bytes of a sheet.
+/// Returns the width and the bytes of an image.
 fn read(path: &Path) -> (usize, Vec<u8>) {
     let mut reader = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
     let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
@@ -41,7 +41,7 @@ fn twelve_evenly_spaced_images_stand_in_four_columns() {
         let pixel = &bytes[3 * (y * width + x)..][..3];
         assert_eq!(pixel, [10 * index as u8, 160, 40], "image {index}");
     }
-    // There is ink in the caption below the last image, and none in the margin.
+    // The caption below the last image has dark pixels, the margin has none.
     let is_dark =
         |from: usize, to: usize| bytes[3 * width * from..3 * width * to].iter().any(|byte| *byte < 60);
     let bottom = bytes.len() / 3 / width;

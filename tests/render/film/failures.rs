@@ -1,4 +1,4 @@
-//! Whatever goes wrong is said clearly, and leaves nothing but the film that was there before.
+//! Tests of failures while a film is made: each has a clear message, and an existing film is kept.
 
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
@@ -11,7 +11,7 @@ use jabuka::render::{Film, FilmError};
 use super::images::{plain, sequence};
 use super::probe::{confined, make, try_make};
 
-/// Names of files in a folder, without the images.
+/// Returns the sorted names of a folder's files, except for the images.
 fn others(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<_> = names.filter(|name| !name.ends_with(".png")).collect();
@@ -19,7 +19,7 @@ fn others(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A program that stands in for ffmpeg: it answers the check, and else does as the shell is told.
+/// Writes a stand-in for ffmpeg: a shell script that passes the check of version and encoder, and then runs `script`.
 fn stand_in(folder: &Path, script: &str) -> PathBuf {
     let path = folder.join("ffmpeg.sh");
     let check = "case $1 in -version) echo ffmpeg version 0.0 x; exit;; esac\n\
@@ -29,7 +29,7 @@ fn stand_in(folder: &Path, script: &str) -> PathBuf {
     path
 }
 
-/// Makes `film.mp4` of some images by a stand-in, where one was before, and holds it to leaving only that.
+/// Makes a film with a stand-in for ffmpeg where an older film exists. Asserts that a failure keeps only the older film.
 fn make_by(script: &str, cancelled: &dyn Fn() -> bool) -> Result<(), FilmError> {
     let folder = tempfile::tempdir().unwrap();
     let images = sequence(folder.path(), 5, (640, 480));
@@ -52,7 +52,7 @@ fn a_failing_ffmpeg_is_quoted_by_its_last_lines() {
     assert!(error.contains("film.mp4`: it ended with code 3, and said last:\n"), "{error}");
     assert!(error.ends_with("  a line of noise\n  Out of pixels"), "{error}");
     assert!(error.len() < 1000, "{error}");
-    // Without reading what it gets.
+    // The stand-in ends without reading its input.
     let error = make_by("exit 4", &|| false).unwrap_err().to_string();
     assert!(error.ends_with("film.mp4`: it ended with code 4 without a word"), "{error}");
     let error = make_by("kill -9 $$", &|| false).unwrap_err().to_string();
@@ -68,11 +68,11 @@ fn a_full_disk_is_called_so() {
 
 #[test]
 fn a_film_whose_last_bytes_are_not_written_is_none_whatever_ffmpeg_says() {
-    // Real ffmpeg, which may write 2 kB or 4 kB only.
+    // Run real ffmpeg with a limit of 2 kB or 4 kB on the size of its output file, depending on the shell.
     let script = "trap '' XFSZ; ulimit -f 4; exec ffmpeg \"$@\"";
     let error = make_by(script, &|| false).unwrap_err().to_string();
     assert!(error.contains("File too large"), "{error}");
-    // It has ended so before.
+    // Real ffmpeg has ended with success after this message.
     let script =
         "cat >/dev/null; echo frame=5; echo 'Error writing trailer of file:x: No space left on device' >&2";
     let error = make_by(script, &|| false).unwrap_err();
@@ -125,7 +125,7 @@ fn a_missing_ffmpeg_is_told_early_with_how_to_install_it() {
 
 #[test]
 fn a_path_without_ffmpeg_has_none() {
-    // The variable can be changed for another process only.
+    // Set `PATH` for a new process only, as changing it in this one would affect other tests.
     let me = std::env::current_exe().unwrap();
     let arguments = ["--exact", "film::failures::finds_no_ffmpeg", "--ignored"];
     let output = Command::new(me).args(arguments).env("PATH", "").output().unwrap();
@@ -208,7 +208,7 @@ fn where_no_file_can_be_is_told() {
     fs::create_dir(folder.path().join("folder.mp4")).unwrap();
     let error = try_make(&folder.path().join("folder.mp4"), &images, 25.0).unwrap_err();
     assert!(matches!(error, FilmError::Folder(_)), "{error}");
-    // The superuser may write into any folder, but not below a file.
+    // A superuser may write into every folder, but nobody can write below a file.
     let below = images[0].join("film.mp4");
     let error = try_make(&below, &images, 25.0).unwrap_err();
     assert!(matches!(&error, FilmError::Io(path, _) if *path == below), "{error}");

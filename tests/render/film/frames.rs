@@ -1,4 +1,4 @@
-//! A film has a frame for each image, in their order, at its rate.
+//! Tests of a film's frames: one for each image, in the right order and at the right rate.
 
 use std::cell::Cell;
 use std::fs;
@@ -54,7 +54,7 @@ fn the_streams_are_what_plays_everywhere() {
         );
         assert_eq!(stream(&film, fields), expected);
     }
-    // The table of contents before the pictures: a browser can begin at once.
+    // The index `moov` comes before the pictures, so a browser can start to play before it has loaded the whole file.
     let bytes = fs::read(folder.path().join("film.mp4")).unwrap();
     let place = |name: &[u8]| bytes.windows(4).position(|four| four == name).unwrap();
     assert!(place(b"moov") < place(b"mdat"));

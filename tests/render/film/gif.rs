@@ -1,4 +1,4 @@
-//! What is peculiar to GIF: it loops, its delays are hundredths of a second, and it may be transparent.
+//! Tests of the properties of GIF films: they loop, their delays are multiples of 1/100 s, and they may be transparent.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ fn it_loops_for_ever() {
 fn delays_add_up_and_none_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let film = folder.path().join("film.gif");
-    // More than the palette is learnt from.
+    // Use more images than the palette is made from.
     let images = sequence(folder.path(), 60, (32, 32));
     for (rate, kinds, sum) in [
         (25.0, vec![4], 240),
@@ -50,7 +50,7 @@ fn delays_add_up_and_none_is_lost() {
 fn what_is_transparent_stays_so_and_leaves_no_trace() {
     let folder = tempfile::tempdir().unwrap();
     let film = folder.path().join("film.gif");
-    // A dot that wanders, of 4 × 4 pixels.
+    // The images show a square of 4 × 4 pixels that moves.
     let images: Vec<_> = (0..6)
         .map(|index| {
             let path = folder.path().join(format!("{index}.png"));
@@ -70,7 +70,7 @@ fn what_is_transparent_stays_so_and_leaves_no_trace() {
     }
 }
 
-/// The delays that stand in a GIF, 1/100 s: of its graphic control extensions.
+/// Returns the delays of a GIF's frames in 1/100 s, from its graphic control extensions.
 fn delays(bytes: &[u8]) -> Vec<u16> {
     let is_extension = |eight: &&[u8]| eight[..3] == [0x21, 0xf9, 4] && eight[7] == 0;
     let delay = |eight: &[u8]| u16::from_le_bytes([eight[4], eight[5]]);

@@ -1,11 +1,11 @@
-//! Images to make films of.
+//! Makes images for films.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Encoder};
 
-/// Writes a PNG.
+/// Writes a PNG with 8 bits per channel.
 pub(crate) fn write(path: &Path, (width, height): (u32, u32), color: ColorType, bytes: &[u8]) {
     let mut encoder = Encoder::new(File::create(path).unwrap(), width, height);
     encoder.set_color(color);
@@ -18,7 +18,7 @@ pub(crate) fn plain(path: &Path, size: (u32, u32), rgb: [u8; 3]) {
     write(path, size, ColorType::Rgb, &rgb.repeat((size.0 * size.1) as usize));
 }
 
-/// So many images, no two of which are alike: a bright square wanders over a ramp.
+/// Writes a sequence of images that all differ: a bright square moves over a color gradient. Returns their paths.
 pub(crate) fn sequence(folder: &Path, count: usize, (width, height): (u32, u32)) -> Vec<PathBuf> {
     let image = |index: usize| {
         let path = folder.join(format!("any name % {index}.png"));

@@ -1,4 +1,4 @@
-//! Films and contact sheets, by real ffmpeg; ffprobe and ffmpeg tell what is in them.
+//! Tests of films and contact sheets, made by real ffmpeg and examined by ffprobe and ffmpeg.
 
 mod colors;
 mod contact_sheet;

@@ -1,4 +1,4 @@
-//! Makes films, and asks ffprobe and ffmpeg what is in them.
+//! Makes films, and reads their properties with ffprobe and ffmpeg.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -6,12 +6,12 @@ use std::process::{Command, Output};
 use jabuka::render::{Film, FilmError};
 use jabuka::sandbox::{Confinement, Launcher};
 
-/// ffmpeg is confined in all tests, as it is by the command.
+/// Returns the confinement of ffmpeg in tests, the same that the command uses.
 pub(crate) fn confined() -> Confinement {
     Confinement::new(Some(Launcher::new(env!("CARGO_BIN_EXE_jabuka"))))
 }
 
-/// Makes a film, and tells why if it cannot be made.
+/// Makes a film, and returns the error if it fails.
 pub(crate) fn try_make(path: &Path, images: &[PathBuf], rate: f64) -> Result<(), FilmError> {
     let film = Film::new(path)?;
     let ffmpeg =
@@ -19,12 +19,12 @@ pub(crate) fn try_make(path: &Path, images: &[PathBuf], rate: f64) -> Result<(),
     film.make(images, rate, &ffmpeg, &|| false, &|_| {})
 }
 
-/// Makes a film.
+/// Makes a film, and asserts success.
 pub(crate) fn make(path: &Path, images: &[PathBuf], rate: f64) {
     try_make(path, images, rate).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// The values of some fields of the film's stream, one after another as ffprobe orders them.
+/// Returns the given fields of a film's video stream, in the order of ffprobe.
 pub(crate) fn stream(film: &Path, fields: &str) -> String {
     let entries = format!("stream={fields}");
     let arguments = ["-count_frames", "-show_entries", &entries, "-of", "default=nw=1"];
@@ -32,7 +32,7 @@ pub(crate) fn stream(film: &Path, fields: &str) -> String {
     String::from_utf8(output.stdout).unwrap().trim().replace('\n', " ")
 }
 
-/// The durations of the frames of a film, in units of its time base.
+/// Returns the durations of a film's frames, in units of its time base.
 pub(crate) fn durations(film: &Path) -> Vec<u32> {
     let arguments = ["-v", "error", "-show_entries", "packet=duration", "-of", "csv=p=0"];
     let output = run(Command::new("ffprobe").args(arguments).arg(film));
@@ -40,7 +40,7 @@ pub(crate) fn durations(film: &Path) -> Vec<u32> {
     text.lines().map(|line| line.trim_end_matches(',').parse().unwrap()).collect()
 }
 
-/// All pixels of a film, as ffmpeg shows them.
+/// Returns all pixels of a film as ffmpeg decodes them.
 pub(crate) fn pixels(film: &Path, format: &str) -> Vec<u8> {
     let arguments = ["-f", "rawvideo", "-pix_fmt", format, "-fps_mode", "passthrough", "-"];
     run(Command::new("ffmpeg").args(["-v", "error", "-nostdin", "-i"]).arg(film).args(arguments)).stdout
