@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
 
-# Scene, which frames, and the time of each in the film in hundredths of a second.
+# Each entry: the scene, n for every n-th frame, and the delay of each frame in hundredths of a second.
 for entry in domino_spiral:10:8 wrecking_ball:2:8; do
     IFS=: read -r scene every delay <<<"$entry"
     cargo run --quiet --release -- render "scenes/$scene.toml" --every "$every" --size 400x225 \

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Makes docs/gallery.png: one frame of every scene of the gallery. Needs POV-Ray and ImageMagick.
+# Makes docs/gallery.png, which shows one frame of every scene of the gallery. It needs POV-Ray and ImageMagick.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Scene and the time (s) that shows it best.
+# The scenes, each with the time (s) of the frame that shows it best.
 moments='parabola:4.4 damped_spring:0.4 tumbling_box:7.04 wing_nut:3.5 explicit_euler:11.6 euler_cromer:11.6 feather_and_stone:0.45
     figure_eight:1.2 pleiades:1.5 thousand_years:600 trojans:120 crossed_fields:1.6 shapes:0.4 atom:5e-17 planets:1.333e8 string_of_balls:1.6 hammer:0.26 mesh:1.4
     projectile:2 crank:1.1 dominoes:0 scattered_balls:0 precession:2 heavy_top:3.2

@@ -1,26 +1,26 @@
 # shellcheck shell=bash
 # Reads the settings of this job from job.conf and then local.conf, for the scripts beside this file.
 #
-# Each line sets one value: KEY=value. The value is the rest of the line; quotes around all of it are removed. Nothing
-# in it is run or expanded: names of scenes and files come from whoever wrote the scene.
+# Each line sets one value: KEY=value. The value is the text up to the end of the line, without quotes around it. It is never
+# executed or expanded, since names of scenes and files come from the author of the scene.
 
-# Writes a text for people in one line: control characters and those that reorder text become `?`.
+# Prints a text in one line. Control characters and characters that change the direction of writing become `?`.
 plain() {
     local text=${*//[[:cntrl:]]/?}
-    # The bytes of U+061C, U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, since the locale is C.
+    # The patterns are the bytes of U+061C, U+200E, U+200F, U+2028 to U+202E and U+2066 to U+2069, since the locale is C.
     text=${text//$'\xd8\x9c'/?}
     text=${text//$'\xe2\x80'[$'\x8e\x8f\xa8'-$'\xae']/?}
     text=${text//$'\xe2\x81'[$'\xa6'-$'\xa9']/?}
     printf '%s' "$text"
 }
 
-# Ends the script with what is wrong in line `number` of the settings `file`.
+# Ends the script with an error message for line `number` of the settings `file`.
 wrong_setting() {
     printf '%s: %s, line %s: %s\n' "${0##*/}" "$file" "$number" "$(plain "$1")" >&2
     exit 2
 }
 
-# Sets the variables of one file. Bash computes with what numbers hold, so a number must have digits only.
+# Sets the variables of one file. Bash evaluates numbers as expressions, so a number must consist of digits only.
 read_settings_of() {
     local file=$1 number=0 line key value
     while IFS= read -r line || [[ -n $line ]]; do

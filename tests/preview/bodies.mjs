@@ -1,10 +1,10 @@
-// Bodies: their poses, and the values of the one that is chosen.
+// Tests of the bodies' poses, and of the panel with the values of the selected body.
 
 import assert from "node:assert/strict";
 import { poses, seek, tests, until } from "./browser.mjs";
 import { box, click, color, isRed, place, projected } from "./picture.mjs";
 
-/** The rows of the panel, once they are those of a time. */
+/** Waits until the panel shows the values at a time, and returns its rows. */
 async function values(page, time) {
   await page.waitForFunction((time) => document.getElementById("body-values").innerText.includes(`time\t${time}`), `${time} s`);
   const rows = await page.locator("#body-values tr").evaluateAll((rows) => rows.map((row) => [...row.cells].map((cell) => cell.innerText)));
@@ -12,7 +12,7 @@ async function values(page, time) {
 }
 
 await tests({
-  /** Prints them, and the test compares. */
+  /** Prints all poses; the Rust test compares them with the scripts. */
   async poses({ open }) {
     const page = await open();
     const all = JSON.parse(await poses(page));
@@ -27,7 +27,7 @@ await tests({
     await click(page, await place(page, "ball"));
     assert.equal(await page.evaluate(() => window.jabuka.selected), "ball");
     assert.equal(await page.locator("#body-name").inputValue(), "ball");
-    // x = 20 + 2 t; the method falls half a step behind the parabola: y = 10 t - t (t + 0.01 s) / 2.
+    // x = 20 + 2 t. The method has an error of half a step: y = 10 t - t (t + 0.01 s) / 2.
     const then = await values(page, 4);
     assert.equal(then.location, "28, 31.98, 0 m");
     assert.equal(then.velocity, "2, 6, 0 m/s");
@@ -46,7 +46,7 @@ await tests({
     for (const [frame, there, y] of [[0, false, 0], [3, false, 0], [4, true, 0], [8, true, 1], [9, false, 1], [12, false, 1]]) {
       await seek(page, frame);
       assert.ok(isRed(await color(page, await place(page, "stays"))), `the other ball in frame ${frame}`);
-      // Beside the trail, which stays.
+      // Look next to the trail, which stays visible.
       const spot = await projected(page, [2.6, y, 0]);
       assert.equal(isRed(await color(page, spot)), there, `frame ${frame}`);
       const rows = await values(page, frame / 4);

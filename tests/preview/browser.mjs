@@ -1,4 +1,4 @@
-// A real, headless browser, and pages that note whatever goes wrong on them.
+// Starts a real headless browser, and opens pages that record their errors.
 
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
@@ -6,22 +6,22 @@ import { createRequire } from "node:module";
 
 const { chromium } = createRequire(`${process.env.JABUKA_MODULES}/`)("playwright-core");
 
-/** The browser of the system: the first that is there. */
+/** The possible paths of the system's browser; the first existing one is used. */
 const PROGRAMS = [
   "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome",
   "/Applications/Chromium.app/Contents/MacOS/Chromium", "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
 ];
 
-/** WebGL by the processor, so that it is the same everywhere; nothing that calls home. */
+/** Options for WebGL in software, which gives the same pixels on every machine, and without background connections. */
 const OPTIONS = [
   "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ];
 
-/** What the driver of the software's WebGL says of a program that reads a pixel: that it is slow. */
+/** A warning of the software WebGL driver that reading a pixel is slow. */
 const OF_DRIVER = /GL Driver Message .* GPU stall due to ReadPixels/;
 
-/** However busy the machine is, a page has done what it should by then. */
+/** The time limit for each wait, ms. It is long enough for a busy machine. */
 export const LONG = 240_000;
 
 export async function launch(more = []) {
@@ -29,7 +29,7 @@ export async function launch(more = []) {
   return chromium.launch({ executablePath, headless: true, args: [...OPTIONS, ...more] });
 }
 
-/** A page, not larger than it needs to be, that remembers its errors and all that it has asked for; what `may` matches is no error. */
+/** Opens a small page that records its errors and its requests. Messages that match `may` are not errors. */
 export async function newPage(browser, { size = { width: 900, height: 640 }, may = [], ...more } = {}) {
   const context = await browser.newContext({ viewport: size, ...more });
   const page = await context.newPage();
@@ -53,16 +53,16 @@ export async function open(page, address) {
 
 /**
  * Runs the test that the command line names: `tests({ async name({ open, scene, … }) { … } })`.
- * Whatever it opens must have had no errors, and asked for nothing but the server's own.
+ * Asserts that its pages had no errors, and sent requests to the server only.
  */
 export async function tests(all) {
   const [name, address, scene] = process.argv.slice(2);
   const browser = await launch();
   const pages = [];
-  // Tests of several pages, or of what comes before the first frame, open them by themselves.
+  // Tests with several pages, or of the time before the first frame, open their pages themselves.
   const keep = (page) => (pages.push(page), page);
   const opened = async (options) => open(keep(await newPage(browser, options)), address);
-  // A browser for which a name points to this machine.
+  // Starts a browser that resolves a host name to this machine.
   const rebound = (name) => launch([`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
   try {
     await all[name]({ browser, address, scene, open: opened, keep, rebound });
@@ -82,9 +82,9 @@ export async function tests(all) {
   }
 }
 
-/** Waits for something of the page: `is(window.jabuka, argument)` in the page. */
+/** Waits until `is(window.jabuka, argument)` is true in the page. */
 export async function until(page, is, argument, long = LONG) {
-  // The page may not evaluate texts, so the function is made part of the one that waits for it.
+  // The page's security policy forbids `eval`, so the condition is inserted into the function that waits for it.
   const came = await page.evaluate(`(async () => {
     const end = performance.now() + ${long};
     while (!(${is})(window.jabuka, ${JSON.stringify(argument)})) {
@@ -96,7 +96,7 @@ export async function until(page, is, argument, long = LONG) {
   assert.ok(came, `in vain: ${is} ${JSON.stringify(argument)}`);
 }
 
-/** Waits until the frame that is wanted is drawn, and gives its number. */
+/** Waits until the requested frame is drawn, and returns its number. */
 export const drawn = (page) => page.evaluate(async () => (await window.jabuka.whenDrawn(), window.jabuka.frame));
 
 /** Goes to a frame, and waits until it is drawn. */
@@ -105,7 +105,7 @@ export async function seek(page, frame) {
   assert.equal(await drawn(page), frame);
 }
 
-/** All poses of the run that is shown, as one text; waits until they are there. */
+/** Waits for all poses of the displayed run, and returns them as one text. */
 export async function poses(page) {
   return page.evaluate(async () => {
     const { jabuka } = window;

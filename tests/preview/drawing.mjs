@@ -1,4 +1,4 @@
-// What is drawn.
+// Tests of the drawing of frames.
 
 import assert from "node:assert/strict";
 import { drawn, LONG, seek, tests, until } from "./browser.mjs";

@@ -1,4 +1,4 @@
-// Ten thousand bodies.
+// Tests with ten thousand bodies, and with a run that does not end.
 
 import assert from "node:assert/strict";
 import { drawn, LONG, seek, tests, until } from "./browser.mjs";
@@ -18,7 +18,7 @@ await tests({
     await until(page, (jabuka) => jabuka.recorded > 20);
     await seek(page, 10);
     const { location } = await page.evaluate(() => window.jabuka.pose(9999));
-    // Of a grid of 100 by 100, the last one, which falls.
+    // This is the last body of a grid of 100 by 100, and it falls.
     assert.ok(location[0] === 99 && location[1] < 99 && location[1] > 98, `${location}`);
     await until(page, (jabuka) => jabuka.settled, null, 3 * LONG);
     await seek(page, 999);

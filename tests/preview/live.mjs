@@ -1,4 +1,4 @@
-// What is saved is seen.
+// Tests that the page follows changes of the scene's files.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -9,27 +9,27 @@ import { color, isRed, place } from "./picture.mjs";
 
 const state = (page) => page.evaluate(() => ({ ...window.jabuka }));
 
-/** Replaces a piece of a file. */
+/** Replaces a part of a file's text. */
 function edit(file, piece, by) {
   const text = readFileSync(file, "utf8");
   assert.ok(text.includes(piece), `${file} has ${piece}`);
   writeFileSync(file, text.replace(piece, by));
 }
 
-/** Waits until another run than this one is drawn, and gives its number. */
+/** Waits until a run other than this one is drawn, and returns its number. */
 async function another(page, run) {
   await until(page, (jabuka, run) => jabuka.run !== run && jabuka.drawn.run === jabuka.run, run);
   return (await state(page)).run;
 }
 
-/** What `jabuka check` says of a scene that has errors, without the line that counts them. */
+/** Returns the errors that `jabuka check` prints for a scene, without the line that counts them. */
 function errors(scene) {
   const { status, stderr } = spawnSync(process.env.JABUKA, ["check", scene], { encoding: "utf8" });
   assert.equal(status, 1);
   return stderr.replace(/\n?[^\n]*\d+ errors?\n$/, "").trim();
 }
 
-/** Waits for the error that the terminal would show. */
+/** Waits until the page shows the errors that `jabuka check` prints. */
 async function wrong(page, scene) {
   await until(page, (jabuka) => jabuka.problem);
   const text = errors(scene);
@@ -54,7 +54,7 @@ await tests({
     assert.equal(await page.evaluate(() => window.before), true);
     await until(page, (jabuka) => jabuka.settled);
     assert.ok(isRed(await color(page, await place(page, "ball"))));
-    // An editor that writes another file, and moves it here.
+    // Save as some editors do: write another file, and rename it.
     const { run: second } = await state(page);
     writeFileSync(`${scene}~`, readFileSync(scene, "utf8").replace("velocity = [3.0", "velocity = [4.0"));
     renameSync(`${scene}~`, scene);
@@ -90,7 +90,7 @@ await tests({
     run = await another(page, run);
     assert.equal((await state(page)).frame, 20);
     assert.ok(Math.abs((await x(page)) - 2 * 0.8) < 1e-9);
-    // The ring, half as large.
+    // Scale the mesh of the ring to half its size.
     const mesh = join(dirname(scene), "meshes/twisted_ring.obj");
     const halved = readFileSync(mesh, "utf8").replace(/^v (\S+) (\S+) (\S+)/gm, (_, ...v) => `v ${v.slice(0, 3).map((c) => c / 2).join(" ")}`);
     writeFileSync(mesh, halved);
@@ -130,7 +130,7 @@ await tests({
     const { run } = await state(other);
     const page = keep(await newPage(browser, { may: [/404/] }));
     let held;
-    // What the page asks for of the old run comes too late.
+    // The answers to the page's requests for the old run come too late.
     await page.route(`**/api/runs/${run}/forms?*`, async (route) => {
       held ??= (edit(scene, "velocity = [2.0, 10.0", "velocity = [3.0, 10.0"), another(other, run));
       await held;
@@ -162,14 +162,14 @@ await tests({
     const text = await page.evaluate(() => window.jabuka.problem);
     assert.match(text, /diverge/);
     assert.ok(stderr.includes(text.trim()), `${text} is not ${stderr}`);
-    // What there is of it can be looked at.
+    // The frames before the failure can still be shown.
     await seek(page, 1);
     edit(scene, "explicit-euler", "rk4");
     await mended(page);
   },
 
   async the_end_of_the_server_is_said({ browser, address, scene, open }) {
-    // The server is ended by a file that stands for its number.
+    // The file `process` holds the process ID of the server.
     const page = await open({ may: [/ERR_/] });
     process.kill(Number(readFileSync(join(dirname(scene), "process"), "utf8")), "SIGINT");
     await until(page, (jabuka) => /server does not answer/.test(jabuka.problem));

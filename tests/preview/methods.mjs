@@ -1,4 +1,4 @@
-// Another method, in place of the scene's or beside it.
+// Tests of the choice of another integration method, in place of the scene's or next to it.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { seek, tests, until } from "./browser.mjs";
 import { color, projected } from "./picture.mjs";
 
-/** What `jabuka compile` says where these settings are wrong, without the line that counts the errors. */
+/** Returns the errors that `jabuka compile` prints for these settings, without the line that counts them. */
 function errors(scene, settings) {
   const sets = settings.flatMap((set) => ["--set", `simulation.${set}`]);
   const { status, stderr } = spawnSync(process.env.JABUKA, ["compile", scene, "-o", "compiled", ...sets], { encoding: "utf8" });
@@ -26,7 +26,7 @@ await tests({
     await page.locator("#integrator").selectOption("rk4");
     await until(page, (jabuka) => jabuka.integrator === "rk4" && jabuka.drawn.run === jabuka.run);
     await seek(page, 100);
-    // The true parabola: 10 t - t² / 2.
+    // The exact parabola is 10 t - t² / 2.
     const [, y] = (await page.evaluate(() => window.jabuka.pose("ball"))).location;
     assert.ok(Math.abs(y - 32) < 1e-9, `${y}`);
     await page.locator("#integrator").selectOption("");
@@ -43,7 +43,7 @@ await tests({
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);
     await seek(page, 250);
-    // With steps of h, a t h / 2 too low, and so much too high: 20 m/s² · 10 s · 0.04 s = 8 m apart.
+    // With steps of h, one method is a t h / 2 too low and the other equally too high: 20 m/s² · 10 s · 0.04 s = 8 m apart.
     const [a, t, h] = [20, 10, 0.04];
     const [place, here] = [0, a * t * h].map((far) => [0, -0.5 * a * t * (t + h) + far, 0]);
     const spot = await projected(page, here);
@@ -64,7 +64,7 @@ await tests({
   },
 
   async a_step_that_is_none_is_said_as_in_the_terminal_and_changes_nothing({ open, scene }) {
-    // Browsers say in their console that an answer was an error.
+    // Browsers write every error status of an answer to their console.
     const page = await open({ may: [/422/] });
     const text = readFileSync(scene, "utf8");
     await seek(page, 100);

@@ -1,8 +1,8 @@
-// What is in the picture: colors at places of the world.
+// Reads the picture: positions of points and bodies, and colors of pixels.
 
 import { drawn } from "./browser.mjs";
 
-/** Where a place of the world comes to in the picture, in pixels of the page from the corner of the canvas. */
+/** Returns the position of a point of the scene in the picture, in CSS pixels from the upper left corner of the canvas. */
 export async function projected(page, [x, y, z]) {
   await drawn(page);
   const { clip, width, height, center, size } = await page.evaluate(() => window.jabuka.view);
@@ -11,13 +11,13 @@ export async function projected(page, [x, y, z]) {
   return [((row(0) / row(3) + 1) / 2) * width, ((1 - row(1) / row(3)) / 2) * height];
 }
 
-/** Where the middle of a body is in the picture. */
+/** Returns the position of a body's center in the picture. */
 export async function place(page, body) {
   await drawn(page);
   return projected(page, (await page.evaluate((body) => window.jabuka.pose(body), body)).location);
 }
 
-/** The color of a pixel of the picture, red, green and blue from 0 to 255. */
+/** Returns the color of a pixel of the picture: red, green and blue, 0 to 255. */
 export async function color(page, [x, y]) {
   return page.evaluate(async ([x, y]) => {
     await window.jabuka.whenDrawn();
@@ -30,7 +30,7 @@ export async function color(page, [x, y]) {
   }, [x, y]);
 }
 
-/** A number that another picture does not have. */
+/** Returns a digest of the picture, to tell whether two pictures are equal. */
 export async function digest(page) {
   return page.evaluate(async () => {
     await window.jabuka.whenDrawn();
@@ -42,10 +42,10 @@ export async function digest(page) {
   });
 }
 
-/** The canvas, on the page. */
+/** Returns the bounding box of the canvas on the page. */
 export const box = (page) => page.locator("#picture").boundingBox();
 
-/** Clicks at a place of the picture. */
+/** Clicks at a position of the picture. */
 export async function click(page, [x, y]) {
   const { x: left, y: top } = await box(page);
   await page.mouse.click(left + x, top + y);

@@ -1,4 +1,4 @@
-// The film: back to its beginning, from frame to frame, and the same each time.
+// Tests of playing the film: going back to the beginning, stepping from frame to frame, and the same poses each time.
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -9,7 +9,7 @@ const atStart = async (page, after) => {
   assert.deepEqual({ frame, playing }, { frame: 0, playing: false }, `after ${after}`);
 };
 
-/** What a button would do on its own account, it does when the key goes up: that has passed when this is through. */
+/** Presses the space bar, and waits until a focused button would have reacted to the release of the key. */
 const space = async (page) => {
   await page.keyboard.press("Space");
   await drawn(page);
@@ -52,7 +52,7 @@ await tests({
     await page.evaluate(() => window.jabuka.play());
     await until(page, (jabuka) => jabuka.frame > 3);
     assert.equal(await poses(page), first, "while it is played again");
-    // The server simulates it again when it has been another scene meanwhile.
+    // The server simulates the scene again after it has served another one.
     const text = readFileSync(scene, "utf8");
     writeFileSync(scene, text.replace("velocity = [2.0, 10.0", "velocity = [3.0, 10.0"));
     await until(page, (jabuka, run) => jabuka.run !== run, run);

@@ -1,4 +1,4 @@
-// All is in reach: on a phone, and without a mouse.
+// Tests that all controls can be reached on a phone and without a mouse.
 
 import assert from "node:assert/strict";
 import { seek, tests, until } from "./browser.mjs";
@@ -20,7 +20,7 @@ await tests({
       await control.scrollIntoViewIfNeeded();
       const at = await control.boundingBox();
       assert.ok(at && at.x >= 0 && at.x + at.width <= 390.5 && at.y >= 0 && at.y + at.height <= 844.5, `${id}: ${JSON.stringify(at)}`);
-      // A click would come here, and not to something that lies over it.
+      // A click would hit this control, not an element above it.
       await control.click({ trial: true });
     }
     await page.locator("#forward").tap();

@@ -1,11 +1,11 @@
-// A frame by POV-Ray.
+// Tests of rendering a frame with POV-Ray.
 
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { LONG, seek, tests, until } from "./browser.mjs";
 
 await tests({
-  /** Writes the images to `draft.png` and `final.png`; the test compares. */
+  /** Writes the images to `draft.png` and `final.png`; the Rust test compares them with those of `jabuka still`. */
   async a_frame_is_rendered_first_as_a_draft_and_then_as_the_final_image({ open }) {
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);
@@ -16,7 +16,7 @@ await tests({
       const note = () => window.said.push([status.textContent, document.getElementById("rendered").naturalWidth]);
       new MutationObserver(note).observe(status, { childList: true });
     });
-    // The images that the page is about to show.
+    // Collect the images that the page will show.
     await page.evaluate(() => {
       window.images = [];
       const make = URL.createObjectURL;

@@ -1,4 +1,4 @@
-// The picture of the page that the README shows.
+// Takes the screenshot of the page that the README shows.
 
 import { dirname, join } from "node:path";
 import { seek, tests, until } from "./browser.mjs";

@@ -1,10 +1,10 @@
-// Pages of others, and words in a scene that would like to be more than words.
+// Tests of attacks by other web pages, and by HTML in a scene's texts.
 
 import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { newPage, seek, tests, until } from "./browser.mjs";
 
-/** Tries all that a page of another origin can try, and tells what it has got. */
+/** Runs in a page of another origin: tries to read from the server in many ways, and returns what it received. */
 const TRY = async (address) => {
   const { origin, searchParams } = new URL(address);
   const token = searchParams.get("token");
@@ -48,12 +48,12 @@ await tests({
     await new Promise((done) => foreign.listen(0, "127.0.0.1", done));
     try {
       const page = await newPage(browser);
-      // What is the same host to cookies is another origin all the same; and another site.
+      // Cookies treat these two ports as the same host, but they are different origins; the second name is also another site.
       for (const host of ["127.0.0.1", "localhost"]) {
         await page.goto(`http://${host}:${foreign.address().port}/`);
         assert.deepEqual(await page.evaluate(TRY, address), [], host);
       }
-      // The same things are there for the page of the server itself, or this would show nothing.
+      // The server's own page can read this path, which shows that the attack tried a valid one.
       const there = await own.evaluate(async () => (await fetch(`/api/runs/1${location.search}`)).status);
       assert.equal(there, 200);
       assert.equal(await own.evaluate(() => window.jabuka.integrator), "euler-cromer", "nothing has been ordered");
@@ -64,7 +64,7 @@ await tests({
   },
 
   async a_name_that_is_let_point_here_gets_nothing({ address, rebound }) {
-    // A page at evil.example that lets its own name point here has the same origin as what it asks for.
+    // By DNS rebinding, a page at evil.example has the same origin as the server that its name now points to.
     const browser = await rebound("evil.example");
     try {
       const page = await newPage(browser);

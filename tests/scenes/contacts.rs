@@ -90,7 +90,7 @@ fn labels_count_the_impacts_up_to_their_frame() {
     assert_eq!((exposures[0].of_run(), exposures[1].of_run()), (0.0, 3.0));
 }
 
-/// Checks that the moments of an open shutter, which lie between frames, count each impact once, in the first moment after it.
+/// Checks that each moment of an open shutter counts the impacts before it, and each impact only once.
 #[test]
 fn moments_between_frames_count_what_was_before_them() {
     let scene = Scene::parse(&format!("{SCENE}\n[camera]\nshutter = 0.08\nsamples = 2")).unwrap();

@@ -1,14 +1,14 @@
-// Asks taplo's language server, as an editor does, what could stand at a place of a document.
+// Asks taplo's language server for completions and help at one place of each document, as an editor does.
 //
-// From standard input: a JSON list of documents, with `|` at the place. To standard output: for each, the labels of what
-// could be written there, and the text that is shown for what stands there. The documents are in the current folder.
+// Standard input: a JSON list of documents with `|` at the place. Standard output: for each document, the labels of the
+// completions at the place, and the help text for the key or value there. The documents are in the current folder.
 
 import { readFile } from 'node:fs/promises';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-// It would ask for the catalog of all schemas of the world.
+// taplo would download the public catalog of schemas.
 globalThis.fetch = () => Promise.reject(new Error('no network'));
 
 const { TaploLsp } = (await import('@taplo/lsp')).default;
@@ -30,7 +30,7 @@ const environment = {
     findConfigFile: () => undefined,
 };
 
-// Who waits for the answer of which number.
+// The callbacks that wait for an answer, by the number of the request.
 const waiting = new Map();
 
 const server = await TaploLsp.initialize(environment, {
@@ -68,7 +68,7 @@ for (const [number, marked] of JSON.parse(readFileSync(0, 'utf8')).entries()) {
     tell('textDocument/didOpen', { textDocument: { uri, languageId: 'toml', version: 1, text: before + after } });
     const lines = before.split('\n');
     const place = { textDocument: { uri }, position: { line: lines.length - 1, character: lines.at(-1).length } };
-    // The schema is read in the meantime, and nobody says when it is there.
+    // The server loads the schema in the background and does not report when it is ready, so ask repeatedly.
     let items = [];
     for (let tries = 0; items.length === 0 && tries < 200; tries += 1) {
         if (tries > 0) await new Promise((resolve) => setTimeout(resolve, 50));

@@ -1,18 +1,18 @@
-// What the validator of Khronos and three.js make of glTF files: a line of JSON for each.
+// Loads glTF files with the Khronos validator and three.js, and prints a line of JSON for each file:
 //
-// { errors, warnings, messages,          what the validator says
-//   triangles, materials,                how many there are in the file
-//   times: [s],                          of the animation's keys
+// { errors, warnings, messages,          the validator's results
+//   triangles, materials,                their numbers in the file
+//   times: [s],                          the times of the animation's keys, s
 //   bodies: [{ name,
-//     box: [[x, y, z], [x, y, z]],       around the triangles at the first time
-//     poses: [[x, y, z, qx, qy, qz, qw]] at each time
-//     sizes: [s]                         at each time, and at once before each but the first: 0 hides it
+//     box: [[x, y, z], [x, y, z]],       the bounding box of the triangles at the first time
+//     poses: [[x, y, z, qx, qy, qz, qw]] location and orientation at each time
+//     sizes: [s]                         the scale at each time, and just before each time but the first; 0 hides the body
 //   }],
 //   cameras: [{ name, near, far,
-//     spots: [[[x, y]]]                  where the first five bodies are seen at each time: edges are at -1 and 1
+//     spots: [[[x, y]]]                  the first five bodies in the picture at each time; the picture's edges are at -1 and 1
 //   }],
 //   lights: [{ name, type, color: [r, g, b], intensity,
-//     places: [[x, y, z]], toward: [x, y, z] }] }  at each time, where it is; where it shines to at the first, if in parallel
+//     places: [[x, y, z]], toward: [x, y, z] }] }  location at each time; direction at the first time, for parallel light
 import { readFile } from 'node:fs/promises';
 import validator from 'gltf-validator';
 import { AnimationMixer, Box3, LoopOnce, Quaternion, Vector3 } from 'three';
