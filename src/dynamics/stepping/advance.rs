@@ -94,6 +94,7 @@ impl TimeStepping {
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
         self.push(end, dt);
+        self.rolling.begin(&self.engine, dt, |body| self.books.mean[body].1);
         set_step(&mut self.engine.integration_parameters, dt);
         self.engine.step_with_events(&self.mixing, &self.books.events);
         self.steps += 1;
@@ -171,7 +172,7 @@ impl TimeStepping {
 
     /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
-        let Self { model, state, engine, handles, books, joints, .. } = self;
+        let Self { model, state, engine, handles, books, joints, rolling, .. } = self;
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
         let mut moved = Vec::new();
@@ -193,9 +194,13 @@ impl TimeStepping {
                 pose.translation -= 4.0 * slop * way.normalize();
                 moved.push((*handle, pose));
             }
+            state.velocity[i] = if body.is_ccd_enabled() {
+                body.linvel()
+            } else {
+                rolling.corrected(i, body.linvel(), (pose.translation - state.location[i]) / dt)
+            };
             state.location[i] = pose.translation;
             state.orientation[i] = pose.rotation;
-            state.velocity[i] = body.linvel();
             // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
             let change = body.angvel() - books.mean[i].1;
             books.turned[i] = DVec3::ZERO;

@@ -174,6 +174,22 @@ impl Joints {
         with_motor.filter_map(push).collect()
     }
 
+    /// Returns the group of each of `bodies` bodies: the smallest index of a body that joints connect it with, directly or through others.
+    pub(super) fn groups(&self, bodies: usize) -> Vec<usize> {
+        let mut group: Vec<usize> = (0..bodies).collect();
+        let mut changes = true;
+        while changes {
+            changes = false;
+            for [one, two] in &self.bodies {
+                let (Some(one), Some(two)) = (*one, *two) else { continue };
+                let least = group[one].min(group[two]);
+                changes |= group[one] != group[two];
+                (group[one], group[two]) = (least, least);
+            }
+        }
+        group
+    }
+
     /// The number of joints.
     pub(super) fn len(&self) -> usize {
         self.handles.len()

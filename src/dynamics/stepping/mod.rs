@@ -16,6 +16,7 @@ mod driven;
 mod joint;
 mod mixing;
 mod plane;
+mod rolling;
 mod shape;
 mod snapshot;
 mod spin;
@@ -29,6 +30,7 @@ use self::books::Books;
 use self::driven::Driven;
 use self::joint::Joints;
 use self::mixing::Mixing;
+use self::rolling::Rolling;
 use super::contact::{Contacts, Impact};
 use super::presence::Calendar;
 use super::softness::STIFFNESS;
@@ -40,6 +42,10 @@ pub use joint::{Link, LinkKind};
 /// final sweeps. With only two final sweeps, a block creeps down an incline on which friction should hold it.
 const SWEEPS: usize = 2;
 const FINAL_SWEEPS: usize = 4;
+/// The numbers of the same sweeps in scenes with joints. A sweep passes a force on by one joint only, so fewer sweeps let chains stretch, and
+/// joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
+const JOINT_SWEEPS: usize = 16;
+const FINAL_JOINT_SWEEPS: usize = 8;
 /// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
 
@@ -63,6 +69,7 @@ pub struct TimeStepping {
     half_thickness: Vec<f64>,
     mixing: Mixing,
     joints: Joints,
+    rolling: Rolling,
     books: Books,
     driven: Driven,
     /// Whether snapshots list the contacts.
@@ -86,7 +93,7 @@ impl TimeStepping {
         let mut engine = PhysicsWorld::new();
         let length = bodies::typical_length(&model, contacts, &moves);
         engine.gravity = glam::DVec3::ZERO;
-        engine.integration_parameters = parameters(length);
+        engine.integration_parameters = parameters(length, !links.is_empty());
         let handles = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
         let joints = Joints::insert(&mut engine, links, &handles, &model);
         TimeStepping {
@@ -104,6 +111,7 @@ impl TimeStepping {
             failure: None,
             model,
             state,
+            rolling: Rolling::new(&engine, &handles, &joints),
             engine,
             handles,
             mixing,
@@ -123,13 +131,15 @@ impl TimeStepping {
 }
 
 /// Returns the physics engine's parameters. `length` is the thickness of the thinnest moving body, m.
-fn parameters(length: f64) -> IntegrationParameters {
+fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
+    let [sweeps, final_sweeps] =
+        if has_joints { [JOINT_SWEEPS, FINAL_JOINT_SWEEPS] } else { [SWEEPS, FINAL_SWEEPS] };
     IntegrationParameters {
         length_unit: length,
         // Each step is a single step of the physics engine, so that forces are evaluated in each step, and all impulses can be read.
         num_solver_iterations: 1,
-        num_internal_pgs_iterations: SWEEPS,
-        num_internal_stabilization_iterations: FINAL_SWEEPS,
+        num_internal_pgs_iterations: sweeps,
+        num_internal_stabilization_iterations: final_sweeps,
         normalized_allowed_linear_error: SLOP,
         // The physics engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,

@@ -140,15 +140,58 @@ fn what_servos_give_is_booked() {
     }
 }
 
-/// A chain of eight links falls from a horizontal line, and swings over the ground. The energy that its joints take must be booked. The
+/// Twenty planks hang between two banks by short ropes. The ropes carry the weight of all planks, and may hardly stretch: with as few sweeps
+/// as contacts need, they stretch by 0.4 m.
+#[test]
+fn a_rope_bridge_does_not_stretch() {
+    const ROPE: f64 = 0.06;
+    let mut scene = Scene::default();
+    let mut links = Vec::new();
+    let rope = |from: Anchor, to: Anchor| Link {
+        kind: LinkKind::Rope(Rope { between: [from, to], length: ROPE }),
+        collides: false,
+    };
+    let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let at = |k: i32| 0.45 * f64::from(k);
+    let plank = Shape::Box { size: DVec3::new(0.4, 0.05, 2.0) };
+    for k in 0..20 {
+        scene.add(plank.clone(), |body| body.with_location(at(k) * DVec3::X));
+    }
+    for z in [-0.9, 0.9] {
+        let end = |k: i32, x: f64| match k {
+            0..20 => Anchor::Body { id: BodyId::new(k as usize), at: corner(x, z) },
+            _ => Anchor::Point(corner(at(k) + x, z)),
+        };
+        links.extend((0..=20).map(|k| rope(end(k - 1, 0.2), end(k, -0.2))));
+    }
+    let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
+    let mut stretched = 0.0_f64;
+    for k in 1..=60 {
+        let moment = run(&mut stepping, 0.05 * f64::from(k));
+        for link in &links {
+            let LinkKind::Rope(rope) = &link.kind else { unreachable!() };
+            let [one, two] = rope.between.map(|end| match end {
+                Anchor::Point(at) => at,
+                Anchor::Body { id, at } => {
+                    let body = &moment.bodies[id.index()];
+                    body.location + body.orientation * at
+                }
+            });
+            stretched = stretched.max((one - two).length() - ROPE);
+        }
+    }
+    assert!(stretched < 0.04, "{stretched}");
+}
+
+/// A chain of eight links falls from a horizontal line, and swings above the ground. The energy that its joints take must be booked. The
 /// remaining error is that of Euler–Cromer.
 #[test]
 fn what_joints_take_is_booked() {
     let mut scene = Scene::default().with_ground(0.0);
     let mut links = Vec::new();
-    let mut before = Anchor::Point(DVec3::new(0.0, 1.9, 0.0));
+    let mut before = Anchor::Point(DVec3::new(0.0, 2.3, 0.0));
     for k in 0..8 {
-        let at = DVec3::new(0.25 * (f64::from(k) + 0.5), 1.9, 0.0);
+        let at = DVec3::new(0.25 * (f64::from(k) + 0.5), 2.3, 0.0);
         let link =
             scene.add(Shape::Box { size: DVec3::new(0.25, 0.06, 0.06) }, |body| body.with_location(at));
         let end = |x: f64| Anchor::Body { id: link, at: x * DVec3::X };
