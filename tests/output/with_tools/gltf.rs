@@ -53,7 +53,7 @@ struct SeenBody {
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
     poses: Vec<[f64; 7]>,
-    /// The scale of the body at each time, and halfway between consecutive times.
+    /// The scale of the body at each time, and just before each time but the first.
     sizes: Vec<f64>,
 }
 
