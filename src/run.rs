@@ -8,7 +8,7 @@ use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
 use crate::scene::{ContactLaw, Scene, Shutter, View};
 use crate::simulate::{
-    Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, Survey,
+    Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, StretchedJoint, Survey,
 };
 
 /// A scene with its finished simulation and the plan for the scripts of its frames.
@@ -110,6 +110,7 @@ impl<'a> Run<'a> {
         corrected
             .chain(crossings)
             .chain(self.survey().overlap.iter().map(overlap))
+            .chain(self.survey().stretched.iter().map(stretched))
             .chain(thin)
             .chain(small)
             .chain(grid)
@@ -161,7 +162,7 @@ impl<'a> Run<'a> {
 
 /// The codes of all warnings that [`Run::warnings`] can return.
 #[cfg(feature = "render")]
-pub(crate) const RUN_WARNINGS: [Code; 9] = [
+pub(crate) const RUN_WARNINGS: [Code; 10] = [
     Code::CorrectedStart,
     Code::Crossing,
     Code::Overlap,
@@ -170,6 +171,7 @@ pub(crate) const RUN_WARNINGS: [Code; 9] = [
     Code::TooFine,
     Code::NotDrawn,
     Code::EnergyDrift,
+    Code::JointGivesWay,
     Code::FirstOrder,
 ];
 
@@ -274,6 +276,19 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
     };
     let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
     Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
+}
+
+/// Returns the warning that a joint gives way.
+fn stretched(stretched: &StretchedJoint) -> Diagnostic {
+    let StretchedJoint { joint, gap, time, others } = stretched;
+    let others = match others {
+        0 => String::new(),
+        1 => ", and so does 1 other joint".to_owned(),
+        others => format!(", and so do {others} other joints"),
+    };
+    let message = format!("the joint `{joint}` gives way by {} m at t = {time} s{others}", rounded(*gap));
+    let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
+    Diagnostic::warning(Code::JointGivesWay, message).help(help)
 }
 
 /// Returns the warning that two bodies overlap.

@@ -98,6 +98,7 @@ codes! {
     InternalError = "internal-error",
     Jammed = "jammed",
     JointApart = "joint-apart",
+    JointGivesWay = "joint-gives-way",
     KeyframeOrder = "keyframe-order",
     LabelLetter = "label-letter",
     LabelSyntax = "label-syntax",

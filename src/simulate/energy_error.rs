@@ -7,8 +7,8 @@ use crate::scene::ContactLaw;
 
 /// The energy that the energy error of a run is relative to.
 ///
-/// Usually this is the largest kinetic energy. With time-stepping, bodies that only settle hardly move. Their contacts take more energy
-/// than the bodies ever have as kinetic energy, and the error is relative to the energy taken.
+/// Usually this is the largest kinetic energy. With time-stepping, bodies that only settle, or that a machine lifts slowly, hardly move. If
+/// contacts take more energy, or motions and motors do more work, the error is relative to that energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EnergyScale {
@@ -17,6 +17,8 @@ pub enum EnergyScale {
     LargestKinetic,
     /// The energy that impacts and friction took from the bodies in the whole run.
     TakenByContacts,
+    /// The work of everything without a potential in the whole run: given motions, motors, drag.
+    Work,
 }
 
 impl EnergyScale {
@@ -26,6 +28,7 @@ impl EnergyScale {
         match self {
             EnergyScale::LargestKinetic => "largest kinetic energy",
             EnergyScale::TakenByContacts => "energy that contacts took",
+            EnergyScale::Work => "work of motions, motors and drag",
         }
     }
 
@@ -44,13 +47,19 @@ pub(crate) struct EnergyError {
     pub(crate) largest_kinetic: f64,
     /// The energy that contacts have taken so far, J.
     taken: f64,
+    /// The magnitude of the work of motions, motors and drag so far, J.
+    work: f64,
+    /// The largest sum of the kinetic energy and the magnitude of the potential energy so far, J. Its rounding error is in every energy.
+    magnitude: f64,
 }
 
 impl EnergyError {
     /// Adds the balance of the next frame. Returns the energy error of this frame, J.
     pub(crate) fn add(&mut self, balance: &Balance) -> f64 {
         self.largest_kinetic = self.largest_kinetic.max(balance.kinetic);
+        self.magnitude = self.magnitude.max(balance.kinetic + balance.potential.abs());
         self.taken = balance.accounts.taken_by_contacts();
+        self.work = (balance.accounts.work + balance.accounts.motors).abs();
         let error = balance.drift * self.largest_kinetic;
         if error.abs() > self.largest.abs() {
             self.largest = error;
@@ -60,16 +69,23 @@ impl EnergyError {
 
     /// The scale of the error of the whole run, and its energy, J. `contacts` is how the scene treats contacts.
     pub(crate) fn scale(&self, contacts: Option<ContactLaw>) -> (EnergyScale, f64) {
-        if contacts == Some(ContactLaw::TimeStepping) && self.taken > self.largest_kinetic {
-            (EnergyScale::TakenByContacts, self.taken)
-        } else {
-            (EnergyScale::LargestKinetic, self.largest_kinetic)
+        let mut scale = (EnergyScale::LargestKinetic, self.largest_kinetic);
+        if contacts == Some(ContactLaw::TimeStepping) {
+            for other in [(EnergyScale::TakenByContacts, self.taken), (EnergyScale::Work, self.work)] {
+                scale = if other.1 > scale.1 { other } else { scale };
+            }
         }
+        scale
     }
 
-    /// The largest error relative to the energy of its scale; 0 if nothing moved.
+    /// The largest error relative to the energy of its scale; 0 if nothing moved, or if time-stepping only moved bodies by rounding errors.
     pub(crate) fn drift(&self, contacts: Option<ContactLaw>) -> f64 {
+        /// Energies below this fraction of all energies are rounding errors of contacts and joints.
+        const ROUNDING: f64 = 1e-10;
         let (_, energy) = self.scale(contacts);
+        if contacts == Some(ContactLaw::TimeStepping) && energy <= ROUNDING * self.magnitude {
+            return 0.0;
+        }
         if energy > 0.0 { self.largest / energy } else { 0.0 }
     }
 }
@@ -100,6 +116,23 @@ mod tests {
             let expected = ((EnergyScale::LargestKinetic, 2.0), 0.5);
             assert_eq!((error.scale(contacts), error.drift(contacts)), expected);
         }
+    }
+
+    #[test]
+    fn bodies_that_a_motor_lifts_slowly_are_compared_with_its_work() {
+        let accounts = Accounts { motors: 20.0, impacts: -1.0, ..Accounts::default() };
+        let mut error = EnergyError::default();
+        error.add(&Balance { kinetic: 0.1, accounts, drift: 1.0, ..Balance::default() });
+        let stepped = Some(ContactLaw::TimeStepping);
+        assert_eq!((error.scale(stepped), error.drift(stepped)), ((EnergyScale::Work, 20.0), 0.005));
+    }
+
+    #[test]
+    fn rounding_errors_of_a_body_at_rest_are_no_drift() {
+        let mut error = EnergyError::default();
+        error.add(&Balance { kinetic: 1e-20, potential: -50.0, drift: 1e8, ..Balance::default() });
+        assert_eq!(error.drift(Some(ContactLaw::TimeStepping)), 0.0);
+        assert_eq!(error.drift(None), 1e8);
     }
 
     #[test]

@@ -70,7 +70,7 @@ pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
-pub use survey::{ContactTotals, Corrected, Crossing, Survey, Surveyor, survey};
+pub use survey::{ContactTotals, Corrected, Crossing, StretchedJoint, Survey, Surveyor, survey};
 pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};

@@ -4,12 +4,15 @@
 
 mod corrected;
 mod crossing;
+mod stretched;
 #[cfg(test)]
 mod tests;
 
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Watched, free, planes};
+use stretched::Gaps;
+pub use stretched::StretchedJoint;
 
 use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
@@ -44,6 +47,8 @@ pub struct Survey {
     pub drift_scale: EnergyScale,
     /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,
+    /// The joint that gives way most under time-stepping. `None` if all joints hold well.
+    pub stretched: Option<StretchedJoint>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -111,6 +116,7 @@ pub struct Surveyor<'a> {
     /// The requested arrows of joints: the end where each begins, its quantity, and its scale if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
+    gaps: Gaps,
     /// The largest energy error so far.
     error: EnergyError,
 }
@@ -138,6 +144,7 @@ impl<'a> Surveyor<'a> {
             asked: Asked::new(scene),
             joint_arrows: joint_arrows(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
+            gaps: Gaps::new(scene),
             error: EnergyError::default(),
         }
     }
@@ -181,8 +188,8 @@ impl<'a> Surveyor<'a> {
             // The accounts are negative, since contacts remove energy. `0.0 - account` avoids a negative zero.
             let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
             let penetration = contacts.penetration.max(frame.penetration);
-            let gap = |joint: &Joint| joint.kind.gap(|id| frame.body(id.index()).copied());
-            let joints = scene.joints.iter().filter_map(gap).fold(contacts.joints, f64::max);
+            self.gaps.add(scene, frame);
+            let joints = self.gaps.largest();
             *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed, penetration, joints };
         }
         self.error.add(&frame.balance);
@@ -190,7 +197,9 @@ impl<'a> Surveyor<'a> {
 
     /// Returns the survey after the last frame.
     pub fn finish(self) -> Survey {
-        let Surveyor { scene, spans, planes, overlaps, clouds, corrected, asked, contacts, error, .. } = self;
+        let Surveyor {
+            scene, spans, planes, overlaps, clouds, corrected, asked, contacts, gaps, error, ..
+        } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         // A scene without bodies still has particle steps.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
@@ -203,6 +212,7 @@ impl<'a> Surveyor<'a> {
             corrected,
             asked,
             contacts: contacts.map(|contacts| contacts.rounded(error.largest_kinetic)),
+            stretched: gaps.finish(scene),
             drift: error.drift(law),
             drift_scale: error.scale(law).0,
             timestep: interval / f64::from(steps_per_frame),

@@ -105,18 +105,22 @@ impl TimeStepping {
             return Err(failure);
         }
         self.pull(dt);
-        if self.steps == 1 {
-            self.check_start(begin)?;
-        }
+        self.check_newcomers(begin)?;
         let bodies = (&self.model, &self.joints);
         self.books.close(&self.engine, bodies, (&mut self.state, &self.loads, &self.driven), end);
         Ok(())
     }
 
-    /// Returns an error if bodies overlap deeply at the start of the run. Such bodies would shoot apart.
-    fn check_start(&mut self, time: f64) -> Result<(), Breakdown> {
+    /// Returns an error if a body overlaps another deeply when it appears, at the start of the run or later. Such bodies would shoot apart.
+    fn check_newcomers(&mut self, time: f64) -> Result<(), Breakdown> {
+        if self.newcomers.is_empty() {
+            return Ok(());
+        }
+        let mut newcomers = std::mem::take(&mut self.newcomers);
+        newcomers.sort_unstable();
         let allowed = DEEPEST * self.engine.integration_parameters.length_unit;
-        let Some((bodies, depth)) = self.deepest().filter(|(_, depth)| *depth > allowed) else {
+        let Some((bodies, depth)) = self.deepest(Some(&newcomers)).filter(|(_, depth)| *depth > allowed)
+        else {
             return Ok(());
         };
         let [one, two] = bodies;
@@ -231,6 +235,7 @@ impl TimeStepping {
             let Some(body) = self.engine.bodies.get_mut(self.handles[i]) else { continue };
             body.set_enabled(comes);
             if comes {
+                self.newcomers.push(i);
                 body.set_position(bodies::pose(&self.state, i), false);
                 body.set_linvel(self.state.velocity[i], false);
             }

@@ -23,6 +23,8 @@ struct Moment {
     away: Vec<(usize, DVec3, DVec3)>,
     /// Pairs of colliders that are near each other, and between which no contact force has acted yet.
     near: Vec<[ColliderHandle; 2]>,
+    /// The bodies that have appeared since the last step.
+    newcomers: Vec<usize>,
 }
 
 impl TimeStepping {
@@ -39,6 +41,7 @@ impl TimeStepping {
             over: self.calendar.over(),
             away: self.model.away(),
             near: self.books.near.clone(),
+            newcomers: self.newcomers.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
@@ -55,7 +58,8 @@ impl TimeStepping {
         if !is_ours {
             return false;
         }
-        let Moment { time, steps, state, ledger, over, away, near } = moment;
+        let Moment { time, steps, state, ledger, over, away, near, newcomers } = moment;
+        self.newcomers = newcomers;
         self.model.set_away(&away, &mut self.state);
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);

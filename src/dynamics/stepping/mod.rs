@@ -78,6 +78,8 @@ pub struct TimeStepping {
     loads: Loads,
     /// The state before the last step, from which moments within that step are interpolated.
     before: State,
+    /// The bodies that have appeared since the last step, in ascending order.
+    newcomers: Vec<usize>,
     failure: Option<Breakdown>,
 }
 
@@ -108,6 +110,7 @@ impl TimeStepping {
             half_thickness: bodies::half_thickness(&model),
             driven: Driven::default(),
             shows_contacts: true,
+            newcomers: (0..model.len()).filter(|&i| model.is_present(i)).collect(),
             failure: None,
             model,
             state,

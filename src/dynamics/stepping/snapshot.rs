@@ -72,15 +72,19 @@ impl TimeStepping {
     /// The greatest penetration of two bodies at present, m; 0 if no bodies overlap.
     #[must_use]
     pub fn penetration(&self) -> f64 {
-        self.deepest().map_or(0.0, |(_, depth)| depth.max(0.0))
+        self.deepest(None).map_or(0.0, |(_, depth)| depth.max(0.0))
     }
 
     /// Returns the two bodies with the greatest penetration, and their penetration, m (negative if they are apart). `None` if no bodies
-    /// are near each other.
-    pub(super) fn deepest(&self) -> Option<([usize; 2], f64)> {
+    /// are near each other. If `some` are given, one of the two is among these.
+    pub(super) fn deepest(&self, some: Option<&[usize]>) -> Option<([usize; 2], f64)> {
         let Self { engine, model, state, .. } = self;
         let pose = |i: usize| model.movable()[i].then(|| super::bodies::pose(state, i));
         let touches = engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair);
+        let counts = |touch: &Touch<'_>| {
+            some.is_none_or(|some| touch.bodies.iter().any(|body| some.binary_search(body).is_ok()))
+        };
+        let touches = touches.filter(counts);
         touches.map(|touch| (touch.bodies, touch.depth(pose))).max_by(|one, two| one.1.total_cmp(&two.1))
     }
 }

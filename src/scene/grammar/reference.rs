@@ -106,7 +106,7 @@ contacts, so thousands of bodies are possible: piles, towers and machines. All k
 | rolling friction | yes | refused |
 
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. The drift is relative to the largest kinetic
-  energy, or to the energy that contacts took, if that is more: bodies that only settle hardly move.
+  energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
   default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
   weight: 1/480 s for 10 cm, 1/1920 s for 1 cm.

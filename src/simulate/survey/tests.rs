@@ -160,6 +160,39 @@ fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
     assert!(taken.lost > 0.0);
 }
 
+/// A ball of a tonne hangs on a light one by two rods. With a coarse step, a rod gives way; with a fine step, both hold.
+#[cfg(feature = "time-stepping")]
+#[test]
+fn a_joint_that_gives_way_is_found() {
+    let with_step = |step: f64| {
+        surveyed(&format!(
+            "
+            [simulation]
+            duration = 1
+            step = {step}
+            gravity = [0, -10, 0]
+            contacts = 'time-stepping'
+            [defaults.body]
+            shape.sphere.radius = 0.05
+            collides = false
+            [body.light]
+            location = [0.5, 0, 0]
+            mass = 1
+            [body.heavy]
+            location = [1, 0, 0]
+            mass = 1000
+            [joint.upper.rod]
+            between = [[0, 0, 0], 'light']
+            [joint.lower.rod]
+            between = ['light', 'heavy']
+            ",
+        ))
+    };
+    let found = with_step(0.02).stretched.unwrap();
+    assert!(["upper", "lower"].contains(&found.joint.as_str()) && found.gap > 0.05 * 0.5, "{found:?}");
+    assert_eq!(with_step(0.0005).stretched, None);
+}
+
 #[test]
 fn one_of_many_bodies_that_flies_away_counts_where_it_starts() {
     let scene = |showing: &str| {

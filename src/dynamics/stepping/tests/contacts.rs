@@ -197,6 +197,26 @@ fn bodies_that_overlap_at_the_start_are_a_mistake() {
     }
 }
 
+/// The same holds for a body that appears during the run inside another one.
+#[test]
+fn a_body_that_appears_inside_another_is_a_mistake() {
+    for (apart, is_wrong) in [(0.2, true), (1.5, false)] {
+        let mut scene = Scene::default();
+        scene.add(cube(1.0), |body| body);
+        let late = scene.add(cube(1.0), |body| body.with_location(apart * DVec3::X));
+        let mut world = scene.world(0.0);
+        world.limit(late, &Presence::during(&[[0.5, f64::INFINITY]]));
+        let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
+        match stepping.advance(1.0, &[], &mut |_| {}) {
+            Err(Breakdown::Overlapping { bodies, time, .. }) => {
+                assert!(is_wrong, "{apart}");
+                assert_eq!((bodies.map(BodyId::index), time), ([0, 1], 0.5));
+            }
+            other => assert!(!is_wrong && other.is_ok(), "{other:?}"),
+        }
+    }
+}
+
 /// A house of five floors of cards that lean against each other at 20° from upright. Only friction holds the cards: with a tenth of the
 /// friction, they must slide apart.
 #[test]
