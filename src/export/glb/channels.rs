@@ -1,18 +1,18 @@
 //! Describes the animation of nodes in a glTF document.
 
 use super::document::{Accessor, Animation, Channel, FLOAT, Sampler, Target};
-use super::motion::{Motion, Way};
+use super::motion::{NodeMotion, SampledMotion};
 
 /// Makes the animation of the nodes, and returns the size of its keyframes in bytes. All keyframes are in the buffer view `view`. The
 /// animation is `None` if nothing moves.
 pub(super) fn animation(
-    motion: &Motion,
+    motion: &SampledMotion,
     nodes: &[u32],
     view: u32,
     accessors: &mut Vec<Accessor>,
 ) -> (Option<Animation>, u64) {
-    let is_still = |way: &Way| {
-        let Way { translations, rotations, scales, shown, .. } = way;
+    let is_still = |way: &NodeMotion| {
+        let NodeMotion { translations, rotations, scales, shown, .. } = way;
         translations.is_empty() && rotations.is_empty() && scales.is_empty() && shown.is_always()
     };
     if motion.ways().iter().all(is_still) {
@@ -32,7 +32,7 @@ pub(super) fn animation(
     let input = add("SCALAR", 1, count, end(motion.times().first()), end(motion.times().last()));
     let mut animation = Animation { name: "motion".to_owned(), channels: Vec::new(), samplers: Vec::new() };
     for (way, &node) in motion.ways().iter().zip(nodes) {
-        // The order must be that of `Motion::numbers`, which yields the keyframes.
+        // The order must be that of `SampledMotion::numbers`, which yields the keyframes.
         let parts = [
             ("translation", "VEC3", 3, &way.translations),
             ("rotation", "VEC4", 4, &way.rotations),

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::document::Document;
 use super::geometry::Geometry;
-use super::motion::Motion;
+use super::motion::SampledMotion;
 use crate::export::ExportError;
 
 /// The size of the largest possible `.glb` file, bytes. The format stores the length of the file in 32 bits.
@@ -14,7 +14,7 @@ pub(super) const LARGEST: u64 = u32::MAX as u64;
 pub(super) fn write(
     document: &Document,
     geometry: &Geometry,
-    motion: &Motion,
+    motion: &SampledMotion,
     out: &mut impl Write,
 ) -> Result<u64, ExportError> {
     let mut json = serde_json::to_vec(document).map_err(io::Error::from)?;
@@ -40,7 +40,7 @@ pub(super) fn write(
 }
 
 /// Writes the binary numbers: the triangles, and the keyframes unless the scene is `still`.
-fn numbers(geometry: &Geometry, motion: &Motion, still: bool, out: &mut impl Write) -> io::Result<()> {
+fn numbers(geometry: &Geometry, motion: &SampledMotion, still: bool, out: &mut impl Write) -> io::Result<()> {
     for number in geometry.vertices.iter().flatten() {
         out.write_all(&number.to_le_bytes())?;
     }

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::motion::{Motion, Pose, Recorder};
+use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{LinkForm, LinkKind, Plan};
 use crate::scene::Color;
@@ -25,7 +25,7 @@ pub(super) struct LinkNode {
 pub(super) fn nodes(
     run: &Recorded<'_>,
     selection: &Selection,
-    motion: &mut Motion,
+    motion: &mut SampledMotion,
 ) -> Result<Vec<LinkNode>, ExportError> {
     let scene = run.scene();
     let plan = Plan::new(scene, &scene.camera, run.survey());
@@ -64,14 +64,14 @@ pub(super) fn nodes(
 
 /// The pose and size of a spring's or joint's part in the current frame.
 struct Placed {
-    pose: Pose,
+    pose: NodePose,
     /// The scale along the part's own axes, m. The y axis is the axis of the base shape.
     size: DVec3,
 }
 
 impl Default for Placed {
     fn default() -> Placed {
-        let pose = Pose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
+        let pose = NodePose { location: DVec3::ZERO, orientation: DQuat::IDENTITY };
         Placed { pose, size: DVec3::ZERO }
     }
 }

@@ -10,7 +10,7 @@
 //! | triangles, once for each base shape | `geometry` |
 //! | materials | `materials` |
 //! | base shapes with their materials | `meshes` |
-//! | the nodes, and the whole document | `model` |
+//! | the nodes, and the whole document | `document_builder` |
 //! | the animation of nodes | `channels` |
 //! | the types of glTF | `document` |
 //! | both chunks of the file as bytes | `container` |
@@ -21,11 +21,11 @@
 mod channels;
 mod container;
 mod document;
+mod document_builder;
 mod geometry;
 mod links;
 mod materials;
 mod meshes;
-mod model;
 mod motion;
 mod shown;
 mod sight;
@@ -34,7 +34,7 @@ mod tests;
 
 use std::io::Write;
 
-use self::motion::Motion;
+use self::motion::SampledMotion;
 use self::sight::Sight;
 use super::ExportError;
 use crate::simulate::{Recorded, Selection};
@@ -61,10 +61,10 @@ pub fn write_glb(
     mut out: impl Write,
 ) -> Result<Exported, ExportError> {
     let scene = run.scene();
-    let mut motion = Motion::of(run, selection)?;
+    let mut motion = SampledMotion::of(run, selection)?;
     let sight = Sight::of(run, selection, &mut motion)?;
     let links = links::nodes(run, selection, &mut motion)?;
-    let (document, geometry) = model::model(scene, sight, &links, &motion);
+    let (document, geometry) = document_builder::document(scene, sight, &links, &motion);
     let bytes = container::write(&document, &geometry, &motion, &mut out)?;
     out.flush()?;
     Ok(Exported { frames: motion.times().len(), bytes, faster: motion.faster() })

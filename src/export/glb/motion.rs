@@ -10,27 +10,27 @@ use crate::scene::Body;
 use crate::simulate::{Recorded, Selection};
 
 /// The motion of all bodies, cameras, lights, springs and joints in the selected frames.
-pub(super) struct Motion {
+pub(super) struct SampledMotion {
     /// The times of the frames in the animation, s.
     times: Vec<f32>,
     /// The ratio of the time of the animation to the simulated time.
     slower: f64,
-    ways: Vec<Way>,
+    ways: Vec<NodeMotion>,
     /// The size of the binary data in the file so far, checked against the largest file.
     pub(super) room: Room,
 }
 
 /// A location in world axes, m, and an orientation.
 #[derive(Clone, Copy)]
-pub(super) struct Pose {
+pub(super) struct NodePose {
     pub(super) location: DVec3,
     pub(super) orientation: DQuat,
 }
 
 /// The recorded motion of one object.
-pub(super) struct Way {
+pub(super) struct NodeMotion {
     /// The pose of the object in the first frame.
-    pub(super) start: Pose,
+    pub(super) start: NodePose,
     /// The locations in all frames, m, with three numbers for each. Empty if the location never changes.
     pub(super) translations: Vec<f32>,
     /// The orientations in all frames as quaternions x, y, z, w. Empty if the orientation never changes.
@@ -46,9 +46,9 @@ pub(super) struct Way {
     last: DQuat,
 }
 
-impl Motion {
+impl SampledMotion {
     /// Records the motion of the bodies in the selected frames of a run.
-    pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<Motion, ExportError> {
+    pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<SampledMotion, ExportError> {
         let scene = run.scene();
         let count = selection.count_within(scene.simulation.frames());
         let mut rate = scene.simulation.frame_rate;
@@ -60,10 +60,10 @@ impl Motion {
         let mut room = Room::default();
         room.take(count)?;
         let mut bodies = Recorder::new(count);
-        let pose = |location, orientation: DQuat| Pose { location, orientation: orientation.normalize() };
+        let pose = |location, orientation: DQuat| NodePose { location, orientation: orientation.normalize() };
         // An absent body stays at its last pose, or waits at the pose at which it will appear.
         let start = |body: &Body| pose(body.start.location, body.start.orientation);
-        let mut poses: Vec<Pose> = scene.bodies.iter().map(start).collect();
+        let mut poses: Vec<NodePose> = scene.bodies.iter().map(start).collect();
         for exposure in run.exposures(selection) {
             let frame = exposure?.frame;
             times.push((frame.time * slower) as f32);
@@ -76,7 +76,7 @@ impl Motion {
                 way.shown.add(frame.body(id).is_some(), &times, &mut room)?;
             }
         }
-        Ok(Motion { times, slower, ways: bodies.ways, room })
+        Ok(SampledMotion { times, slower, ways: bodies.ways, room })
     }
 
     /// Appends the motion of cameras, lights, springs or joints.
@@ -95,23 +95,24 @@ impl Motion {
     }
 
     /// Returns the motion of all bodies, in the order of the scene, and then of the appended objects.
-    pub(super) fn ways(&self) -> &[Way] {
+    pub(super) fn ways(&self) -> &[NodeMotion] {
         &self.ways
     }
 
     /// Yields all numbers in the order of the file: the times of the frames, and for each object its locations, orientations, sizes and
     /// presence.
     pub(super) fn numbers(&self) -> impl Iterator<Item = &[f32]> {
-        let ways = self.ways.iter().flat_map(|Way { translations, rotations, scales, shown, .. }| {
-            [&translations[..], &rotations[..], &scales[..], &shown.times[..], &shown.scales[..]]
-        });
+        let ways =
+            self.ways.iter().flat_map(|NodeMotion { translations, rotations, scales, shown, .. }| {
+                [&translations[..], &rotations[..], &scales[..], &shown.times[..], &shown.scales[..]]
+            });
         std::iter::once(&self.times[..]).chain(ways)
     }
 }
 
 /// Records the poses of several objects, frame after frame.
 pub(super) struct Recorder {
-    ways: Vec<Way>,
+    ways: Vec<NodeMotion>,
     /// The number of frames recorded so far (`known`), and the total number of frames (`count`).
     known: usize,
     count: usize,
@@ -127,7 +128,7 @@ impl Recorder {
     /// returns the name of an object for the error.
     pub(super) fn add(
         &mut self,
-        poses: impl Iterator<Item = Pose>,
+        poses: impl Iterator<Item = NodePose>,
         time: f64,
         name: impl Fn(usize) -> String,
         room: &mut Room,
@@ -138,7 +139,7 @@ impl Recorder {
     /// Records the poses of all objects in a frame, and their sizes along their own axes. Fails like [`Recorder::add`].
     pub(super) fn add_sized(
         &mut self,
-        poses: impl Iterator<Item = (Pose, DVec3)>,
+        poses: impl Iterator<Item = (NodePose, DVec3)>,
         time: f64,
         name: impl Fn(usize) -> String,
         room: &mut Room,
@@ -149,7 +150,7 @@ impl Recorder {
             }
             match self.ways.get_mut(i) {
                 Some(way) => way.add(pose, size, self.known, self.count, room)?,
-                None => self.ways.push(Way::new(pose, size)),
+                None => self.ways.push(NodeMotion::new(pose, size)),
             }
         }
         self.known += 1;
@@ -157,22 +158,30 @@ impl Recorder {
     }
 }
 
-impl Way {
-    fn new(start: Pose, size: DVec3) -> Way {
+impl NodeMotion {
+    fn new(start: NodePose, size: DVec3) -> NodeMotion {
         let (translations, rotations, scales) = (Vec::new(), Vec::new(), Vec::new());
-        Way { start, translations, rotations, size, scales, shown: Shown::default(), last: start.orientation }
+        NodeMotion {
+            start,
+            translations,
+            rotations,
+            size,
+            scales,
+            shown: Shown::default(),
+            last: start.orientation,
+        }
     }
 
     /// Records the pose and size of one frame. `known` is the number of frames recorded before, and `count` the total number.
     fn add(
         &mut self,
-        pose: Pose,
+        pose: NodePose,
         size: DVec3,
         known: usize,
         count: usize,
         room: &mut Room,
     ) -> Result<(), ExportError> {
-        let Pose { location, orientation } = pose;
+        let NodePose { location, orientation } = pose;
         // The quaternions q and −q are the same orientation. With the one farther from the previous frame's, viewers would rotate the long
         // way round.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };

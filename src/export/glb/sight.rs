@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::document::{Camera, CameraLens, Light, Orthographic, Perspective};
-use super::motion::{Motion, Pose, Recorder};
+use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
 use crate::scene::{Output, Scene};
@@ -26,7 +26,7 @@ impl Sight {
     pub(super) fn of(
         run: &Recorded<'_>,
         selection: &Selection,
-        motion: &mut Motion,
+        motion: &mut SampledMotion,
     ) -> Result<Sight, ExportError> {
         let (scene, survey) = (run.scene(), run.survey());
         let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
@@ -35,7 +35,7 @@ impl Sight {
             all.map(|(name, camera)| (name, Plan::new(scene, camera, survey))).unzip();
         let stage = plans[0].stage().clone();
         let mut seen: Vec<Seen> = plans.iter().map(|_| Seen::default()).collect();
-        let mut see = |time: f64, placed: Vec<Placed>, motion: &mut Motion, ways: &mut Recorder| {
+        let mut see = |time: f64, placed: Vec<Placed>, motion: &mut SampledMotion, ways: &mut Recorder| {
             seen.iter_mut().zip(&placed).for_each(|(seen, placed)| seen.see(placed, &stage));
             ways.add(placed.iter().map(pose), time, |i| names[i].clone(), &mut motion.room)
         };
@@ -58,11 +58,11 @@ impl Sight {
 }
 
 /// Returns the pose of a camera in glTF's convention: it looks along −z, with y up.
-fn pose(camera: &Placed) -> Pose {
+fn pose(camera: &Placed) -> NodePose {
     let screen = camera.screen();
     let (right, up) = (screen.right(), screen.up());
     let turn = DMat3::from_cols(right, up, right.cross(up));
-    Pose { location: camera.location(), orientation: DQuat::from_mat3(&turn).normalize() }
+    NodePose { location: camera.location(), orientation: DQuat::from_mat3(&turn).normalize() }
 }
 
 /// The lens of a camera in the first frame, and the distances in all frames from which the clipping planes follow.
@@ -114,7 +114,7 @@ fn lights(
     scene: &Scene,
     plan: &Plan,
     selection: &Selection,
-    motion: &mut Motion,
+    motion: &mut SampledMotion,
 ) -> Result<Vec<Light>, ExportError> {
     let frames = (0..scene.simulation.frames()).filter(|&frame| selection.contains(frame));
     let mut times = frames.map(|frame| scene.simulation.time(frame));
@@ -124,8 +124,8 @@ fn lights(
         shining = plan.usual_lights();
     }
     let center = plan.stage().center;
-    let poses = |lights: &[PlacedLight]| -> Vec<Pose> {
-        let pose = |light: &PlacedLight| Pose {
+    let poses = |lights: &[PlacedLight]| -> Vec<NodePose> {
+        let pose = |light: &PlacedLight| NodePose {
             location: light.location,
             orientation: match light.kind {
                 Lamp::Sun => towards(center - light.location),

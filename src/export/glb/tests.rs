@@ -4,8 +4,8 @@ use glam::DQuat;
 use serde_json::Value;
 
 use super::container::{LARGEST, write};
-use super::model::model;
-use super::motion::{Motion, Room};
+use super::document_builder::document;
+use super::motion::{Room, SampledMotion};
 use super::*;
 use crate::scene::Scene;
 
@@ -83,7 +83,7 @@ fn balls_share_their_triangles() {
 /// way.
 #[test]
 fn orientations_go_on_with_the_nearer_sign() {
-    let motion = Motion::of(&Recorded::new(&scene(SCENE)).unwrap(), &Selection::first(41)).unwrap();
+    let motion = SampledMotion::of(&Recorded::new(&scene(SCENE)).unwrap(), &Selection::first(41)).unwrap();
     let keys = motion.ways()[0].rotations.chunks_exact(4);
     let keys: Vec<_> = keys.map(|key| DQuat::from_array([0, 1, 2, 3].map(|i| f64::from(key[i])))).collect();
     assert_eq!(keys.len(), 41);
@@ -109,9 +109,9 @@ fn a_scene_without_bodies_is_a_file() {
 fn what_is_too_large_is_refused_before_anything_is_written() {
     let scene = scene(SCENE);
     let frames = Selection::first(2);
-    let mut motion = Motion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
+    let mut motion = SampledMotion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
     let sight = Sight::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
-    let (mut document, geometry) = model(&scene, sight, &[], &motion);
+    let (mut document, geometry) = document(&scene, sight, &[], &motion);
     document.buffers[0].byte_length = LARGEST - 8;
     let mut out = Vec::new();
     let refused = write(&document, &geometry, &motion, &mut out);
@@ -132,7 +132,7 @@ fn what_no_film_can_show_is_shown_as_one_can() {
     let exported =
         write_glb(&Recorded::new(&scene(slow)).unwrap(), &Selection::first(11), Vec::new()).unwrap();
     assert!((exported.faster / 2.5e9 - 1.0).abs() < 1e-12);
-    let motion = Motion::of(&Recorded::new(&scene(slow)).unwrap(), &Selection::first(11)).unwrap();
+    let motion = SampledMotion::of(&Recorded::new(&scene(slow)).unwrap(), &Selection::first(11)).unwrap();
     assert_eq!(motion.times().last(), Some(&0.4));
 }
 

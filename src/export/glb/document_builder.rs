@@ -10,7 +10,7 @@ use super::geometry::Geometry;
 use super::links::LinkNode;
 use super::materials::What;
 use super::meshes::Meshes;
-use super::motion::{Motion, Pose, Way};
+use super::motion::{NodeMotion, NodePose, SampledMotion};
 use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
 use crate::surface::{Detail, Form, Piece, pieces};
@@ -22,7 +22,7 @@ const MANY: usize = 200;
 const ROOT: &str = "jabuka";
 
 /// A glTF document under construction.
-struct Model<'a> {
+struct DocumentBuilder<'a> {
     scene: &'a Scene,
     /// The surroundings, cameras and lights.
     sight: Sight,
@@ -31,37 +31,37 @@ struct Model<'a> {
 }
 
 /// Builds the glTF document of a scene whose motion is recorded. Also returns its triangles.
-pub(super) fn model(
+pub(super) fn document(
     scene: &Scene,
     sight: Sight,
     links: &[LinkNode],
-    motion: &Motion,
+    motion: &SampledMotion,
 ) -> (Document, Geometry) {
     let drawn: Vec<Vec<Piece>> = scene.bodies.iter().map(|body| pieces(&body.drawn())).collect();
     let many = drawn.iter().map(Vec::len).sum::<usize>() > MANY;
-    let mut model = Model {
+    let mut builder = DocumentBuilder {
         scene,
         sight,
         nodes: vec![Node { name: ROOT.to_owned(), ..Node::default() }],
         meshes: Meshes::new(if many { Detail::Coarse } else { Detail::Fine }),
     };
     let bodies = scene.bodies.iter().zip(motion.ways()).zip(drawn);
-    let bodies: Vec<u32> = bodies.map(|((body, way), pieces)| model.body(body, way, pieces)).collect();
+    let bodies: Vec<u32> = bodies.map(|((body, way), pieces)| builder.body(body, way, pieces)).collect();
     let mut top = bodies.clone();
-    top.extend(model.ground());
-    let beside = model.beside(&motion.ways()[bodies.len()..]);
+    top.extend(builder.ground());
+    let beside = builder.beside(&motion.ways()[bodies.len()..]);
     top.extend(&beside);
     let ways = &motion.ways()[bodies.len() + beside.len()..];
-    let links: Vec<u32> = links.iter().zip(ways).map(|(link, way)| model.link(link, way)).collect();
+    let links: Vec<u32> = links.iter().zip(ways).map(|(link, way)| builder.link(link, way)).collect();
     top.extend(&links);
-    model.nodes[0].children = top;
+    builder.nodes[0].children = top;
     let moving: Vec<u32> = bodies.into_iter().chain(beside).chain(links).collect();
-    let meshes = &mut model.meshes;
+    let meshes = &mut builder.meshes;
     let (animation, keys) = animation(motion, &moving, meshes.geometry.keys(), &mut meshes.accessors);
-    model.finish(motion, animation, keys)
+    builder.finish(motion, animation, keys)
 }
 
-impl Model<'_> {
+impl DocumentBuilder<'_> {
     fn node(&mut self, node: Node) -> u32 {
         self.nodes.push(node);
         self.nodes.len() as u32 - 1
@@ -69,7 +69,7 @@ impl Model<'_> {
 
     /// Adds the node of a body, with its pieces as child nodes. A single piece at the body's origin needs no child: the body's node draws
     /// it.
-    fn body(&mut self, body: &Body, way: &Way, pieces: Vec<Piece>) -> u32 {
+    fn body(&mut self, body: &Body, way: &NodeMotion, pieces: Vec<Piece>) -> u32 {
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
@@ -94,7 +94,7 @@ impl Model<'_> {
                 (node.mesh, node.scale) = (mesh, scale);
             } else {
                 let name = format!("{}: {}", body.name, piece.form.name());
-                let place = Pose { location: piece.location, orientation: piece.orientation };
+                let place = NodePose { location: piece.location, orientation: piece.orientation };
                 let child = self.node(Node { name, mesh, scale, ..at(place) });
                 self.nodes[number as usize].children.push(child);
             }
@@ -103,9 +103,9 @@ impl Model<'_> {
     }
 
     /// Scales and moves the square that shows an infinite plane, so that it extends beyond the scene and is centered on it.
-    fn spread(&self, piece: &mut Piece, way: &Way) {
+    fn spread(&self, piece: &mut Piece, way: &NodeMotion) {
         let normal = piece.orientation * DVec3::Y;
-        let Pose { location, orientation } = way.start;
+        let NodePose { location, orientation } = way.start;
         let middle = orientation.conjugate() * (self.sight.stage.center - location);
         piece.location = middle - normal * middle.dot(normal);
         piece.scale = DVec3::splat(self.half_of_ground());
@@ -124,12 +124,12 @@ impl Model<'_> {
         let piece = Piece { form: Form::PLANE, scale, location, orientation, color: None };
         let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(ground.tile));
         let name = "ground".to_owned();
-        let place = Pose { location, orientation };
+        let place = NodePose { location, orientation };
         Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(place) }))
     }
 
     /// Adds the nodes of the cameras and the lights. `ways` is their recorded motion.
-    fn beside(&mut self, ways: &[Way]) -> Vec<u32> {
+    fn beside(&mut self, ways: &[NodeMotion]) -> Vec<u32> {
         let cameras = self.sight.cameras.iter().enumerate();
         let cameras = cameras.map(|(number, camera)| Node {
             name: camera.name.clone(),
@@ -152,7 +152,7 @@ impl Model<'_> {
     }
 
     /// Adds the node of a part of a spring or joint.
-    fn link(&mut self, link: &LinkNode, way: &Way) -> u32 {
+    fn link(&mut self, link: &LinkNode, way: &NodeMotion) -> u32 {
         let (location, orientation) = (DVec3::ZERO, DQuat::IDENTITY);
         let piece = Piece { form: link.form.clone(), scale: DVec3::ONE, location, orientation, color: None };
         let mesh = self.meshes.number(self.scene, &piece, What::Link(link.color.0.map(f64::to_bits)), None);
@@ -165,7 +165,7 @@ impl Model<'_> {
         self.scene.title.as_ref().unwrap_or(&self.scene.name).clone()
     }
 
-    fn finish(self, motion: &Motion, animation: Option<Animation>, keys: u64) -> (Document, Geometry) {
+    fn finish(self, motion: &SampledMotion, animation: Option<Animation>, keys: u64) -> (Document, Geometry) {
         let views = self.meshes.geometry.views(keys);
         let bytes = views.iter().map(|view| view.byte_length).sum();
         let title = self.title();
@@ -197,8 +197,8 @@ impl Model<'_> {
 }
 
 /// Makes a node with this pose.
-fn at(pose: Pose) -> Node {
-    let Pose { location, orientation } = pose;
+fn at(pose: NodePose) -> Node {
+    let NodePose { location, orientation } = pose;
     Node {
         translation: (location != DVec3::ZERO).then_some(location.to_array()),
         rotation: (orientation != DQuat::IDENTITY).then_some(orientation.to_array()),
