@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DQuat, DVec3};
 use serde::Serialize;
 
-use super::run::{Outcome, Simulation};
+use super::run::{Outcome, PreviewRun};
 use crate::dynamics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
@@ -148,7 +148,7 @@ struct Trail {
 }
 
 /// Describes a run, as far as it has been simulated.
-pub(super) fn describe(run: &Simulation) -> Description<'_> {
+pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
     let scene: &Scene = &run.scene;
     let (dark, preset) = (scene.environment.is_dark(), scene.environment.preset);
     let (simulation, outcome) = (&scene.simulation, run.outcome().and_then(Result::ok));
@@ -314,7 +314,7 @@ fn trail(scene: &Scene, planned: &crate::picture::Trail) -> Trail {
     Trail { body: planned.body, radius, color: planned.color.0, tapers: planned.tapers }
 }
 
-fn stage(run: &Simulation, outcome: &Outcome) -> Stage {
+fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
     let (plan, survey) = (&outcome.plans[0], &outcome.survey);
     let stage = plan.stage();
     Stage {

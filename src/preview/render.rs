@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use serde::Deserialize;
 
 use super::failed::Failed;
-use super::run::{RunId, Simulation};
+use super::run::{PreviewRun, RunId};
 use crate::Run;
 use crate::diagnostic::{Code, Report};
 use crate::output::{self, Folder};
@@ -85,7 +85,7 @@ impl Renderer {
     /// Renders the image of a frame, and returns the bytes of a PNG.
     pub(super) fn render(
         &self,
-        run: &Simulation,
+        run: &PreviewRun,
         wanted: &Wanted,
         stop: &AtomicBool,
     ) -> Result<Vec<u8>, Failed> {

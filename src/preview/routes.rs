@@ -35,7 +35,7 @@ use super::access::{self, Refused, Token};
 use super::failed::Failed;
 use super::page;
 use super::render::{Renderer, Wanted};
-use super::run::{RunId, Simulation};
+use super::run::{PreviewRun, RunId};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
 
@@ -107,7 +107,7 @@ impl IntoResponse for Refused {
 }
 
 impl Server {
-    fn run(&self, id: RunId) -> Result<Arc<Simulation>, Failed> {
+    fn run(&self, id: RunId) -> Result<Arc<PreviewRun>, Failed> {
         self.session.run(id).ok_or(Failed::Gone)
     }
 }
@@ -136,12 +136,12 @@ fn one() -> usize {
 }
 
 impl Frames {
-    fn end(&self, run: &Simulation) -> usize {
+    fn end(&self, run: &PreviewRun) -> usize {
         self.to.unwrap_or(usize::MAX).min(run.scene.simulation.frames())
     }
 
     /// Yields the numbers of the requested frames that have been simulated.
-    fn recorded(&self, run: &Simulation) -> impl Iterator<Item = usize> + use<> {
+    fn recorded(&self, run: &PreviewRun) -> impl Iterator<Item = usize> + use<> {
         (self.from..self.end(run).min(run.recorded())).step_by(self.every.max(1))
     }
 }

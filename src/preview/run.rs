@@ -23,7 +23,7 @@ use crate::{Run, Scene};
 pub(super) type RunId = u64;
 
 /// A run that is being simulated or has been simulated.
-pub(super) struct Simulation {
+pub(super) struct PreviewRun {
     pub(super) id: RunId,
     pub(super) scene: Arc<Scene>,
     /// The frames that have been simulated so far.
@@ -73,17 +73,17 @@ pub(super) struct Progress {
 /// The smallest interval between two notifications about new frames.
 const PULSE: Duration = Duration::from_millis(40);
 
-impl Simulation {
+impl PreviewRun {
     /// Starts a run in another thread. The thread calls `pulse` after new frames and at the end.
     pub(super) fn begin(
         id: RunId,
         scene: Arc<Scene>,
         cache: Cache,
         pulse: impl Fn() + Send + 'static,
-    ) -> io::Result<Arc<Simulation>> {
+    ) -> io::Result<Arc<PreviewRun>> {
         let moments = Moments::of(&scene);
         let empty = Recording::new(Counts::of(&scene), Box::new(Spill::unnamed()));
-        let run = Arc::new(Simulation {
+        let run = Arc::new(PreviewRun {
             id,
             recording: Mutex::new(Arc::new(empty)),
             cache,

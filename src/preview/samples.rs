@@ -5,11 +5,11 @@ use std::io;
 use glam::DVec3;
 
 use super::numbers::{put, put_balance};
-use super::run::Simulation;
+use super::run::PreviewRun;
 use crate::dynamics::{BodySnapshot, RigidBody};
 
 /// Encodes the energy and momentum balance of each frame, in the layout of [`put_balance`].
-pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
+pub(super) fn balance(run: &PreviewRun, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
     for frame in frames {
@@ -26,7 +26,7 @@ pub(super) fn balance(run: &Simulation, frames: impl Iterator<Item = usize>) -> 
 /// kinetic energy; the number of impacts. While the body is absent, all numbers except the time are NaN. Without contacts, the number of
 /// impacts is NaN.
 pub(super) fn of_body(
-    run: &Simulation,
+    run: &PreviewRun,
     body: usize,
     frames: impl Iterator<Item = usize>,
 ) -> io::Result<Vec<u8>> {
@@ -74,7 +74,7 @@ mod tests {
     fn a_body_that_is_not_there_has_no_numbers() {
         let text = "simulation.duration = 0.4\n[body.a]\nshape.sphere.radius = 1\nstart = 0.2\nvelocity = [1, 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
-        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
         while run.outcome().is_none() {
             std::thread::yield_now();
         }
@@ -95,7 +95,7 @@ mod tests {
             [body.ball]\nshape.sphere.radius = 0.1\nlocation = [0, 0.3, 0]\nrestitution = 1
             [body.far]\nshape.sphere.radius = 0.1\nlocation = [1, 5, 0]\n";
         let scene = Scene::parse(text).unwrap();
-        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
         while run.outcome().is_none() {
             std::thread::yield_now();
         }
@@ -131,7 +131,7 @@ mod tests {
             ",
         )
         .unwrap();
-        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
         while run.outcome().is_none() {
             std::thread::yield_now();
         }

@@ -12,7 +12,7 @@ use serde::Serialize;
 use tokio::sync::watch;
 
 use super::panicked::caught;
-use super::run::{Progress, RunId, Simulation, no_room};
+use super::run::{PreviewRun, Progress, RunId, no_room};
 use super::watch::{INTERVAL, Watched};
 use crate::Scene;
 use crate::cache::Cache;
@@ -39,9 +39,9 @@ pub(super) struct Session {
 struct Inner {
     /// The number of versions of the scene so far. Each change of the scene increases it.
     generation: u64,
-    current: Option<Arc<Simulation>>,
+    current: Option<Arc<PreviewRun>>,
     /// The runs of the same scene with other methods, each with its method and timestep, oldest first.
-    variants: VecDeque<(Variant, Arc<Simulation>)>,
+    variants: VecDeque<(Variant, Arc<PreviewRun>)>,
     problem: Option<String>,
     warnings: Option<String>,
 }
@@ -77,7 +77,7 @@ const VARIANTS: usize = 8;
 const QUICK: Duration = Duration::from_millis(150);
 
 impl Inner {
-    fn variant(&self, variant: &Variant) -> Option<Arc<Simulation>> {
+    fn variant(&self, variant: &Variant) -> Option<Arc<PreviewRun>> {
         let found = self.variants.iter().find(|(other, _)| other == variant);
         found.map(|(_, run)| Arc::clone(run))
     }
@@ -148,7 +148,7 @@ impl Session {
     }
 
     /// Returns the run with this id. `None` if the run has been removed.
-    pub(super) fn run(&self, id: RunId) -> Option<Arc<Simulation>> {
+    pub(super) fn run(&self, id: RunId) -> Option<Arc<PreviewRun>> {
         let inner = self.lock();
         let mut runs = inner.current.iter().chain(inner.variants.iter().map(|(_, run)| run));
         runs.find(|run| run.id == id).cloned()
@@ -158,7 +158,7 @@ impl Session {
     ///
     /// # Errors
     /// If the scene, the method or the timestep is invalid.
-    pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<Simulation>, Report> {
+    pub(super) fn variant(self: &Arc<Session>, variant: Variant) -> Result<Arc<PreviewRun>, Report> {
         loop {
             let begun_with = {
                 let inner = self.lock();
@@ -219,7 +219,7 @@ impl Session {
 
     /// Starts the run of a changed scene. If the scene has not changed, only removes the error message.
     fn replace(self: &Arc<Session>, scene: Scene) {
-        let is_same = |run: &Arc<Simulation>| run.scene.digest == scene.digest;
+        let is_same = |run: &Arc<PreviewRun>| run.scene.digest == scene.digest;
         if self.lock().current.as_ref().is_some_and(is_same) {
             self.lock().problem = None;
             return;
@@ -254,10 +254,10 @@ impl Session {
         }
     }
 
-    fn begin(self: &Arc<Session>, scene: Scene) -> io::Result<Arc<Simulation>> {
+    fn begin(self: &Arc<Session>, scene: Scene) -> io::Result<Arc<PreviewRun>> {
         let id = self.next.fetch_add(1, Ordering::Relaxed);
         let session = Arc::downgrade(self);
-        Simulation::begin(id, Arc::new(scene), self.cache.clone(), move || {
+        PreviewRun::begin(id, Arc::new(scene), self.cache.clone(), move || {
             session.upgrade().iter().for_each(|session| session.beat());
         })
     }

@@ -5,7 +5,7 @@ use std::io;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::run::Simulation;
+use super::run::PreviewRun;
 use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Vertical};
 use crate::scene::{LabelPlace, Scene, Side};
 use crate::simulate::Frame;
@@ -148,7 +148,7 @@ impl Light {
 /// Returns the objects drawn beside the bodies in some frames, as one camera sees them. The list is empty until the run is finished, since
 /// the positions of cameras are unknown before.
 pub(super) fn frames(
-    run: &Simulation,
+    run: &PreviewRun,
     view: usize,
     frames: impl Iterator<Item = usize>,
 ) -> io::Result<Vec<Shown>> {
@@ -158,7 +158,7 @@ pub(super) fn frames(
 }
 
 /// Returns the ghosts that are known so far, in order of time.
-pub(super) fn ghosts(run: &Simulation) -> Vec<Ghost> {
+pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
     let ghost = |ghost: &crate::simulate::Ghost| Ghost {
         time: ghost.time,
         body: ghost.body.id,

@@ -4,7 +4,7 @@ use std::io;
 use std::sync::{Mutex, PoisonError};
 
 use super::numbers::put;
-use super::run::Simulation;
+use super::run::PreviewRun;
 use crate::dynamics::Particle;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Swarms;
@@ -23,7 +23,7 @@ fn most_of_each(scene: &Scene) -> f64 {
 }
 
 /// Returns the name of each emitter with too many particles, and the number n if only every n-th particle is drawn.
-pub(super) fn thinned(run: &Simulation) -> Vec<(String, u64)> {
+pub(super) fn thinned(run: &PreviewRun) -> Vec<(String, u64)> {
     let swarms = Swarms::thinned(&run.scene, run.recording(), most_of_each(&run.scene));
     let names = run.scene.emitters.iter().map(|emitter| emitter.name.to_string());
     names.zip(swarms.strides().iter().copied()).filter(|(_, stride)| *stride > 1).collect()
@@ -32,7 +32,7 @@ pub(super) fn thinned(run: &Simulation) -> Vec<(String, u64)> {
 /// Encodes the particles of some frames. A frame has the number of its particles, and then for each particle: its location and the end of
 /// its streak, m; its radius, m; its color, sRGB; 1 if it emits light, otherwise 0. Without a streak, the end of the streak is the
 /// location.
-pub(super) fn frames(run: &Simulation, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
+pub(super) fn frames(run: &PreviewRun, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {
     let mut kept = run.swarms.0.lock().unwrap_or_else(PoisonError::into_inner);
     let recording = run.recording();
     let mut swarms = match kept.take() {
@@ -83,7 +83,7 @@ mod tests {
             color = ['red', 'blue']\nglow = 1\nstreak = 0.01
             [emitter.crowd]\nshape.sphere.radius = 0.1\nrate = 1e5\nfrom.point = [9, 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
-        let run = Simulation::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
+        let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
         while run.outcome().is_none() {
             std::thread::yield_now();
         }
