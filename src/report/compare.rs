@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Stopped;
-use super::lockstep::{Ended, Track, Watch, together};
+use super::lockstep::{ComparedRun, Ended, Watch, together};
 use super::measure::{Distance, Measured, union};
 use super::neighbours::displaced;
 use super::setting::Setting;
@@ -90,8 +90,8 @@ pub(super) fn compare(
     let frames = scene.simulation.frames().max(1);
     #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
     let costs = settings.iter().chain([&own]).map(|setting| setting.cost(scene) / frames as f64);
-    let mut tracks: Vec<Track<'_>> =
-        scenes.iter().zip(costs).map(|(scene, cost)| Track::new(scene, cost)).collect();
+    let mut runs: Vec<ComparedRun<'_>> =
+        scenes.iter().zip(costs).map(|(scene, cost)| ComparedRun::new(scene, cost)).collect();
     let mut found = Compared { bodies: vec![Off::default(); measured.bodies.len()], ..Compared::default() };
     let mut seen = Seen {
         before: vec![None; measured.bodies.len()],
@@ -99,12 +99,12 @@ pub(super) fn compare(
         boxes: [None; 3],
         energy_at_half: EnergyError::default(),
     };
-    together(&mut tracks, scene, watch, &mut |moments| found.see(measured, &mut seen, moments))?;
+    together(&mut runs, scene, watch, &mut |moments| found.see(measured, &mut seen, moments))?;
     let size = |found: &[DVec3; 2]| (found[1] - found[0]).length();
     found.size = seen.boxes.iter().flatten().last().map_or(0.0, size);
     found.drift_at_half = seen.energy_at_half.drift(scene.simulation.contacts);
-    found.steps = [0, 1, 2].map(|track| tracks[track].steps());
-    let mut ended = tracks.into_iter().map(|track| track.ended);
+    found.steps = [0, 1, 2].map(|run| runs[run].steps());
+    let mut ended = runs.into_iter().map(|run| run.ended);
     found.ended = std::array::from_fn(|_| ended.next().flatten());
     Ok(found)
 }

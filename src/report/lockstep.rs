@@ -19,7 +19,7 @@ pub struct Ended {
 }
 
 /// A run that advances side by side with others.
-pub(super) struct Track<'a> {
+pub(super) struct ComparedRun<'a> {
     snapshots: Snapshots<'a>,
     /// The computed frames that have not been compared yet, oldest first.
     waiting: std::collections::VecDeque<Snapshot>,
@@ -32,17 +32,17 @@ pub(super) struct Track<'a> {
     pub(super) is_long: bool,
 }
 
-impl<'a> Track<'a> {
+impl<'a> ComparedRun<'a> {
     /// Starts the run of a scene. `cost` is its number of force evaluations per frame.
-    pub(super) fn new(scene: &'a Scene, cost: f64) -> Track<'a> {
+    pub(super) fn new(scene: &'a Scene, cost: f64) -> ComparedRun<'a> {
         let waiting = std::collections::VecDeque::new();
         let snapshots = Snapshots::new(scene);
-        Track { snapshots, waiting, ended: None, last: None, cost, most: u64::MAX, is_long: false }
+        ComparedRun { snapshots, waiting, ended: None, last: None, cost, most: u64::MAX, is_long: false }
     }
 
     /// Limits the run to about `steps` timesteps. This is for adaptive methods, whose number of timesteps is unknown in advance.
-    pub(super) fn of_at_most(self, steps: u64) -> Track<'a> {
-        Track { most: steps, ..self }
+    pub(super) fn of_at_most(self, steps: u64) -> ComparedRun<'a> {
+        ComparedRun { most: steps, ..self }
     }
 
     /// Returns the number of timesteps of the run so far.
@@ -71,7 +71,7 @@ impl<'a> Track<'a> {
 /// Advances all runs to the last frame of the scene. At each frame, `see` receives the snapshot of every run, `None` for a run that has
 /// ended.
 pub(super) fn together(
-    tracks: &mut [Track<'_>],
+    runs: &mut [ComparedRun<'_>],
     scene: &Scene,
     watch: &mut Watch<'_>,
     see: &mut dyn FnMut(&[Option<Snapshot>]),
@@ -80,18 +80,17 @@ pub(super) fn together(
     const ROOM: usize = 4096;
     let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;
-    while done < frames && tracks.iter().any(|track| track.ended.is_none() && !track.is_long) {
+    while done < frames && runs.iter().any(|run| run.ended.is_none() && !run.is_long) {
         let now = room.min(frames - done);
-        threads::each(tracks, |track| track.advance(now));
+        threads::each(runs, |run| run.advance(now));
         for _ in 0..now {
-            let seen: Vec<Option<Snapshot>> =
-                tracks.iter_mut().map(|track| track.waiting.pop_front()).collect();
+            let seen: Vec<Option<Snapshot>> = runs.iter_mut().map(|run| run.waiting.pop_front()).collect();
             if seen.iter().any(Option::is_some) {
                 see(&seen);
             }
         }
         done += now;
-        let cost: f64 = tracks.iter().map(|track| track.cost).sum();
+        let cost: f64 = runs.iter().map(|run| run.cost).sum();
         #[allow(clippy::cast_precision_loss, reason = "there are at most 64")]
         let cost = cost * now as f64;
         if !watch(cost) {

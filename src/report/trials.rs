@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Stopped;
 use super::compare::points;
-use super::lockstep::{Ended, Track, Watch, together};
+use super::lockstep::{ComparedRun, Ended, Watch, together};
 use super::measure::{Measured, union};
 use super::setting::{Setting, refused};
 use super::verdict::Order;
@@ -237,11 +237,11 @@ impl Goal<'_> {
             reason = "a number that is too large saturates"
         )]
         let most = (left / 4.0 / evaluations(setting.method).max(1) as f64) as u64;
-        let track = |track: usize| Track::new(&scenes[track], settings[track].cost(scene) / frames);
-        let mut tracks =
-            [0, 1].map(|it| if setting.method.adaptive { track(it).of_at_most(most) } else { track(it) });
+        let run = |run: usize| ComparedRun::new(&scenes[run], settings[run].cost(scene) / frames);
+        let mut runs =
+            [0, 1].map(|it| if setting.method.adaptive { run(it).of_at_most(most) } else { run(it) });
         let (mut most, mut energy, mut around) = (0.0_f64, EnergyError::default(), None);
-        together(&mut tracks, scene, watch, &mut |moments| {
+        together(&mut runs, scene, watch, &mut |moments| {
             let [coarse, fine] = moments else { return };
             if let Some(coarse) = coarse {
                 energy.add(&coarse.balance);
@@ -259,11 +259,11 @@ impl Goal<'_> {
             true => self.order.factor(setting.method),
             false => Order::Nominal { measured: f64::from(setting.method.order) }.factor(setting.method),
         };
-        if tracks.iter().any(|track| track.is_long) {
+        if runs.iter().any(|run| run.is_long) {
             return Ok(None);
         }
-        let steps = tracks[0].steps();
-        let ended = tracks.into_iter().find_map(|track| track.ended);
+        let steps = runs[0].steps();
+        let ended = runs.into_iter().find_map(|run| run.ended);
         Ok(Some(Trial {
             integrator: setting.method.name,
             step: setting.written(scene),
