@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::digest::Key;
+use super::digest::CacheKey;
 use super::file::{At, ENTRY, damaged};
 use super::{PART, SAVING, STOPPED, files};
 use crate::simulate::Checkpoint;
@@ -34,7 +34,7 @@ pub(super) fn beside(part: &Path) -> PathBuf {
 }
 
 /// Writes a checkpoint, which replaces the previous one of the same run.
-pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint) -> io::Result<()> {
+pub(super) fn write(part: &Path, key: CacheKey, pages: &[At], checkpoint: &Checkpoint) -> io::Result<()> {
     let Checkpoint { index, simulation } = checkpoint;
     let mut bytes = [&FORMAT[..], &key].concat();
     bytes.extend((pages.len() as u64).to_le_bytes());
@@ -52,7 +52,7 @@ pub(super) fn write(part: &Path, key: Key, pages: &[At], checkpoint: &Checkpoint
 }
 
 /// Reads a checkpoint. Returns the positions of the pages up to the checkpoint, and the state of the simulation.
-fn read(part: &Path, key: Key) -> io::Result<(Vec<At>, Checkpoint)> {
+fn read(part: &Path, key: CacheKey) -> io::Result<(Vec<At>, Checkpoint)> {
     let bytes = fs::read(beside(part))?;
     let (covered, digest) = bytes.split_last_chunk::<32>().ok_or_else(damaged)?;
     let found: [u8; 32] = Sha256::digest(covered).into();
@@ -79,7 +79,7 @@ pub(super) struct Stopped {
 
 /// Finds the interrupted run with this key that has progressed farthest. Runs that another process continues are skipped. Damaged ones are
 /// removed.
-pub(super) fn find(folder: &Path, key: Key) -> Option<Stopped> {
+pub(super) fn find(folder: &Path, key: CacheKey) -> Option<Stopped> {
     let name = super::file::name(key);
     let stem = Path::new(&name).file_stem()?.to_str()?;
     let mut farthest: Option<Stopped> = None;

@@ -8,11 +8,11 @@ use crate::scene::{ForceKind, Scene};
 use crate::simulate::Moments;
 
 /// The SHA-256 that identifies a run.
-pub(super) type Key = [u8; 32];
+pub(super) type CacheKey = [u8; 32];
 
 /// Returns the digest of everything that affects the recording of a run: the causes of motion, the recorded moments, and the program
 /// itself. Looks, cameras, labels and names do not affect it.
-pub(super) fn of(scene: &Scene, moments: &Moments) -> Key {
+pub(super) fn of(scene: &Scene, moments: &Moments) -> CacheKey {
     let mut text = Text(Sha256::new());
     // Writing cannot fail, since a digest accepts all bytes.
     let _: fmt::Result = write_all(&mut text, scene, moments);
@@ -70,7 +70,7 @@ impl Write for Text {
 mod tests {
     use super::*;
 
-    fn digest(text: &str) -> Key {
+    fn digest(text: &str) -> CacheKey {
         let scene = Scene::parse(text).unwrap();
         of(&scene, &Moments::of(&scene))
     }

@@ -18,7 +18,7 @@ use std::time::SystemTime;
 use sha2::{Digest, Sha256};
 
 use super::KEPT;
-use super::digest::Key;
+use super::digest::CacheKey;
 use crate::simulate::{Counts, Recording, Store};
 
 const FORMAT: &[u8; 8] = b"jabuka 1";
@@ -62,13 +62,13 @@ impl At {
 }
 
 /// Returns the file name of a cached run.
-pub(super) fn name(key: Key) -> String {
+pub(super) fn name(key: CacheKey) -> String {
     let hex: String = key.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
     format!("{hex}.{KEPT}")
 }
 
 /// Returns the bytes of the file before the pages.
-pub(super) fn begin(key: Key) -> Vec<u8> {
+pub(super) fn begin(key: CacheKey) -> Vec<u8> {
     [&FORMAT[..], &key].concat()
 }
 
@@ -84,7 +84,7 @@ pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
 }
 
 /// Opens the cached run with this key, and sets the file's modification time, which counts as the time of its last use.
-pub(super) fn open(path: &Path, key: Key, counts: Counts) -> io::Result<Recording> {
+pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Recording> {
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     let mut head = [0; 40];

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use sha2::{Digest, Sha256};
 
 use super::checkpoint::{self, Stopped};
-use super::digest::Key;
+use super::digest::CacheKey;
 use super::file::{self, At};
 use super::{PART, SAVING};
 use crate::simulate::{Checkpoint, Store};
@@ -26,7 +26,7 @@ pub struct Spill(Arc<Shared>);
 
 struct Shared {
     /// The cache folder and the key of a run that may be kept in the cache. `None` for a run that is never kept.
-    to_keep: Option<(PathBuf, Key)>,
+    to_keep: Option<(PathBuf, CacheKey)>,
     inner: Mutex<Inner>,
 }
 
@@ -59,12 +59,12 @@ impl Spill {
         Spill(Arc::new(Shared { to_keep: None, inner: Mutex::default() }))
     }
 
-    pub(super) fn to_keep(folder: PathBuf, key: Key) -> Spill {
+    pub(super) fn to_keep(folder: PathBuf, key: CacheKey) -> Spill {
         Spill(Arc::new(Shared { to_keep: Some((folder, key)), inner: Mutex::default() }))
     }
 
     /// Opens the pages of an interrupted run, with the checkpoint to continue from. `None` if there is no interrupted run.
-    pub(super) fn resume(folder: PathBuf, key: Key) -> Option<(Spill, Checkpoint)> {
+    pub(super) fn resume(folder: PathBuf, key: CacheKey) -> Option<(Spill, Checkpoint)> {
         let Stopped { part: path, file, pages, checkpoint } = checkpoint::find(&folder, key)?;
         let end = pages.iter().map(|at| at.offset + at.bytes).max().unwrap_or(0);
         let part = Part { file, path: Some(path), end: end.max(file::begin(key).len() as u64) };
@@ -124,7 +124,7 @@ impl Spill {
 impl Inner {
     /// Moves all recorded pages into the file in the cache folder. Returns the path of the file and the positions of the pages. `None` if
     /// there is no such file, or the pages are in several files.
-    fn settle(&mut self, folder: &Path, key: Key) -> io::Result<Option<(PathBuf, Vec<At>)>> {
+    fn settle(&mut self, folder: &Path, key: CacheKey) -> io::Result<Option<(PathBuf, Vec<At>)>> {
         if self.files.is_empty() {
             self.files.push(Part::named(folder, key)?);
         }
@@ -178,7 +178,7 @@ impl Store for Spill {
 
 impl Part {
     /// Creates a file in the cache folder. The file is locked as long as it is open.
-    fn named(folder: &Path, key: Key) -> io::Result<Part> {
+    fn named(folder: &Path, key: CacheKey) -> io::Result<Part> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         fs::create_dir_all(folder)?;
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
