@@ -2,6 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
+/// A twist: the velocity of a body, m/s, and its angular velocity, rad/s, both in world axes.
+pub(super) type Twist = (DVec3, DVec3);
+
 /// The pose, the velocities and the acceleration of a body at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kinematics {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::super::constraint::Solver;
+use super::super::motion::Twist;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
 use super::closed::{Closed, heading};
@@ -62,9 +63,6 @@ pub(in crate::dynamics) struct Strike {
     pub(in crate::dynamics) struck: Vec<usize>,
 }
 
-/// The velocity of a body, m/s, and its angular velocity, rad/s, world axes.
-type Motion = (DVec3, DVec3);
-
 impl Place {
     fn of(meeting: &Nearest, bodies: [usize; 2], state: &State) -> Place {
         let (u, w) = meeting.normal.any_orthonormal_pair();
@@ -73,7 +71,7 @@ impl Place {
     }
 
     /// Computes the velocity of the second body relative to the first at the contact point, along the normal and the two tangents, m/s.
-    fn rate(&self, [a, b]: [Motion; 2]) -> DVec3 {
+    fn rate(&self, [a, b]: [Twist; 2]) -> DVec3 {
         let apart = b.0 + b.1.cross(self.arms[1]) - a.0 - a.1.cross(self.arms[0]);
         DVec3::from_array(self.axes.map(|axis| axis.dot(apart)))
     }
@@ -107,15 +105,15 @@ impl Collider {
             solver.hold_joints(model, time, state);
         }
         let approach = |i: usize, state: &State| {
-            let motions = touching[i].bodies.map(|body| motion(body, model, state));
-            places[i].iter().map(|place| -place.rate(motions).x).fold(0.0, f64::max)
+            let twists = touching[i].bodies.map(|body| twist(body, model, state));
+            places[i].iter().map(|place| -place.rate(twists).x).fold(0.0, f64::max)
         };
         for (pair, places) in touching.iter().zip(&places) {
-            let motions = pair.bodies.map(|body| motion(body, model, state));
+            let twists = pair.bodies.map(|body| twist(body, model, state));
             // In pure rolling, the relative velocities are only rounding errors. The speeds of the bodies therefore set the scale for
             // negligible velocities.
-            let speeds = places.iter().map(|place| place.rate(motions).length());
-            let speeds = speeds.chain(motions.map(|(velocity, _)| velocity.length()));
+            let speeds = places.iter().map(|place| place.rate(twists).length());
+            let speeds = speeds.chain(twists.map(|(velocity, _)| velocity.length()));
             self.fastest = speeds.fold(self.fastest, f64::max);
         }
         let mut speeds: Vec<f64> = (0..touching.len()).map(|i| approach(i, state)).collect();
@@ -149,13 +147,13 @@ impl Collider {
         }
         let mut closed = Vec::new();
         for (pair, places) in touching.iter().zip(&places) {
-            let motions = pair.bodies.map(|body| motion(body, model, state));
+            let twists = pair.bodies.map(|body| twist(body, model, state));
             let size = self.size(pair.bodies);
             let still = STILL * self.fastest * self.haste(pair);
-            let near = pair.touches.iter().zip(places).filter(|(_, place)| place.rate(motions).x <= still);
+            let near = pair.touches.iter().zip(places).filter(|(_, place)| place.rate(twists).x <= still);
             let near: Vec<&Touch> = near.map(|(touch, _)| touch).collect();
             let is_still =
-                |touch: &&Touch| Place::of(&touch.meeting, pair.bodies, state).rate(motions).x.abs() <= still;
+                |touch: &&Touch| Place::of(&touch.meeting, pair.bodies, state).rate(twists).x.abs() <= still;
             let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
             for touch in near.iter().copied().chain(snug) {
                 let (bodies, law, heading) = (pair.bodies, pair.law, heading(touch.meeting.normal));
@@ -199,8 +197,8 @@ impl Collider {
         (model, time, state): (&Model, f64, &mut State),
         mut joints: Option<&mut Solver>,
     ) {
-        let motions = |state: &State| pair.bodies.map(|body| motion(body, model, state));
-        let before: Vec<DVec3> = places.iter().map(|place| place.rate(motions(state))).collect();
+        let twists = |state: &State| pair.bodies.map(|body| twist(body, model, state));
+        let before: Vec<DVec3> = places.iter().map(|place| place.rate(twists(state))).collect();
         let rest = REST * self.fastest * self.haste(pair);
         let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= rest;
         *self.hits.entry(pair.bodies).or_default() += 1;
@@ -242,7 +240,7 @@ impl Collider {
         if let Some(joints) = joints {
             joints.obey_joints(model, state);
         }
-        let after = places.iter().map(|place| place.rate(motions(state)));
+        let after = places.iter().map(|place| place.rate(twists(state)));
         let work = before
             .iter()
             .zip(after)
@@ -294,7 +292,7 @@ fn middle(
     (!is_turned).then_some((place, rate, impulse))
 }
 
-fn motion(body: usize, model: &Model, state: &State) -> Motion {
+fn twist(body: usize, model: &Model, state: &State) -> Twist {
     (state.velocity[body], model.angular_velocity(body, state))
 }
 
@@ -322,12 +320,12 @@ fn response_to(
         let place = &places[column / 3];
         let push = place.axes[column % 3];
         let pushes = [(-push, -place.arms[0].cross(push)), (push, place.arms[1].cross(push))];
-        let motions = match joints.as_deref_mut() {
+        let twists = match joints.as_deref_mut() {
             Some(joints) => joints.respond(model, state, bodies, pushes),
             None => std::array::from_fn(|i| model.respond(bodies[i], state, pushes[i])),
         };
         for (row, place) in places.iter().enumerate() {
-            let rate = place.rate(motions);
+            let rate = place.rate(twists);
             for axis in 0..3 {
                 response[(3 * row + axis) * n + column] = rate[axis];
             }

@@ -10,6 +10,7 @@ use rapier3d_f64::prelude::{
 };
 
 use super::super::contact::Impact;
+use super::super::motion::Twist;
 use super::super::{Accounts, Loads, Model, State};
 use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
@@ -18,14 +19,11 @@ use super::touch::{self, Push, Touch};
 /// A new contact counts as an impact only if the bodies approach faster than this many thicknesses of the thinnest moving body per second.
 const SLOW: f64 = 0.03;
 
-/// The motion of a body: its velocity, m/s, and its angular velocity, rad/s, both in world axes.
-pub(super) type Motion = (DVec3, DVec3);
-
 /// The bookkeeping of contacts and joints: data of the last step from which their work and the impacts follow.
 pub(super) struct Books {
-    /// The motion of each body before the last step, and its mean during that step.
-    pub(super) before: Vec<Motion>,
-    pub(super) mean: Vec<Motion>,
+    /// The twist of each body before the last step, and its mean during that step.
+    pub(super) before: Vec<Twist>,
+    pub(super) mean: Vec<Twist>,
     /// The position of each body's centre of mass before the last step, m.
     pub(super) places: Vec<DVec3>,
     /// For each body, whether it touched another body, or came near one, in the last step.

@@ -6,8 +6,8 @@
 use glam::DVec3;
 
 use super::super::force::Moment;
+use super::super::motion::Twist;
 use super::super::{Accounts, Loads, Model, State, WorkAccount};
-use super::books::Motion;
 
 /// The loads in one step by forces without a potential.
 #[derive(Clone, Default)]
@@ -46,7 +46,7 @@ impl Driven {
     }
 
     /// Returns the work of the forces without a potential in a step of `dt`, s. `mean` holds the mean motion of each body in the step.
-    pub(super) fn work(&self, dt: f64, mean: &[Motion]) -> Accounts {
+    pub(super) fn work(&self, dt: f64, mean: &[Twist]) -> Accounts {
         let mut accounts = Accounts::default();
         for (account, alone) in &self.alone {
             let loads = alone.force.iter().zip(&alone.torque);

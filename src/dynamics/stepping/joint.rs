@@ -6,8 +6,8 @@ use rapier3d_f64::prelude::{
     PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
 };
 
+use super::super::motion::Twist;
 use super::super::{Anchor, Ball, BodyId, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State};
-use super::books::Motion;
 
 /// The stiffness (N/m) of the motor that keeps the length of a rod, and the damping (N s/m or N m s) of a motor that keeps a speed. The
 /// value is so large that only the length of the step determines how soft the motor is.
@@ -62,7 +62,7 @@ pub(super) struct MotorPush {
 
 impl MotorPush {
     /// Returns the work of the motor in the step, J. The closure `mean` returns the mean motion of a body in the step.
-    pub(super) fn work(&self, mean: impl Fn(usize) -> Motion) -> f64 {
+    pub(super) fn work(&self, mean: impl Fn(usize) -> Twist) -> f64 {
         let rate = |side: usize| {
             let Some((velocity, turning)) = self.bodies[side].map(&mean) else { return 0.0 };
             self.direction.dot(velocity) + self.arms[side].dot(turning)
