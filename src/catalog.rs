@@ -5,7 +5,7 @@
 use crate::dynamics::Method;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
-use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::{BodyMeasure, ContactLaw, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
 
 /// A category of names that scenes can use, such as shapes.
@@ -79,7 +79,7 @@ fn measures() -> Vec<(&'static str, String)> {
 fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
     let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
     let variants = keys.iter().filter(|key| names.contains(&key.name));
-    let entry = |key: &'static Key| {
+    let entry = |key: &'static KeySpec| {
         let inner = key.kind.table().map_or_else(Vec::new, |table| table.keys.iter().collect());
         let inner: Vec<_> = inner.iter().map(|key| format!("`{}`", key.name)).collect();
         let keys = if inner.is_empty() { String::new() } else { format!(" ({})", inner.join(", ")) };

@@ -118,7 +118,7 @@ pub use state::{Accounts, State, WorkAccount};
 #[cfg(feature = "time-stepping")]
 pub use stepping::{Link, LinkKind, TimeStepping};
 pub use system::System;
-pub use track::{Interpolation, Key, Track};
+pub use track::{Interpolation, Keyframe, Track};
 pub use world::World;
 
 /// An engine that advances bodies in time. The rest of the program uses this interface, and does not depend on the implementation.

@@ -13,9 +13,9 @@ pub enum Interpolation {
     Cubic,
 }
 
-/// A key of a motion: the pose of a body at a given time.
+/// A keyframe of a motion: the pose of a body at a given time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Key {
+pub struct Keyframe {
     /// The time of the key, s.
     pub time: f64,
     /// The position of the center of mass, world axes, m.
@@ -31,7 +31,7 @@ pub struct Key {
 /// A motion that interpolates given poses. Before the first and after the last pose, the body is at rest there.
 #[derive(Clone, Debug)]
 pub struct Track {
-    keys: Vec<Key>,
+    keys: Vec<Keyframe>,
     interpolation: Interpolation,
     /// For cubic interpolation: the time derivatives of location and orientation at each key. Empty for linear interpolation.
     slopes: Vec<(DVec3, DQuat)>,
@@ -43,7 +43,7 @@ impl Track {
     /// If a key of a cubic track has no velocity, its slope is that of the parabola through the key and its two neighbors. At both ends of
     /// the track, `at_rest` sets this slope to 0; otherwise it is the slope between the two outermost keys.
     #[must_use]
-    pub fn new(keys: Vec<Key>, interpolation: Interpolation, at_rest: bool) -> Track {
+    pub fn new(keys: Vec<Keyframe>, interpolation: Interpolation, at_rest: bool) -> Track {
         Track::with_gaps(keys, &[], interpolation, at_rest)
     }
 
@@ -51,7 +51,7 @@ impl Track {
     /// gaps depend on that part alone.
     #[must_use]
     pub fn with_gaps(
-        mut keys: Vec<Key>,
+        mut keys: Vec<Keyframe>,
         gaps: &[usize],
         interpolation: Interpolation,
         at_rest: bool,
@@ -79,12 +79,12 @@ impl Track {
 }
 
 /// Computes the time derivatives of location and orientation at key `i`.
-fn slope(keys: &[Key], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat) {
+fn slope(keys: &[Keyframe], gaps: &[usize], i: usize, at_rest: bool) -> (DVec3, DQuat) {
     let joins = |i: &usize| gaps.binary_search(i).is_err();
     let before = Some(i).filter(joins).and_then(|i| keys.get(i.checked_sub(1)?));
     let after = Some(i + 1).filter(joins).and_then(|i| keys.get(i));
     let key = &keys[i];
-    let rise = |a: &Key, b: &Key| {
+    let rise = |a: &Keyframe, b: &Keyframe| {
         let part = 1.0 / (b.time - a.time);
         ((b.location - a.location) * part, (b.orientation - a.orientation) * part)
     };
@@ -112,7 +112,7 @@ fn spin(omega: DVec3) -> DQuat {
 impl Motion for Track {
     fn at(&self, t: f64) -> Kinematics {
         let after = self.keys.partition_point(|key| key.time <= t);
-        let rest = |key: &Key| Kinematics {
+        let rest = |key: &Keyframe| Kinematics {
             location: key.location,
             velocity: DVec3::ZERO,
             acceleration: DVec3::ZERO,
@@ -241,9 +241,9 @@ mod tests {
     use super::*;
 
     /// Returns a key of a body that moves on a unit circle and rotates with it, at 1 rad/s. With `known`, the key has velocities.
-    fn key(t: f64, known: bool) -> Key {
+    fn key(t: f64, known: bool) -> Keyframe {
         let (sin, cos) = libm::sincos(t);
-        Key {
+        Keyframe {
             time: t,
             location: DVec3::new(cos, sin, 0.0),
             orientation: DQuat::from_rotation_z(t),

@@ -1,7 +1,7 @@
 //! The settings of a run that determine its accuracy: the integration method, and its timestep or tolerance.
 
 use crate::dynamics::{Method, World};
-use crate::scene::{ContactLaw, Scene, Simulation};
+use crate::scene::{ContactLaw, Scene, SimulationSettings};
 use crate::simulate::{evaluations, world};
 
 /// The smallest error tolerance that is tested. With a smaller one, rounding errors dominate.
@@ -30,7 +30,7 @@ impl Setting {
 
     /// Returns a setting with this method and this number of timesteps per frame. The tolerance comes from the scene.
     pub(super) fn new(method: &'static Method, steps: u32, scene: &Scene) -> Setting {
-        let Simulation { step, tolerance, .. } = scene.simulation;
+        let SimulationSettings { step, tolerance, .. } = scene.simulation;
         Setting { method, steps, step, tolerance }
     }
 

@@ -51,7 +51,7 @@ pub use look::{
     Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
-pub use model::{Body, BodyLook, Simulation};
+pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::Places;
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
@@ -76,7 +76,7 @@ pub struct Scene {
     /// The title of the scene. `None` if the scene gives no title.
     pub title: Option<String>,
     /// The settings of the simulation: times, integrator, gravity and contacts.
-    pub simulation: Simulation,
+    pub simulation: SimulationSettings,
     /// The bodies, in the order of the file. A copy made by `repeat` is a body of its own.
     pub bodies: Vec<Body>,
     /// The forces, in the order of the file. The `force` key of a single body is part of that body instead.

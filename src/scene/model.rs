@@ -10,7 +10,7 @@ use crate::dynamics::{Method, Presence, RigidBody, Shape};
 
 /// The settings of the simulation: times, integrator, gravity and contacts.
 #[derive(Clone, Debug)]
-pub struct Simulation {
+pub struct SimulationSettings {
     /// The duration of the simulation, s. The time of the last frame may differ, because it is rounded to a whole number of frames.
     pub duration: f64,
     /// The number of frames per second of simulated time.
@@ -27,7 +27,7 @@ pub struct Simulation {
     pub contacts: Option<ContactLaw>,
 }
 
-impl Simulation {
+impl SimulationSettings {
     /// Returns the number of frames, including the first frame at time 0 and the last frame.
     #[allow(
         clippy::cast_possible_truncation,

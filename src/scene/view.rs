@@ -8,7 +8,7 @@ use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
-use crate::scene::grammar::{DefaultValue, Key, Kind, TableSpec};
+use crate::scene::grammar::{DefaultValue, KeySpec, Kind, TableSpec};
 use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
@@ -59,7 +59,7 @@ impl<'a> View<'a> {
     /// Returns the kind of value that a key takes, if `is` accepts the kind. If the key takes several kinds, returns the first that `is`
     /// accepts.
     fn kind_of(&self, name: &str, is: impl Fn(&Kind) -> bool) -> Option<&'static Kind> {
-        let Key { kind, .. } = self.spec.key(name)?;
+        let KeySpec { kind, .. } = self.spec.key(name)?;
         let found = match kind {
             Kind::Either(kinds) => kinds.iter().find(|kind| is(kind)),
             kind => is(kind).then_some(kind),

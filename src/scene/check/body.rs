@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
 use crate::scene::source::Table;
-use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Simulation};
+use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
 
 /// The keys for the initial velocities of a body.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
@@ -30,7 +30,7 @@ struct Last {
 
 pub(super) fn read(
     root: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     materials: &mut Vec<Material>,
     context: &mut Context<'_>,
 ) -> Vec<Body> {

@@ -5,7 +5,7 @@ use super::view::View as Keys;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::timed::{Timed, TimedVector};
-use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, Simulation, View};
+use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, View};
 
 /// The value of `--view` that selects all views. No view can have this name.
 const ALL: &str = "all";
@@ -13,7 +13,7 @@ const ALL: &str = "all";
 /// Reads the main camera from `[camera]`.
 pub(super) fn read(
     root: &Keys<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Camera {
@@ -23,7 +23,7 @@ pub(super) fn read(
 /// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
 pub(super) fn views(
     root: &Keys<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Vec<View> {
@@ -43,7 +43,7 @@ pub(super) fn views(
 /// Reads a camera from one or two tables. Each value comes from the first table that has its key.
 fn camera(
     tables: &[Keys<'_>],
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Camera {
@@ -134,7 +134,7 @@ fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
 fn nobody(
     keys: &Keys<'_>,
     motion: &CameraMotion,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     context: &mut Context<'_>,
 ) {
@@ -149,7 +149,7 @@ fn nobody(
 
 /// Returns the error for a shutter that is still open when the next frame begins. `None` if the shutter closes in time. `open` is in
 /// seconds.
-fn too_long(open: f64, simulation: &Simulation) -> Option<Diagnostic> {
+fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
     // The relative tolerance for a rounded number: at 30 frames per second, a user may write the interval as 0.0333 s.
     const TOLERANCE: f64 = 0.01;
     let interval = 1.0 / simulation.frame_rate;

@@ -9,7 +9,7 @@ use super::stepping;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 use crate::dynamics::{Shape, Surface};
-use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, Simulation};
+use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
 /// The keys for the surface properties of a body or of the ground.
 const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
@@ -31,7 +31,7 @@ pub(super) fn collider(
     name: &str,
     view: &View<'_>,
     shape: &Shape,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Option<Collider> {
     // Without contacts, no body collides. `check` reports the keys that need contacts.
@@ -83,7 +83,7 @@ fn surface(view: &View<'_>) -> Surface {
 }
 
 /// Prepares the ground for contacts: sets a missing height to 0, and adds the surface that stops bodies.
-pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut Environment) {
+pub(super) fn ground(root: &View<'_>, simulation: &SimulationSettings, environment: &mut Environment) {
     if let (Some(_), Some(ground)) = (simulation.contacts, &mut environment.ground) {
         let table = root.table("environment").variant("ground");
         ground.height = Some(ground.height.unwrap_or(0.0));
@@ -95,7 +95,7 @@ pub(super) fn ground(root: &View<'_>, simulation: &Simulation, environment: &mut
 /// bodies that begin below the ground.
 pub(super) fn check(
     root: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     environment: &Environment,
     context: &mut Context<'_>,

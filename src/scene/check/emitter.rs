@@ -12,7 +12,7 @@ use crate::dynamics::{Births, BodyId, Draw, Origin, ParticleSource, Shape, Surfa
 use crate::random::Stream;
 use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
-use crate::scene::{Body, Color, ContactLaw, Emitter, Simulation};
+use crate::scene::{Body, Color, ContactLaw, Emitter, SimulationSettings};
 
 /// The maximum number of particles of one emitter that are alive at the same time.
 const MAX_ALIVE: f64 = 1_000_000.0;
@@ -33,7 +33,7 @@ struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     view: &'a View<'a>,
-    simulation: &'a Simulation,
+    simulation: &'a SimulationSettings,
     bodies: &'a [Body],
     random: Stream,
     context: &'a mut Context<'c>,
@@ -41,7 +41,7 @@ struct Reader<'a, 'c> {
 
 pub(super) fn read(
     root: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Vec<Emitter> {

@@ -7,7 +7,8 @@ use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::Shape;
 use crate::scene::{
-    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, Simulation, Sky,
+    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, SimulationSettings,
+    Sky,
 };
 
 /// Reads the `look` of a body: the scale at which it is drawn, and its raw SDL.
@@ -32,7 +33,11 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
     }
 }
 
-pub(super) fn lights(root: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Vec<Light> {
+pub(super) fn lights(
+    root: &View<'_>,
+    simulation: &SimulationSettings,
+    context: &mut Context<'_>,
+) -> Vec<Light> {
     let read = |(name, _, view): (&str, _, View<'_>)| {
         for key in ["point", "area"] {
             motion::finite(view.table(key).raw("location"), simulation, context);

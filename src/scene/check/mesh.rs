@@ -9,12 +9,12 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Flaw, Mesh, Shape};
-use crate::scene::{Camera, Layout, Output, Simulation, mesh};
+use crate::scene::{Camera, Layout, Output, SimulationSettings, mesh};
 
 /// The meshes read so far. Bodies that name the same file with the same settings share one mesh.
 #[derive(Default)]
 pub(super) struct Meshes {
-    known: HashMap<Key, Result<Arc<Mesh>, String>>,
+    known: HashMap<MeshKey, Result<Arc<Mesh>, String>>,
     /// The path and the SHA-256 digest of each mesh file, in the order in which the scene names them.
     files: Vec<(PathBuf, [u8; 32])>,
     /// For each mesh, the source span that first names it, and its number of triangles.
@@ -31,7 +31,7 @@ const MOST_READINGS: usize = 1000;
 const MOST_TRIANGLES: usize = 4_000_000;
 
 /// Identifies a mesh: the path of its file, and the bits of the settings with which the file is read.
-type Key = (PathBuf, Vec<u64>);
+type MeshKey = (PathBuf, Vec<u64>);
 
 /// The total size of all scripts, in bytes, above which a warning suggests the layout `shared`.
 const LARGE: f64 = 5e8;
@@ -63,7 +63,7 @@ impl Meshes {
         }
         let (known, sizes) = (&mut self.known, &mut self.sizes);
         let before = sizes.len();
-        let read = |key: &Key| {
+        let read = |key: &MeshKey| {
             let mesh = read(&key.0).map_err(|error| error.to_string())?;
             sizes.push((span, mesh.triangles().len()));
             Ok(Arc::new(mesh))
@@ -89,7 +89,7 @@ impl Meshes {
     #[allow(clippy::cast_precision_loss, reason = "an estimate")]
     pub(super) fn too_large_to_repeat(
         &self,
-        simulation: &Simulation,
+        simulation: &SimulationSettings,
         camera: &Camera,
         output: Output,
     ) -> Option<Diagnostic> {

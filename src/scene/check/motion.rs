@@ -8,8 +8,8 @@ use super::trajectory::{self, Columns, Recording};
 use super::view::View;
 use super::{Context, asset, body, presence};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Interpolation, Key, Presence, Track};
-use crate::scene::Simulation;
+use crate::dynamics::{Interpolation, Keyframe, Presence, Track};
+use crate::scene::SimulationSettings;
 use crate::scene::expand::in_string;
 use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
@@ -29,7 +29,7 @@ pub(super) fn read(
     view: &View<'_>,
     place: (DVec3, DQuat),
     presence: &Presence,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Option<(BodyMotion, Presence)> {
     let motion = view.variant("motion")?;
@@ -61,7 +61,7 @@ fn by_formula(
     view: &View<'_>,
     place: (DVec3, DQuat),
     presence: &Presence,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> BodyMotion {
     finite_while(presence, view.raw("location"), simulation, context);
@@ -93,7 +93,7 @@ fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrien
 }
 
 /// Reports the first frame at which a formula has no finite value. If `node` is a list, checks each formula in the list.
-pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut Context<'_>) {
+pub(super) fn finite(node: Option<&Node>, simulation: &SimulationSettings, context: &mut Context<'_>) {
     finite_while(&Presence::ALWAYS, node, simulation, context);
 }
 
@@ -101,7 +101,7 @@ pub(super) fn finite(node: Option<&Node>, simulation: &Simulation, context: &mut
 fn finite_while(
     presence: &Presence,
     node: Option<&Node>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) {
     match node.map(|node| &node.value) {
@@ -149,7 +149,7 @@ fn by_keyframes(
     (location, orientation): (DVec3, DQuat),
     context: &mut Context<'_>,
 ) -> Option<BodyMotion> {
-    let mut keys: Vec<Key> = Vec::new();
+    let mut keys: Vec<Keyframe> = Vec::new();
     let mut last: Option<(f64, Span)> = None;
     for frame in view.tables("at") {
         let (Some(time), Some(span)) = (frame.number("time"), frame.span("time")) else { continue };
@@ -158,7 +158,7 @@ fn by_keyframes(
         }
         let before = keys.last();
         let turned = frame.has("orientation").then(|| body::orientation(name, &frame, context));
-        keys.push(Key {
+        keys.push(Keyframe {
             time,
             location: frame.vector("location").or(before.map(|key| key.location)).unwrap_or(location),
             orientation: turned.or(before.map(|key| key.orientation)).unwrap_or(orientation),
@@ -195,7 +195,7 @@ pub(super) fn camera_keyframes(
     look_at: Option<DVec3>,
     context: &mut Context<'_>,
 ) -> [Option<TimedVector>; 2] {
-    let (mut places, mut aims): (Vec<Key>, Vec<Key>) = (Vec::new(), Vec::new());
+    let (mut places, mut aims): (Vec<Keyframe>, Vec<Keyframe>) = (Vec::new(), Vec::new());
     let mut last: Option<(f64, Span)> = None;
     let mut aim = look_at;
     for frame in view.tables("at") {
@@ -208,7 +208,7 @@ pub(super) fn camera_keyframes(
             continue;
         }
         aim = frame.vector("look_at").or(aim);
-        let key = |location: DVec3| Key {
+        let key = |location: DVec3| Keyframe {
             time,
             location,
             orientation: DQuat::IDENTITY,
@@ -247,7 +247,7 @@ fn by_trajectory(
     name: &str,
     view: &View<'_>,
     orientation: DQuat,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Option<(BodyMotion, Presence)> {
     let span = view.span("file")?;

@@ -6,7 +6,7 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::{Body, Force, ForceKind, Simulation};
+use crate::scene::{Body, Force, ForceKind, SimulationSettings};
 
 /// The minimum ratio of the heaviest body's mass to the total mass of the other bodies.
 const HEAVY: f64 = 20.0;
@@ -14,7 +14,7 @@ const HEAVY: f64 = 20.0;
 /// Reports all forces and bodies that a planetary integrator does not support. Does nothing for other integrators.
 pub(super) fn check(
     root: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     bodies: &[Body],
     forces: &[Force],
     context: &mut Context<'_>,

@@ -4,8 +4,8 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Key, Presence};
-use crate::scene::Simulation;
+use crate::dynamics::{Keyframe, Presence};
+use crate::scene::SimulationSettings;
 
 /// If the interval between two rows of a body is longer than the median interval times this factor, the body may be absent between these
 /// rows.
@@ -15,7 +15,7 @@ const GAP: f64 = 1.5;
 pub(super) fn read(
     name: &str,
     view: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Presence {
     let (start, end) = (view.number("start"), view.number("end"));
@@ -38,7 +38,7 @@ pub(super) fn never(
     name: &str,
     view: &View<'_>,
     presence: &Presence,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) {
     let end = simulation.end();
@@ -57,7 +57,11 @@ pub(super) fn never(
 ///
 /// A gap is an interval between two rows of the body that is longer than [`GAP`] times the median interval, and in which the file has rows
 /// of other bodies.
-pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (Presence, Vec<usize>) {
+pub(super) fn of_rows(
+    keys: &[Keyframe],
+    times: &[f64],
+    simulation: &SimulationSettings,
+) -> (Presence, Vec<usize>) {
     let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
         return (Presence::ALWAYS, Vec::new());
     };
@@ -84,7 +88,7 @@ pub(super) fn of_rows(keys: &[Key], times: &[f64], simulation: &Simulation) -> (
 
 /// Rounds the first and the last time of a file to frames. A time less than one frame from the start or the end of the run becomes
 /// infinite.
-fn reach([first, last]: [f64; 2], simulation: &Simulation) -> [f64; 2] {
+fn reach([first, last]: [f64; 2], simulation: &SimulationSettings) -> [f64; 2] {
     let frame = (1.0 - 1e-6) / simulation.frame_rate;
     let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };
     let end = if last > simulation.end() - frame { f64::INFINITY } else { simulation.nearest_frame(last) };
@@ -96,7 +100,7 @@ pub(super) fn short(
     file: &str,
     times: &[f64],
     span: Span,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return };

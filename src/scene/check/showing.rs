@@ -4,7 +4,9 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::Shape;
-use crate::scene::{Arrow, BodyAxes, Ghosts, Quantity, Showing, Simulation, SpringLine, SpringLook, Trail};
+use crate::scene::{
+    Arrow, BodyAxes, Ghosts, Quantity, Showing, SimulationSettings, SpringLine, SpringLook, Trail,
+};
 
 /// The maximum number of ghosts of a body, which are its drawn past positions.
 const MAX_GHOSTS: f64 = 10_000.0;
@@ -15,7 +17,7 @@ pub(super) fn of_body(
     view: &View<'_>,
     shape: &Shape,
     fixed: bool,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Showing {
     let useless = match (shape.is_unbounded(), fixed) {
@@ -55,7 +57,7 @@ fn loads_without_cause(
     name: &str,
     arrows: &View<'_>,
     showing: &Showing,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) {
     let [weight, normal, friction] = showing.loads;
@@ -78,7 +80,7 @@ fn loads_without_cause(
 }
 
 /// Reads the ghosts of a body. Reports an error and returns `None` if there are too many ghosts.
-fn ghosts_of(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) -> Option<Ghosts> {
+fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
     if simulation.duration / every <= MAX_GHOSTS {
         return Some(Ghosts { every, arrows: view.boolean("arrows")? });

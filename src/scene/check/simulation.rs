@@ -7,13 +7,13 @@ use super::habits::is_file;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
-use crate::scene::Simulation;
+use crate::scene::SimulationSettings;
 
 /// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
 /// freely.
-pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
+pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (SimulationSettings, Counts) {
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
-    let mut simulation = Simulation {
+    let mut simulation = SimulationSettings {
         duration: view.number("duration").unwrap_or_default(),
         frame_rate: view.number("frame_rate").unwrap_or_default(),
         step: if method.adaptive { f64::INFINITY } else { view.number("step").unwrap_or_default() },
@@ -22,7 +22,7 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
         gravity: view.vector("gravity").unwrap_or_default(),
         contacts: contact::law(view),
     };
-    let Simulation { duration, frame_rate, step, .. } = simulation;
+    let SimulationSettings { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };
     if counts.are_too_many() {
         // Set the duration to 0, so that later code does not count an excessive number of frames.
@@ -33,7 +33,7 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (Simulation, Counts) {
 
 /// Reports a key that the integrator does not use: `step` for an adaptive integrator, `tolerance` for other integrators. Reports nothing
 /// if the integrator comes from `--set`, because the scene was written for another integrator.
-pub(super) fn check(view: &View<'_>, simulation: &Simulation, context: &mut Context<'_>) {
+pub(super) fn check(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) {
     let method = simulation.method;
     let (wrong, right, value) =
         if method.adaptive { ("step", "tolerance", "1e-9") } else { ("tolerance", "step", "0.001") };

@@ -6,7 +6,7 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{METHODS, Motor, suitable_step};
-use crate::scene::{Body, ContactLaw, Joint, JointKind, Simulation};
+use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings};
 
 /// The restitution from which a warning says that rebounds lose height.
 const ELASTIC: f64 = 0.9;
@@ -17,10 +17,10 @@ const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven
 /// Chooses a timestep that suits the thinnest colliding body, if the scene does not give `step`.
 pub(super) fn choose_step(
     root: &View<'_>,
-    simulation: Simulation,
+    simulation: SimulationSettings,
     counts: Counts,
     bodies: &[Body],
-) -> (Simulation, Counts) {
+) -> (SimulationSettings, Counts) {
     let gravity = simulation.gravity.length();
     let is_chosen = root.table("simulation").has("step");
     if simulation.contacts != Some(ContactLaw::TimeStepping) || is_chosen || gravity == 0.0 {
@@ -30,11 +30,16 @@ pub(super) fn choose_step(
     let thickness = bodies.iter().filter(touches).filter_map(|body| body.shape.half_thickness());
     let Some(thinnest) = thickness.min_by(f64::total_cmp) else { return (simulation, counts) };
     let step = suitable_step(2.0 * thinnest, gravity).min(counts.step);
-    (Simulation { step, ..simulation }, Counts { step, ..counts })
+    (SimulationSettings { step, ..simulation }, Counts { step, ..counts })
 }
 
 /// Reports integrators and rolling friction, which time stepping does not support, and warns of nearly elastic surfaces.
-pub(super) fn check(root: &View<'_>, simulation: &Simulation, bodies: &[Body], context: &mut Context<'_>) {
+pub(super) fn check(
+    root: &View<'_>,
+    simulation: &SimulationSettings,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) {
     let table = root.table("simulation");
     if !cfg!(feature = "time-stepping") {
         let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
@@ -101,7 +106,7 @@ const REBOUNDS: [&str; 2] = ["0.82", "95"];
 /// Reports joints, motors and joint arrows that time stepping does not support.
 pub(super) fn check_joints(
     root: &View<'_>,
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     joints: &[Joint],
     context: &mut Context<'_>,
 ) {

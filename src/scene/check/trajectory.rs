@@ -13,7 +13,7 @@ pub(super) use columns::Columns;
 use self::rows::{Reader, Wrong};
 use super::Context;
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
-use crate::dynamics::Key;
+use crate::dynamics::Keyframe;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
 
@@ -23,7 +23,7 @@ const MOST_BYTES: u64 = 256 << 20;
 /// The rows of a trajectory file, grouped by the name of the body. The name is `None` if the file has no column for the body.
 #[derive(Default)]
 pub(super) struct Recording {
-    pub(super) rows: HashMap<Option<String>, Vec<Key>>,
+    pub(super) rows: HashMap<Option<String>, Vec<Keyframe>>,
     /// The distinct times of all rows, in ascending order, s.
     pub(super) times: Vec<f64>,
     /// Whether the file has columns for the orientation.

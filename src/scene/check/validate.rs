@@ -3,7 +3,7 @@
 use super::habits::Owner;
 use super::{Context, habits, read, sdl, suggest};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec, quoted};
+use crate::scene::grammar::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::{Include, MATERIALS};
 
@@ -66,7 +66,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     }
 }
 
-fn missing_key(key: &Key, at: Option<Span>, path: &str) -> Diagnostic {
+fn missing_key(key: &KeySpec, at: Option<Span>, path: &str) -> Diagnostic {
     let message = format!("`{}` is missing in {path}", key.name);
     let error = Diagnostic::error(Code::MissingKey, message);
     let error = match at {

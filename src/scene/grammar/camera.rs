@@ -3,7 +3,7 @@
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
 use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
 use super::motion::{BETWEEN_KEYFRAMES, TIMED_VECTOR};
-use super::{Bound, Collection, Key, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Rule, TableSpec};
 
 fn projections() -> Vec<&'static str> {
     vec!["perspective", "orthographic"]
@@ -13,7 +13,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
     noun: "the camera",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
+        KeySpec::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
             .unit("m")
             .default(
                 "fits the whole motion into the picture; of eight or more bodies, up to a third that \
@@ -21,7 +21,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
                  start of the motion",
             )
             .also(&["position", "pos", "eye", "from"]),
-        Key::new(
+        KeySpec::new(
             "look_at",
             TIMED_VECTOR,
             "The point in the middle of the picture; numbers, or formulas of `t`",
@@ -29,22 +29,22 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         .unit("m")
         .default("the centre of the motion")
         .also(&["target", "lookat", "to"]),
-        Key::new(
+        KeySpec::new(
             "keyframes",
             Table(&CAMERA_KEYFRAMES),
             "Positions at given times; replaces `location` and `look_at`",
         )
         .default("none")
         .also(&["motion", "path"]),
-        Key::new("follow", Table(&FOLLOW), "A body to follow").default("none").also(&[
+        KeySpec::new("follow", Table(&FOLLOW), "A body to follow").default("none").also(&[
             "track",
             "tracking",
             "following",
         ]),
-        Key::new("orbit", Table(&ORBIT), "Circles around `look_at`, about the vertical")
+        KeySpec::new("orbit", Table(&ORBIT), "Circles around `look_at`, about the vertical")
             .default("none")
             .also(&["rotate", "turntable"]),
-        Key::new(
+        KeySpec::new(
             "angle",
             Timed(Bound::From(0.001, 179.999)),
             "The horizontal field of view, in perspective; a number, or a formula of `t`",
@@ -52,17 +52,17 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         .unit("degrees")
         .default_number(40.0)
         .also(&["fov", "field_of_view"]),
-        Key::new(
+        KeySpec::new(
             "projection",
             Choice(projections),
             "The projection: perspective, or orthographic (parallel rays)",
         )
         .default("perspective")
         .also(&["type", "kind"]),
-        Key::new("width", POSITIVE, "The width in view of an orthographic camera")
+        KeySpec::new("width", POSITIVE, "The width in view of an orthographic camera")
             .unit("m")
             .default("fits the whole motion into the picture"),
-        Key::new(
+        KeySpec::new(
             "aperture",
             POSITIVE,
             "The diameter of the lens; a larger one blurs things out of focus more",
@@ -70,17 +70,17 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         .unit("m")
         .default("everything is sharp")
         .also(&["blur"]),
-        Key::new("focus", VECTOR, "With `aperture`, the point that is sharp")
+        KeySpec::new("focus", VECTOR, "With `aperture`, the point that is sharp")
             .unit("m")
             .default("`look_at`")
             .also(&["focal_point"]),
-        Key::new(
+        KeySpec::new(
             "blur_samples",
             Integer(4, 10_000),
             "With `aperture`, the number of rays per pixel: more is smoother",
         )
         .default_number(60.0),
-        Key::new(
+        KeySpec::new(
             "shutter",
             NON_NEGATIVE,
             "Exposure time, starting at the time of a frame and ending by the next frame; blurs moving \
@@ -89,7 +89,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
         .unit("s")
         .default("0: everything is sharp")
         .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
-        Key::new(
+        KeySpec::new(
             "samples",
             Integer(2, 256),
             "With `shutter`, the number of moments averaged in an image: more is smoother and slower",
@@ -103,7 +103,7 @@ static CAMERA_KEYFRAMES: TableSpec = TableSpec {
     noun: "a camera's keyframes",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "at",
             List { of: &Table(&CAMERA_KEYFRAME), min: 1, max: 100_000 },
             "The keyframes, in order of time",
@@ -118,9 +118,15 @@ static CAMERA_KEYFRAME: TableSpec = TableSpec {
     noun: "a camera's keyframe",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Number(Bound::Any), "The time of the keyframe").unit("s").required().also(&["t"]),
-        Key::new("location", VECTOR, "The camera's position").unit("m").required().also(&["position", "pos"]),
-        Key::new("look_at", VECTOR, "The point in the middle of the picture")
+        KeySpec::new("time", Number(Bound::Any), "The time of the keyframe")
+            .unit("s")
+            .required()
+            .also(&["t"]),
+        KeySpec::new("location", VECTOR, "The camera's position")
+            .unit("m")
+            .required()
+            .also(&["position", "pos"]),
+        KeySpec::new("look_at", VECTOR, "The point in the middle of the picture")
             .unit("m")
             .default("that of the previous keyframe, or of the camera")
             .also(&["target"]),
@@ -131,14 +137,14 @@ static FOLLOW: TableSpec = TableSpec {
     noun: "a camera's `follow`",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Reference(Collection::Body), "The body to keep in the middle of the picture")
+        KeySpec::new("body", Reference(Collection::Body), "The body to keep in the middle of the picture")
             .required()
             .also(&["name", "target"]),
-        Key::new("distance", Number(Bound::Positive), "The camera's distance from it")
+        KeySpec::new("distance", Number(Bound::Positive), "The camera's distance from it")
             .unit("m")
             .default("the initial distance of `location` from it, or 11 times its width")
             .also(&["offset"]),
-        Key::new(
+        KeySpec::new(
             "lag",
             Number(Bound::NonNegative),
             "The camera's delay in seconds; smooths sudden motion of the body",
@@ -152,7 +158,7 @@ static FOLLOW: TableSpec = TableSpec {
 static ORBIT: TableSpec = TableSpec {
     noun: "an orbit",
     rule: Rule::Any,
-    keys: &[Key::new(
+    keys: &[KeySpec::new(
         "period",
         Number(Bound::Any),
         "The time of one revolution; negative for the other direction",

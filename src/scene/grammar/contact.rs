@@ -2,9 +2,9 @@
 
 use super::Kind::{Boolean, Number, Text};
 use super::keys::NON_NEGATIVE;
-use super::{Bound, Key};
+use super::{Bound, KeySpec};
 
-pub(super) const RESTITUTION: Key = Key::new(
+pub(super) const RESTITUTION: KeySpec = KeySpec::new(
     "restitution",
     Number(Bound::From(0.0, 1.0)),
     "The ratio of the rebound speed to the approach speed: 0 for no bounce, 1 for no loss. Of two values \
@@ -12,14 +12,14 @@ pub(super) const RESTITUTION: Key = Key::new(
 )
 .also(&["bounciness", "bounce", "elasticity", "cor", "coefficient_of_restitution"]);
 
-pub(super) const FRICTION: Key = Key::new(
+pub(super) const FRICTION: KeySpec = KeySpec::new(
     "friction",
     NON_NEGATIVE,
     "The coefficient of friction (Coulomb). Of two values the geometric mean counts",
 )
 .also(&["mu", "static_friction", "dynamic_friction", "kinetic_friction", "friction_coefficient"]);
 
-pub(super) const ROLLING_FRICTION: Key = Key::new(
+pub(super) const ROLLING_FRICTION: KeySpec = KeySpec::new(
     "rolling_friction",
     NON_NEGATIVE,
     "The ratio of the largest rolling resistance torque to the normal force. Of two values the larger counts",
@@ -27,16 +27,20 @@ pub(super) const ROLLING_FRICTION: Key = Key::new(
 .unit("m")
 .also(&["rolling_resistance"]);
 
-pub(super) const COLLIDES: Key = Key::new("collides", Boolean, "Whether it collides with other bodies")
-    .default("true; false for `axes`")
-    .also(&["collision", "collisions", "collide", "collider", "contact", "contacts", "solid"]);
+pub(super) const COLLIDES: KeySpec =
+    KeySpec::new("collides", Boolean, "Whether it collides with other bodies")
+        .default("true; false for `axes`")
+        .also(&["collision", "collisions", "collide", "collider", "contact", "contacts", "solid"]);
 
-pub(super) const COLLISION_GROUP: Key =
-    Key::new("collision_group", Text, "Any name; bodies of the same group do not collide with each other")
-        .default("none")
-        .also(&["group", "collision_layer", "layer"]);
+pub(super) const COLLISION_GROUP: KeySpec = KeySpec::new(
+    "collision_group",
+    Text,
+    "Any name; bodies of the same group do not collide with each other",
+)
+.default("none")
+.also(&["group", "collision_layer", "layer"]);
 
-pub(super) const JOINT_COLLIDES: Key = Key::new(
+pub(super) const JOINT_COLLIDES: KeySpec = KeySpec::new(
     "collides",
     Boolean,
     "Whether the two joined bodies can collide with each other; needs `simulation.contacts`",

@@ -3,26 +3,26 @@
 use super::Kind::{Boolean, Colors, Drawn, Integer, List, Number, Reference, Table};
 use super::contact::{FRICTION, RESTITUTION};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
-use super::{Bound, Collection, Key, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Rule, TableSpec};
 
 pub(super) static EMITTER: TableSpec = TableSpec {
     noun: "an emitter",
     rule: Rule::ExactlyOne(&["rate", "burst"]),
     keys: &[
-        Key::new("shape", Table(&SHAPE), "The form of each particle").required(),
-        Key::new("rate", POSITIVE, "Particles per second, at even intervals").unit("1/s").also(&[
+        KeySpec::new("shape", Table(&SHAPE), "The form of each particle").required(),
+        KeySpec::new("rate", POSITIVE, "Particles per second, at even intervals").unit("1/s").also(&[
             "frequency",
             "emission_rate",
             "per_second",
             "birth_rate",
         ]),
-        Key::new("burst", Integer(1, 1_000_000), "Particles emitted at once")
+        KeySpec::new("burst", Integer(1, 1_000_000), "Particles emitted at once")
             .also(&["count", "number", "amount"]),
-        Key::new("every", POSITIVE, "The time from one burst to the next")
+        KeySpec::new("every", POSITIVE, "The time from one burst to the next")
             .unit("s")
             .default("one burst, at `start`")
             .also(&["interval", "period"]),
-        Key::new(
+        KeySpec::new(
             "start",
             ANY,
             "When the first is emitted; if before 0, some already exist when the run begins",
@@ -30,20 +30,20 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         .unit("s")
         .default_number(0.0)
         .also(&["begin", "t0"]),
-        Key::new("end", ANY, "When the last is emitted")
+        KeySpec::new("end", ANY, "When the last is emitted")
             .unit("s")
             .default("the end of the run")
             .also(&["stop", "until", "t1"]),
-        Key::new("lifetime", Drawn(Bound::Positive), "How long each exists")
+        KeySpec::new("lifetime", Drawn(Bound::Positive), "How long each exists")
             .unit("s")
             .default("it stays")
             .also(&["life", "duration", "age", "lives"]),
-        Key::new("from", Table(&FROM), "Where they are emitted; uniformly distributed")
+        KeySpec::new("from", Table(&FROM), "Where they are emitted; uniformly distributed")
             .also(&["origin", "at", "location", "position", "source"]),
-        Key::new("direction", AXIS, "Their initial direction; in the axes of the emitting body, if any")
+        KeySpec::new("direction", AXIS, "Their initial direction; in the axes of the emitting body, if any")
             .default("up; for a surface, its normal")
             .also(&["towards", "axis"]),
-        Key::new(
+        KeySpec::new(
             "spread",
             Number(Bound::From(0.0, 180.0)),
             "The largest angle from that direction, uniform over the solid angle; 180 for all directions",
@@ -51,7 +51,7 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         .unit("degrees")
         .default_number(0.0)
         .also(&["cone", "cone_angle", "spread_angle"]),
-        Key::new(
+        KeySpec::new(
             "speed",
             Drawn(Bound::Any),
             "Their initial speed; the velocity of the emitting body is added",
@@ -59,32 +59,35 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         .unit("m/s")
         .default_number(0.0)
         .also(&["velocity", "v", "initial_speed"]),
-        Key::new("seed", Integer(0, 4_294_967_295), "The seed of their random numbers")
+        KeySpec::new("seed", Integer(0, 4_294_967_295), "The seed of their random numbers")
             .default("the `seed` of the scene")
             .also(&["random_seed"]),
-        Key::new("mass", POSITIVE, "The mass of each").unit("kg").default_number(1.0).also(&["m", "weight"]),
-        Key::new("charge", ANY, "The electric charge of each, for the forces `coulomb` and `lorentz`")
+        KeySpec::new("mass", POSITIVE, "The mass of each")
+            .unit("kg")
+            .default_number(1.0)
+            .also(&["m", "weight"]),
+        KeySpec::new("charge", ANY, "The electric charge of each, for the forces `coulomb` and `lorentz`")
             .unit("C")
             .default_number(0.0)
             .also(&["q", "electric_charge"]),
-        Key::new("color", Colors, "Their color; of several, the first at birth and the last at death")
+        KeySpec::new("color", Colors, "Their color; of several, the first at birth and the last at death")
             .default("white")
             .also(&["colors", "colour", "colours"]),
-        Key::new(
+        KeySpec::new(
             "size",
             List { of: &NON_NEGATIVE, min: 1, max: 64 },
             "Their drawn size as a factor, from birth to death: with `[1, 0]` they shrink to nothing",
         )
         .default_numbers(&[1.0])
         .also(&["sizes", "scale"]),
-        Key::new(
+        KeySpec::new(
             "glow",
             NON_NEGATIVE,
             "Their own glow: 1 shows their color unchanged, more is nearer to white",
         )
         .default_number(0.0)
         .also(&["emission", "brightness", "luminous"]),
-        Key::new(
+        KeySpec::new(
             "streak",
             NON_NEGATIVE,
             "Draws each as a streak along its path during this time, as a camera shows sparks",
@@ -92,7 +95,7 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         .unit("s")
         .default_number(0.0)
         .also(&["trail", "tail", "exposure"]),
-        Key::new(
+        KeySpec::new(
             "collides",
             Boolean,
             "Whether they collide with bodies and the ground: they bounce, slide and rest. Needs \
@@ -108,29 +111,32 @@ pub(super) static EMITTER: TableSpec = TableSpec {
 static SHAPE: TableSpec = TableSpec {
     noun: "the shape of a particle",
     rule: Rule::ExactlyOne(&["sphere"]),
-    keys: &[Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"])],
+    keys: &[KeySpec::new("sphere", Table(&SPHERE), "A ball").also(&["ball"])],
 };
 
 static SPHERE: TableSpec = TableSpec {
     noun: "the ball of a particle",
     rule: Rule::Any,
-    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
+    keys: &[KeySpec::new("radius", POSITIVE, "Its radius")
+        .unit("m")
+        .required()
+        .also(&["r", "size", "diameter"])],
 };
 
 static FROM: TableSpec = TableSpec {
     noun: "the origin of particles",
     rule: Rule::ExactlyOne(&["point", "disc", "box", "surface"]),
     keys: &[
-        Key::new("point", VECTOR, "A point").unit("m").also(&["location", "position"]),
-        Key::new("disc", Table(&DISC), "A flat disc").also(&["disk", "circle"]),
-        Key::new("box", Table(&BOX), "The volume of a box").also(&["cube", "volume"]),
-        Key::new(
+        KeySpec::new("point", VECTOR, "A point").unit("m").also(&["location", "position"]),
+        KeySpec::new("disc", Table(&DISC), "A flat disc").also(&["disk", "circle"]),
+        KeySpec::new("box", Table(&BOX), "The volume of a box").also(&["cube", "volume"]),
+        KeySpec::new(
             "surface",
             Reference(Collection::Body),
             "The surface of a body: a sphere, box, cylinder, capsule, cone, torus, mesh or heightfield",
         )
         .also(&["surface_of", "mesh"]),
-        Key::new(
+        KeySpec::new(
             "body",
             Reference(Collection::Body),
             "The emitting body; the position is in its axes, from its centre",
@@ -144,12 +150,12 @@ static DISC: TableSpec = TableSpec {
     noun: "a disc",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", VECTOR, "Its middle")
+        KeySpec::new("location", VECTOR, "Its middle")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["center", "centre", "point", "position"]),
-        Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r"]),
-        Key::new("normal", AXIS, "What stands on it").default("The normal of the disc"),
+        KeySpec::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r"]),
+        KeySpec::new("normal", AXIS, "What stands on it").default("The normal of the disc"),
     ],
 };
 
@@ -157,11 +163,11 @@ static BOX: TableSpec = TableSpec {
     noun: "a box of emission",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", VECTOR, "Its middle")
+        KeySpec::new("location", VECTOR, "Its middle")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["center", "centre", "point", "position"]),
-        Key::new("size", super::Kind::Numbers(3, Bound::Positive), "The full lengths of its edges")
+        KeySpec::new("size", super::Kind::Numbers(3, Bound::Positive), "The full lengths of its edges")
             .unit("m")
             .required()
             .also(&["edges", "dimensions"]),

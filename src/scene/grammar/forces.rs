@@ -6,18 +6,18 @@ use crate::scene::law::{OF_PLACE, QUANTITIES};
 use super::Kind::{Boolean, Either, List, ListOfBody, Number, OfBody, Reference, Table};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
-use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 
 /// Describes the key `on`, a list of the bodies that a force acts on.
-const fn on(meaning: &'static str, default: &'static str) -> Key {
-    Key::new("on", List { of: &Reference(Collection::Target), min: 1, max: usize::MAX }, meaning)
+const fn on(meaning: &'static str, default: &'static str) -> KeySpec {
+    KeySpec::new("on", List { of: &Reference(Collection::Target), min: 1, max: usize::MAX }, meaning)
         .default(default)
         .also(&["bodies", "body"])
 }
 
 /// Describes the key `between`, which names groups of bodies. Forces act between bodies of different groups.
-const fn between(meaning: &'static str) -> Key {
-    Key::new("between", List { of: &GROUP, min: 2, max: usize::MAX }, meaning)
+const fn between(meaning: &'static str) -> KeySpec {
+    KeySpec::new("between", List { of: &GROUP, min: 2, max: usize::MAX }, meaning)
         .default("among all of `on`")
         .also(&["groups", "pairs"])
 }
@@ -29,11 +29,15 @@ static GROUP: Kind = Either(&[
 ]);
 
 /// Describes the key `softening`, a length that keeps the force between two bodies finite at small distances.
-const fn softening() -> Key {
-    Key::new("softening", NON_NEGATIVE, "Softens close encounters: √(r² + softening²) replaces r (Plummer)")
-        .unit("m")
-        .default_number(0.0)
-        .also(&["epsilon", "eps"])
+const fn softening() -> KeySpec {
+    KeySpec::new(
+        "softening",
+        NON_NEGATIVE,
+        "Softens close encounters: √(r² + softening²) replaces r (Plummer)",
+    )
+    .unit("m")
+    .default_number(0.0)
+    .also(&["epsilon", "eps"])
 }
 
 pub(super) static FORCE: TableSpec = TableSpec {
@@ -52,48 +56,46 @@ pub(super) static FORCE: TableSpec = TableSpec {
         "formula",
     ]),
     keys: &[
-        Key::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
+        KeySpec::new("constant", Table(&CONSTANT), "The same force or torque on several bodies")
             .also(&["uniform"]),
-        Key::new("drag", Table(&DRAG), "The resistance of air or a liquid, optionally with wind").also(&[
-            "air",
-            "friction",
-            "resistance",
-        ]),
-        Key::new(
+        KeySpec::new("drag", Table(&DRAG), "The resistance of air or a liquid, optionally with wind")
+            .also(&["air", "friction", "resistance"]),
+        KeySpec::new(
             "spring",
             Table(&SPRING),
             "A spring with a damper between bodies or points, or a chain of such springs",
         ),
-        Key::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
+        KeySpec::new("gravitation", Table(&GRAVITATION), "Newton's gravitation between all pairs of bodies")
             .also(&["newton", "gravity"]),
-        Key::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
+        KeySpec::new("coulomb", Table(&COULOMB), "Coulomb's force between all pairs of charged bodies")
             .also(&["electrostatic"]),
-        Key::new("lorentz", Table(&LORENTZ), "Uniform electric and magnetic fields acting on charged bodies")
-            .also(&["field", "electromagnetic", "magnetic", "electric"]),
-        Key::new(
+        KeySpec::new(
+            "lorentz",
+            Table(&LORENTZ),
+            "Uniform electric and magnetic fields acting on charged bodies",
+        )
+        .also(&["field", "electromagnetic", "magnetic", "electric"]),
+        KeySpec::new(
             "lennard_jones",
             Table(&LENNARD_JONES),
             "The Lennard-Jones force between neutral atoms: repulsion when close, attraction farther away",
         )
         .also(&["lennard-jones", "lj", "LJ", "van_der_waals"]),
-        Key::new("buoyancy", Table(&BUOYANCY), "The buoyancy of a liquid at rest").also(&[
+        KeySpec::new("buoyancy", Table(&BUOYANCY), "The buoyancy of a liquid at rest").also(&[
             "archimedes",
             "float",
             "water",
             "liquid",
         ]),
-        Key::new(
+        KeySpec::new(
             "dipoles",
             Table(&DIPOLES),
             "Magnetic dipoles on bodies, in each other's fields and a uniform one",
         )
         .also(&["magnetic_dipoles", "magnetic-dipoles", "magnets", "dipole"]),
-        Key::new("j2", Table(&J2_KEYS), "The correction of a planet's gravity for its flattening").also(&[
-            "J2",
-            "oblateness",
-            "flattening",
-        ]),
-        Key::new(
+        KeySpec::new("j2", Table(&J2_KEYS), "The correction of a planet's gravity for its flattening")
+            .also(&["J2", "oblateness", "flattening"]),
+        KeySpec::new(
             "formula",
             Table(&FORMULA),
             "A force given by formulas of a body's position, velocity and properties",
@@ -107,10 +109,10 @@ static CONSTANT: TableSpec = TableSpec {
     noun: "a constant force",
     rule: Rule::Any,
     keys: &[
-        Key::new("force", VECTOR, "The force at the centre of each body, in world axes")
+        KeySpec::new("force", VECTOR, "The force at the centre of each body, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("torque", VECTOR, "The torque on each body, in world axes")
+        KeySpec::new("torque", VECTOR, "The torque on each body, in world axes")
             .unit("N·m")
             .default_numbers(&[0.0, 0.0, 0.0]),
         on("The bodies under the force", "all that can move"),
@@ -121,7 +123,7 @@ static DRAG: TableSpec = TableSpec {
     noun: "a drag",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "linear",
             NON_NEGATIVE,
             "Force per speed relative to the air, against it: for slow or small bodies",
@@ -129,11 +131,15 @@ static DRAG: TableSpec = TableSpec {
         .unit("N·s/m")
         .default_number(0.0)
         .also(&["coefficient", "c", "damping", "viscous"]),
-        Key::new("quadratic", NON_NEGATIVE, "Force per speed squared: ½ density × drag coefficient × area")
-            .unit("N·s²/m²")
-            .default_number(0.0)
-            .also(&["square", "turbulent"]),
-        Key::new("wind", VECTOR, "The velocity of the air")
+        KeySpec::new(
+            "quadratic",
+            NON_NEGATIVE,
+            "Force per speed squared: ½ density × drag coefficient × area",
+        )
+        .unit("N·s²/m²")
+        .default_number(0.0)
+        .also(&["square", "turbulent"]),
+        KeySpec::new("wind", VECTOR, "The velocity of the air")
             .unit("m/s")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["velocity", "air", "flow"]),
@@ -145,7 +151,7 @@ static SPRING: TableSpec = TableSpec {
     noun: "a spring",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "between",
             List {
                 of: &Either(&[Reference(Collection::Body), VECTOR, Table(&END)]),
@@ -158,15 +164,15 @@ static SPRING: TableSpec = TableSpec {
         .unit("m")
         .required()
         .also(&["bodies", "ends", "connects"]),
-        Key::new("stiffness", NON_NEGATIVE, "Force per change of length; of each spring of a chain")
+        KeySpec::new("stiffness", NON_NEGATIVE, "Force per change of length; of each spring of a chain")
             .unit("N/m")
             .required()
             .also(&["k", "constant", "strength"]),
-        Key::new("damping", NON_NEGATIVE, "Force per rate of change of length, against it")
+        KeySpec::new("damping", NON_NEGATIVE, "Force per rate of change of length, against it")
             .unit("N·s/m")
             .default_number(0.0)
             .also(&["c", "friction", "damper"]),
-        Key::new("rest_length", NON_NEGATIVE, "The length without force")
+        KeySpec::new("rest_length", NON_NEGATIVE, "The length without force")
             .unit("m")
             .default("each spring's length at the start")
             .also(&["length", "rest"]),
@@ -180,8 +186,8 @@ pub(in crate::scene) static END: TableSpec = TableSpec {
     noun: "a point of a body",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Reference(Collection::Body), "The body of this end").required(),
-        Key::new("at", VECTOR, "The point in the body's own axes, relative to its centre of mass")
+        KeySpec::new("body", Reference(Collection::Body), "The body of this end").required(),
+        KeySpec::new("at", VECTOR, "The point in the body's own axes, relative to its centre of mass")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["point", "location", "position", "offset", "anchor"]),
@@ -192,12 +198,12 @@ static GRAVITATION: TableSpec = TableSpec {
     noun: "gravitation",
     rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
-        Key::new("constant", POSITIVE, "Newton's constant G")
+        KeySpec::new("constant", POSITIVE, "Newton's constant G")
             .unit("m³/(kg·s²)")
             .default_number(Gravitation::CONSTANT)
             .also(&["g", "G", "strength"]),
         softening(),
-        Key::new(
+        KeySpec::new(
             "opening_angle",
             Number(Bound::From(0.0, 1.0)),
             "For thousands of bodies: a Barnes–Hut tree with quadrupoles groups distant bodies if their \
@@ -218,7 +224,7 @@ static COULOMB: TableSpec = TableSpec {
     noun: "a Coulomb force",
     rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
-        Key::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
+        KeySpec::new("constant", POSITIVE, "Coulomb's constant, 1/4πε₀")
             .unit("N·m²/C²")
             .default_number(Coulomb::CONSTANT)
             .also(&["k", "strength"]),
@@ -235,15 +241,19 @@ static LENNARD_JONES: TableSpec = TableSpec {
     noun: "a Lennard-Jones force",
     rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
-        Key::new("epsilon", POSITIVE, "The depth of the potential 4 epsilon ((sigma/r)¹² − (sigma/r)⁶)")
+        KeySpec::new("epsilon", POSITIVE, "The depth of the potential 4 epsilon ((sigma/r)¹² − (sigma/r)⁶)")
             .unit("J")
             .required()
             .also(&["eps", "depth", "e", "well_depth"]),
-        Key::new("sigma", POSITIVE, "The distance at which the potential is 0; its minimum is at 1.12 sigma")
-            .unit("m")
-            .required()
-            .also(&["diameter", "s", "distance", "size"]),
-        Key::new(
+        KeySpec::new(
+            "sigma",
+            POSITIVE,
+            "The distance at which the potential is 0; its minimum is at 1.12 sigma",
+        )
+        .unit("m")
+        .required()
+        .also(&["diameter", "s", "distance", "size"]),
+        KeySpec::new(
             "cutoff",
             POSITIVE,
             "The distance beyond which there is no force; the potential is shifted to be 0 there",
@@ -251,7 +261,7 @@ static LENNARD_JONES: TableSpec = TableSpec {
         .unit("m")
         .default("2.5 sigma")
         .also(&["r_cut", "rc", "range", "cut_off"]),
-        Key::new(
+        KeySpec::new(
             "smooth",
             Boolean,
             "Shift the force as well, to be 0 at the cutoff: conserves energy better, but weakens the \
@@ -271,11 +281,11 @@ static BUOYANCY: TableSpec = TableSpec {
     noun: "buoyancy",
     rule: Rule::Any,
     keys: &[
-        Key::new("density", POSITIVE, "The density of the liquid; water has 1000")
+        KeySpec::new("density", POSITIVE, "The density of the liquid; water has 1000")
             .unit("kg/m³")
             .required()
             .also(&["rho", "fluid_density"]),
-        Key::new(
+        KeySpec::new(
             "level",
             ANY,
             "The height of its surface, measured from the origin against `simulation.gravity`",
@@ -291,11 +301,11 @@ static DIPOLES: TableSpec = TableSpec {
     noun: "magnetic dipoles",
     rule: Rule::AtMostOne(&[&["on", "between"]]),
     keys: &[
-        Key::new("constant", POSITIVE, "The magnetic constant over 4π, μ₀/4π")
+        KeySpec::new("constant", POSITIVE, "The magnetic constant over 4π, μ₀/4π")
             .unit("N/A²")
             .default_number(Dipoles::CONSTANT)
             .also(&["k", "strength"]),
-        Key::new("field", VECTOR, "A uniform magnetic field, which aligns them")
+        KeySpec::new("field", VECTOR, "A uniform magnetic field, which aligns them")
             .unit("T")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["b", "B", "magnetic"]),
@@ -311,24 +321,24 @@ static J2_KEYS: TableSpec = TableSpec {
     noun: "the gravity of a bulge",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "of",
             Reference(Collection::Body),
             "The planet; its spherical attraction needs a `gravitation`",
         )
         .required()
         .also(&["planet", "body", "center"]),
-        Key::new("j2", ANY, "The coefficient J₂ of its gravity: 1.0826e-3 for the earth")
+        KeySpec::new("j2", ANY, "The coefficient J₂ of its gravity: 1.0826e-3 for the earth")
             .required()
             .also(&["J2", "coefficient"]),
-        Key::new("radius", POSITIVE, "The radius of its equator, to which J₂ belongs")
+        KeySpec::new("radius", POSITIVE, "The radius of its equator, to which J₂ belongs")
             .unit("m")
             .required()
             .also(&["r", "R", "equatorial_radius"]),
-        Key::new("axis", AXIS, "The rotation axis, in the planet's own axes")
+        KeySpec::new("axis", AXIS, "The rotation axis, in the planet's own axes")
             .default_numbers(&[0.0, 1.0, 0.0])
             .also(&["pole"]),
-        Key::new("constant", POSITIVE, "Newton's constant G")
+        KeySpec::new("constant", POSITIVE, "Newton's constant G")
             .unit("m³/(kg·s²)")
             .default_number(Gravitation::CONSTANT)
             .also(&["g", "G"]),
@@ -340,7 +350,7 @@ static FORMULA: TableSpec = TableSpec {
     noun: "a force by formulas",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "force",
             ListOfBody(3, QUANTITIES),
             "The force at the centre of each body, in world axes: `x`, `y`, `z` are its position, `r` its \
@@ -349,7 +359,7 @@ static FORMULA: TableSpec = TableSpec {
         .unit("N")
         .required()
         .also(&["f", "F", "formula", "value"]),
-        Key::new(
+        KeySpec::new(
             "potential",
             OfBody(OF_PLACE),
             "The potential energy of each body. The force at rest must equal −∂U/∂x, −∂U/∂y, −∂U/∂z; it \
@@ -366,11 +376,11 @@ static LORENTZ: TableSpec = TableSpec {
     noun: "a Lorentz force",
     rule: Rule::Any,
     keys: &[
-        Key::new("electric", VECTOR, "The electric field E")
+        KeySpec::new("electric", VECTOR, "The electric field E")
             .unit("V/m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["e", "E"]),
-        Key::new("magnetic", VECTOR, "The magnetic field B: the force is q (E + v × B)")
+        KeySpec::new("magnetic", VECTOR, "The magnetic field B: the force is q (E + v × B)")
             .unit("T")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["b", "B"]),

@@ -6,41 +6,45 @@ use super::forces::END;
 use super::keys::{POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::showing::JOINT_ARROWS;
-use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 
 pub(super) static JOINT: TableSpec = TableSpec {
     noun: "a joint",
     rule: Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"]),
     keys: &[
-        Key::new(
+        KeySpec::new(
             "ball",
             Table(&BALL),
             "A ball-and-socket joint: a common point of both bodies, with free rotation",
         )
         .also(&["spherical", "socket", "point", "pin"]),
-        Key::new("hinge", Table(&HINGE), "Both bodies share one axis of rotation, like a door and its frame")
-            .also(&["revolute", "axle", "pivot"]),
-        Key::new(
+        KeySpec::new(
+            "hinge",
+            Table(&HINGE),
+            "Both bodies share one axis of rotation, like a door and its frame",
+        )
+        .also(&["revolute", "axle", "pivot"]),
+        KeySpec::new(
             "slider",
             Table(&SLIDER),
             "The second body slides along an axis of the first, without rotation between them",
         )
         .also(&["prismatic", "rail"]),
-        Key::new("fixed", Table(&FIXED), "The two move as one body").also(&["weld", "rigid", "glue"]),
-        Key::new("rod", Table(&ROD), "A massless rod keeps the distance of two points constant")
+        KeySpec::new("fixed", Table(&FIXED), "The two move as one body").also(&["weld", "rigid", "glue"]),
+        KeySpec::new("rod", Table(&ROD), "A massless rod keeps the distance of two points constant")
             .also(&["distance", "link", "bar", "stick"]),
-        Key::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
+        KeySpec::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
             .also(&["string", "cable", "thread", "cord"]),
-        Key::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
-        Key::new("gear", Table(&GEAR), "Couples two hinges or sliders at a ratio").also(&["gears"]),
+        KeySpec::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
+        KeySpec::new("gear", Table(&GEAR), "Couples two hinges or sliders at a ratio").also(&["gears"]),
         LINKS,
     ],
 };
 
 static AN_END: Kind = Either(&[Reference(Collection::Body), VECTOR, Table(&END)]);
 
-const fn between(meaning: &'static str) -> Key {
-    Key::new("between", List { of: &AN_END, min: 2, max: 2 }, meaning)
+const fn between(meaning: &'static str) -> KeySpec {
+    KeySpec::new("between", List { of: &AN_END, min: 2, max: 2 }, meaning)
         .unit("m")
         .required()
         .also(&["bodies", "ends", "connects"])
@@ -52,30 +56,36 @@ const PAIR: &str =
 const POINTS: &str =
     "Its two ends: each the name of a body (its centre), a point of a body, or a point of the world";
 
-const AT: Key =
-    Key::new("at", VECTOR, "The joint's position in the world at the start; not needed if an end gives it")
-        .unit("m")
-        .also(&["point", "location", "position", "anchor"]);
+const AT: KeySpec = KeySpec::new(
+    "at",
+    VECTOR,
+    "The joint's position in the world at the start; not needed if an end gives it",
+)
+.unit("m")
+.also(&["point", "location", "position", "anchor"]);
 
-const fn axis(meaning: &'static str) -> Key {
-    Key::new("axis", Direction(3), meaning).required().also(&["direction", "normal"])
+const fn axis(meaning: &'static str) -> KeySpec {
+    KeySpec::new("axis", Direction(3), meaning).required().also(&["direction", "normal"])
 }
 
-const LOOK: Key =
-    Key::new("look", Either(&LOOK_KINDS), "Its look: `\"none\"`, or the size and color of its rod or pin")
-        .default("steel, sized to fit its bodies")
-        .also(&["draw", "drawn", "visible", "line"]);
+const LOOK: KeySpec = KeySpec::new(
+    "look",
+    Either(&LOOK_KINDS),
+    "Its look: `\"none\"`, or the size and color of its rod or pin",
+)
+.default("steel, sized to fit its bodies")
+.also(&["draw", "drawn", "visible", "line"]);
 static LOOK_KINDS: [Kind; 2] = [Choice(|| vec!["none"]), Table(&LOOK_TABLE)];
 
 static LOOK_TABLE: TableSpec = TableSpec {
     noun: "the look of a joint",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "The radius of the rod or of the pin")
+        KeySpec::new("radius", POSITIVE, "The radius of the rod or of the pin")
             .unit("m")
             .default("a fraction of the smaller body's size")
             .also(&["thickness", "width", "size"]),
-        Key::new("color", Color, "Its color").default("that of steel").also(&["colour"]),
+        KeySpec::new("color", Color, "Its color").default("that of steel").also(&["colour"]),
     ],
 };
 
@@ -138,7 +148,7 @@ static ROD: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         between(POINTS),
-        Key::new("length", POSITIVE, "The constant distance of its ends")
+        KeySpec::new("length", POSITIVE, "The constant distance of its ends")
             .unit("m")
             .default("their distance at the start")
             .also(&["distance", "l"]),
@@ -150,26 +160,26 @@ static ROD: TableSpec = TableSpec {
 
 static NUMBER: Kind = Number(Bound::Any);
 
-const fn limits(meaning: &'static str) -> Key {
-    Key::new("limits", List { of: &NUMBER, min: 2, max: 2 }, meaning).default("none")
+const fn limits(meaning: &'static str) -> KeySpec {
+    KeySpec::new("limits", List { of: &NUMBER, min: 2, max: 2 }, meaning).default("none")
 }
 
-const fn motor(table: &'static TableSpec, meaning: &'static str) -> Key {
-    Key::new("motor", Table(table), meaning).default("none").also(&["drive", "engine", "actuator"])
+const fn motor(table: &'static TableSpec, meaning: &'static str) -> KeySpec {
+    KeySpec::new("motor", Table(table), meaning).default("none").also(&["drive", "engine", "actuator"])
 }
 
 static TURNING: TableSpec = TableSpec {
     noun: "the motor of a hinge",
     rule: Rule::ExactlyOne(&["speed", "angle"]),
     keys: &[
-        Key::new("speed", NUMBER_ANY, "The speed to keep, as far as the torque allows")
+        KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the torque allows")
             .unit("rad/s")
             .also(&["rate", "angular_velocity", "velocity", "omega"]),
-        Key::new("torque", POSITIVE, "With `speed`: the largest torque")
+        KeySpec::new("torque", POSITIVE, "With `speed`: the largest torque")
             .unit("N·m")
             .default("none; required with `speed`")
             .also(&["max_torque", "strength"]),
-        Key::new(
+        KeySpec::new(
             "angle",
             Timed(Bound::Any),
             "The angle to keep, a formula of the time; 0 at the start. Exact without `stiffness`",
@@ -185,14 +195,14 @@ static MOVING: TableSpec = TableSpec {
     noun: "the motor of a slider",
     rule: Rule::ExactlyOne(&["speed", "position"]),
     keys: &[
-        Key::new("speed", NUMBER_ANY, "The speed to keep, as far as the force allows")
+        KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the force allows")
             .unit("m/s")
             .also(&["rate", "velocity"]),
-        Key::new("force", POSITIVE, "With `speed`: the largest force")
+        KeySpec::new("force", POSITIVE, "With `speed`: the largest force")
             .unit("N")
             .default("none; required with `speed`")
             .also(&["max_force", "strength"]),
-        Key::new(
+        KeySpec::new(
             "position",
             Timed(Bound::Any),
             "The position along the axis to keep, a formula of the time; 0 at the start. Exact without \
@@ -207,22 +217,25 @@ static MOVING: TableSpec = TableSpec {
 
 const NUMBER_ANY: Kind = Number(Bound::Any);
 
-const STIFFNESS: Key =
-    Key::new("stiffness", POSITIVE, "Makes the motor yield like a spring of this stiffness")
+const STIFFNESS: KeySpec =
+    KeySpec::new("stiffness", POSITIVE, "Makes the motor yield like a spring of this stiffness")
         .default("none: the motor does not yield")
         .also(&["k"]);
 
-const DAMPING: Key =
-    Key::new("damping", Number(Bound::NonNegative), "With `stiffness`: the damping parallel to that spring")
-        .default_number(0.0)
-        .also(&["damper", "d"]);
+const DAMPING: KeySpec = KeySpec::new(
+    "damping",
+    Number(Bound::NonNegative),
+    "With `stiffness`: the damping parallel to that spring",
+)
+.default_number(0.0)
+.also(&["damper", "d"]);
 
 static ROPE: TableSpec = TableSpec {
     noun: "a rope",
     rule: Rule::Any,
     keys: &[
         between(POINTS),
-        Key::new("length", POSITIVE, "The largest distance of its ends")
+        KeySpec::new("length", POSITIVE, "The largest distance of its ends")
             .unit("m")
             .default("their distance at the start")
             .also(&["distance", "max_length", "l"]),
@@ -237,7 +250,7 @@ static PULLEY: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         between(POINTS),
-        Key::new(
+        KeySpec::new(
             "over",
             List { of: &AN_END, min: 2, max: 2 },
             "The two points over which it runs: the first end's, then the second's",
@@ -245,15 +258,19 @@ static PULLEY: TableSpec = TableSpec {
         .unit("m")
         .required()
         .also(&["wheels", "through", "via", "anchors"]),
-        Key::new(
+        KeySpec::new(
             "ratio",
             POSITIVE,
             "How far the first end moves out for each metre that the second moves in",
         )
         .default_number(1.0),
-        Key::new("length", POSITIVE, "The length of the first part plus `ratio` times that of the second")
-            .unit("m")
-            .default("as at the start"),
+        KeySpec::new(
+            "length",
+            POSITIVE,
+            "The length of the first part plus `ratio` times that of the second",
+        )
+        .unit("m")
+        .default("as at the start"),
         JOINT_COLLIDES,
         LOOK,
         JOINT_ARROWS,
@@ -266,7 +283,7 @@ static GEAR: TableSpec = TableSpec {
     noun: "a gear",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "joints",
             List { of: &A_JOINT, min: 2, max: 2 },
             "The names of the two coupled hinges or sliders; `[\"axle[i]\", \"axle[i+1]\"]` couples copies \
@@ -274,7 +291,7 @@ static GEAR: TableSpec = TableSpec {
         )
         .required()
         .also(&["between", "hinges", "axles"]),
-        Key::new(
+        KeySpec::new(
             "ratio",
             NUMBER_ANY,
             "The motion of the second per unit motion of the first; negative for opposite directions, as \

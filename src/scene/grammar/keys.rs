@@ -17,7 +17,7 @@ use super::motion::MOTION;
 use super::repeat::{COUNT, REPEAT};
 use super::shapes::SHAPE;
 use super::showing;
-use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 use crate::dynamics::{METHODS, Method};
 use crate::scene::sdl::Where;
 use crate::scene::{ContactLaw, Finish, Layout, MATERIALS, Preset};
@@ -53,57 +53,57 @@ pub static SCENE: TableSpec = TableSpec {
     noun: "a scene",
     rule: Rule::Any,
     keys: &[
-        Key::new("title", Text, "The title of the scene, at the head of every script")
+        KeySpec::new("title", Text, "The title of the scene, at the head of every script")
             .default("none")
             .also(&["name"]),
-        Key::new(
+        KeySpec::new(
             "include",
             List { of: &Text, min: 0, max: usize::MAX },
             "Scene files to read first; this file's values override theirs",
         )
         .default_numbers(&[])
         .also(&["includes", "import"]),
-        Key::new("seed", Integer(0, 4_294_967_295), "The seed of the random numbers in formulas")
+        KeySpec::new("seed", Integer(0, 4_294_967_295), "The seed of the random numbers in formulas")
             .default_number(0.0)
             .also(&["random_seed"]),
-        Key::new("variables", Variables, "Named numbers for formulas").default("none").also(&[
+        KeySpec::new("variables", Variables, "Named numbers for formulas").default("none").also(&[
             "variable",
             "vars",
             "constants",
             "parameters",
             "let",
         ]),
-        Key::new("simulation", Table(&SIMULATION), "The duration, timestep and method of the simulation"),
-        Key::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
-        Key::new("force", Named(&FORCE), "Forces on or between bodies").also(&["forces"]),
-        Key::new("joint", Named(&JOINT), "Joints between bodies").also(&[
+        KeySpec::new("simulation", Table(&SIMULATION), "The duration, timestep and method of the simulation"),
+        KeySpec::new("body", Named(&BODY), "The rigid bodies").also(&["bodies", "object"]),
+        KeySpec::new("force", Named(&FORCE), "Forces on or between bodies").also(&["forces"]),
+        KeySpec::new("joint", Named(&JOINT), "Joints between bodies").also(&[
             "joints",
             "constraint",
             "constraints",
         ]),
-        Key::new("emitter", Named(&EMITTER), "Sources of particles, such as drops and sparks").also(&[
+        KeySpec::new("emitter", Named(&EMITTER), "Sources of particles, such as drops and sparks").also(&[
             "emitters",
             "particles",
             "particle",
             "particle_system",
         ]),
-        Key::new("material", Named(&MATERIAL), "The looks of bodies").also(&["materials", "texture"]),
-        Key::new("camera", Table(&CAMERA), "The main camera"),
-        Key::new(
+        KeySpec::new("material", Named(&MATERIAL), "The looks of bodies").also(&["materials", "texture"]),
+        KeySpec::new("camera", Table(&CAMERA), "The main camera"),
+        KeySpec::new(
             "view",
             Named(&CAMERA),
             "Additional cameras, for `--view`; missing keys are as in `[camera]`",
         )
         .also(&["views", "cameras"]),
-        Key::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
+        KeySpec::new("light", Named(&LIGHT), "The lights; without any, a warm lamp and a weak fill")
             .also(&["lights"]),
-        Key::new(
+        KeySpec::new(
             "defaults",
             Table(&DEFAULTS),
             "Defaults for missing keys of bodies, forces, materials and lights",
         )
         .also(&["default"]),
-        Key::new(
+        KeySpec::new(
             "environment",
             Either(&[Choice(presets), Table(&ENVIRONMENT)]),
             "Ground, sky, fog and default lights: a name is short for `environment.preset`",
@@ -113,8 +113,8 @@ pub static SCENE: TableSpec = TableSpec {
         labels::LABEL,
         labels::SCALE_BAR,
         labels::GRID,
-        Key::new("povray", Table(&POVRAY), "Passed to POV-Ray unchanged"),
-        Key::new("output", Table(&OUTPUT), "The images to render").also(&["render"]),
+        KeySpec::new("povray", Table(&POVRAY), "Passed to POV-Ray unchanged"),
+        KeySpec::new("output", Table(&OUTPUT), "The images to render").also(&["render"]),
     ],
 };
 
@@ -122,14 +122,14 @@ static DEFAULTS: TableSpec = TableSpec {
     noun: "the defaults",
     rule: Rule::Any,
     keys: &[
-        Key::new("body", Partial(&BODY), "For every `[body.NAME]`; the body's own keys override them")
+        KeySpec::new("body", Partial(&BODY), "For every `[body.NAME]`; the body's own keys override them")
             .default("none")
             .also(&["bodies"]),
-        Key::new("force", Partial(&FORCE), "For every `[force.NAME]`").default("none").also(&["forces"]),
-        Key::new("material", Partial(&MATERIAL), "For every `[material.NAME]`")
+        KeySpec::new("force", Partial(&FORCE), "For every `[force.NAME]`").default("none").also(&["forces"]),
+        KeySpec::new("material", Partial(&MATERIAL), "For every `[material.NAME]`")
             .default("none")
             .also(&["materials"]),
-        Key::new("light", Partial(&LIGHT), "For every `[light.NAME]`").default("none").also(&["lights"]),
+        KeySpec::new("light", Partial(&LIGHT), "For every `[light.NAME]`").default("none").also(&["lights"]),
     ],
 };
 
@@ -137,7 +137,7 @@ static SIMULATION: TableSpec = TableSpec {
     noun: "the simulation",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "duration",
             NON_NEGATIVE,
             "The time of the last frame, rounded to a whole frame; the first is at 0",
@@ -156,11 +156,11 @@ static SIMULATION: TableSpec = TableSpec {
             "total_time",
             "runtime",
         ]),
-        Key::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
+        KeySpec::new("frame_rate", POSITIVE, "Frames per second: frame k shows the time k / frame_rate")
             .unit("frames/s")
             .default_number(25.0)
             .also(&["fps", "rate"]),
-        Key::new(
+        KeySpec::new(
             "step",
             POSITIVE,
             "The longest timestep; the actual one divides the time between frames evenly. Adaptive \
@@ -169,7 +169,7 @@ static SIMULATION: TableSpec = TableSpec {
         .unit("s")
         .default_fraction(1.0, 240.0)
         .also(&["dt", "timestep", "time_step", "delta"]),
-        Key::new(
+        KeySpec::new(
             "tolerance",
             POSITIVE,
             "The error per step of an adaptive integrator: for `dop853`, relative to the size of positions \
@@ -177,14 +177,14 @@ static SIMULATION: TableSpec = TableSpec {
         )
         .default_number(1e-9)
         .also(&["tol", "rtol", "atol", "accuracy", "epsilon"]),
-        Key::new("integrator", Choice(integrators), "The integration method")
+        KeySpec::new("integrator", Choice(integrators), "The integration method")
             .default_word(METHODS[0].name)
             .also(&["method", "solver"]),
-        Key::new("gravity", VECTOR, "The acceleration of every movable body")
+        KeySpec::new("gravity", VECTOR, "The acceleration of every movable body")
             .unit("m/s²")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["g"]),
-        Key::new(
+        KeySpec::new(
             "contacts",
             Choice(contact_laws),
             "Makes bodies collide, with each other and with the ground, by default at height 0; \
@@ -200,32 +200,36 @@ static BODY: TableSpec = TableSpec {
     noun: "a body",
     rule: Rule::AtMostOne(&[&["mass", "density"], &["fixed", "motion"]]),
     keys: &[
-        Key::new("shape", Table(&SHAPE), "Its shape, centred at its location, with its axis along y")
+        KeySpec::new("shape", Table(&SHAPE), "Its shape, centred at its location, with its axis along y")
             .required(),
-        Key::new("mass", POSITIVE, "Its mass").unit("kg").default_number(1.0).also(&["m", "weight"]),
-        Key::new("density", POSITIVE, "Its density, which sets its mass")
+        KeySpec::new("mass", POSITIVE, "Its mass").unit("kg").default_number(1.0).also(&["m", "weight"]),
+        KeySpec::new("density", POSITIVE, "Its density, which sets its mass")
             .unit("kg/m³")
             .default("from `mass`"),
-        Key::new("charge", ANY, "Its electric charge, for the forces `coulomb` and `lorentz`")
+        KeySpec::new("charge", ANY, "Its electric charge, for the forces `coulomb` and `lorentz`")
             .unit("C")
             .default_number(0.0)
             .also(&["q", "electric_charge"]),
-        Key::new("magnetic_moment", VECTOR, "Its magnetic moment in its own axes, for the force `dipoles`")
-            .unit("A·m²")
-            .default_numbers(&[0.0, 0.0, 0.0])
-            .also(&["dipole_moment", "magnetization", "dipole"]),
-        Key::new(
+        KeySpec::new(
+            "magnetic_moment",
+            VECTOR,
+            "Its magnetic moment in its own axes, for the force `dipoles`",
+        )
+        .unit("A·m²")
+        .default_numbers(&[0.0, 0.0, 0.0])
+        .also(&["dipole_moment", "magnetization", "dipole"]),
+        KeySpec::new(
             "inertia",
             Numbers(3, Bound::Positive),
             "Its principal moments of inertia about its own x, y, z axes",
         )
         .unit("kg·m²")
         .default("those of a uniform solid of its shape"),
-        Key::new("location", VECTOR, "Its centre of mass at the start")
+        KeySpec::new("location", VECTOR, "Its centre of mass at the start")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["position", "pos", "center", "translate", "origin"]),
-        Key::new(
+        KeySpec::new(
             "orientation",
             Either(&[VECTOR, Table(&ORIENTATION)]),
             "Its initial orientation: a list of three angles is short for `orientation.euler`",
@@ -233,18 +237,22 @@ static BODY: TableSpec = TableSpec {
         .unit("degrees")
         .default("not turned")
         .also(&["rotation", "rotate", "angle", "attitude"]),
-        Key::new("motion", Table(&MOTION), "A prescribed motion: the body follows it, unaffected by forces")
-            .default("none: forces move it")
-            .also(&["path", "trajectory", "animation", "keyframes", "kinematic"]),
-        Key::new("velocity", VECTOR, "Its velocity at the start")
+        KeySpec::new(
+            "motion",
+            Table(&MOTION),
+            "A prescribed motion: the body follows it, unaffected by forces",
+        )
+        .default("none: forces move it")
+        .also(&["path", "trajectory", "animation", "keyframes", "kinematic"]),
+        KeySpec::new("velocity", VECTOR, "Its velocity at the start")
             .unit("m/s")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["v", "speed"]),
-        Key::new("angular_velocity", VECTOR, "Its angular velocity at the start, in world axes")
+        KeySpec::new("angular_velocity", VECTOR, "Its angular velocity at the start, in world axes")
             .unit("rad/s")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["spin", "omega"]),
-        Key::new(
+        KeySpec::new(
             "start",
             ANY,
             "When it appears. Its `location` and `velocity` are those at that time, or at t = 0 if that is \
@@ -253,25 +261,29 @@ static BODY: TableSpec = TableSpec {
         .unit("s")
         .default("the start of the run")
         .also(&["birth", "born", "begin", "appears", "t0"]),
-        Key::new("end", ANY, "When it disappears. An absent body neither acts nor is acted on")
+        KeySpec::new("end", ANY, "When it disappears. An absent body neither acts nor is acted on")
             .unit("s")
             .default("it stays")
             .also(&["death", "dies", "until", "vanishes", "t1"]),
-        Key::new("force", VECTOR, "A constant force at its centre, in world axes")
+        KeySpec::new("force", VECTOR, "A constant force at its centre, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("torque", VECTOR, "A constant torque, in world axes")
+        KeySpec::new("torque", VECTOR, "A constant torque, in world axes")
             .unit("N·m")
             .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("fixed", Boolean, "Whether it never moves, whatever acts on it; a plane is always fixed")
-            .default_flag(false)
-            .also(&["static", "anchored"]),
+        KeySpec::new(
+            "fixed",
+            Boolean,
+            "Whether it never moves, whatever acts on it; a plane is always fixed",
+        )
+        .default_flag(false)
+        .also(&["static", "anchored"]),
         RESTITUTION.default("the other body's; 0 if neither has one"),
         FRICTION.default("the other body's; 0.5 if neither has one"),
         ROLLING_FRICTION.default("the other body's; 0 if neither has one"),
         COLLIDES,
         COLLISION_GROUP,
-        Key::new(
+        KeySpec::new(
             "material",
             Either(&[Reference(Collection::Material), Table(&MATERIAL)]),
             "Its look: a `[material.NAME]`, or else a name of [the library](materials.md), or a table of a \
@@ -279,8 +291,8 @@ static BODY: TableSpec = TableSpec {
         )
         .default("the next palette color, in file order")
         .also(&["texture"]),
-        Key::new("look", Table(&BODY_LOOK), "How its picture differs from its mechanics"),
-        Key::new(
+        KeySpec::new("look", Table(&BODY_LOOK), "How its picture differs from its mechanics"),
+        KeySpec::new(
             "repeat",
             Either(&[COUNT, Table(&REPEAT)]),
             "Makes copies: their number, or their arrangement; their `location` is relative to their \
@@ -300,21 +312,21 @@ static BODY_LOOK: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         // These bounds are wide enough for any use, and keep the square of every drawn length finite.
-        Key::new(
+        KeySpec::new(
             "scale",
             Number(Bound::From(1e-9, 1e9)),
             "Draw it this many times its true size, about its centre of mass",
         )
         .default_number(1.0)
         .also(&["size", "magnification", "enlarge"]),
-        Key::new(
+        KeySpec::new(
             "sdl_before",
             Sdl(Where::Inside),
             "SDL at the end of its object, before its placing matrix: moves with the body",
         )
         .default("none")
         .also(&["sdl", "pre_sdl"]),
-        Key::new("sdl_after", Sdl(Where::Inside), "SDL after that matrix: fixed in the world")
+        KeySpec::new("sdl_after", Sdl(Where::Inside), "SDL after that matrix: fixed in the world")
             .default("none")
             .also(&["post_sdl"]),
     ],
@@ -324,18 +336,18 @@ pub(super) static ORIENTATION: TableSpec = TableSpec {
     noun: "an orientation",
     rule: Rule::AtMostOne(&[&["euler", "axis", "quaternion"], &["euler", "angle", "quaternion"]]),
     keys: &[
-        Key::new(
+        KeySpec::new(
             "euler",
             VECTOR,
             "Rotations about the world's x, then y, then z, as by POV-Ray's `rotate <x, y, z>`",
         )
         .unit("degrees")
         .default_numbers(&[0.0, 0.0, 0.0]),
-        Key::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
-        Key::new("angle", ANY, "The angle of rotation about `axis`, by the right-hand rule")
+        KeySpec::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
+        KeySpec::new("angle", ANY, "The angle of rotation about `axis`, by the right-hand rule")
             .unit("degrees")
             .default("none"),
-        Key::new("quaternion", Direction(4), "A quaternion [x, y, z, w] of any length")
+        KeySpec::new("quaternion", Direction(4), "A quaternion [x, y, z, w] of any length")
             .default_numbers(&[0.0, 0.0, 0.0, 1.0]),
     ],
 };
@@ -344,20 +356,24 @@ static MATERIAL: TableSpec = TableSpec {
     noun: "a material",
     rule: Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]),
     keys: &[
-        Key::new(
+        KeySpec::new(
             "color",
             Color,
             "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a CSS name",
         )
         .default("white, or that of the `like` material")
         .also(&["colour", "rgb", "pigment", "diffuse"]),
-        Key::new("like", Choice(library), "A material of [the library](materials.md), which `color` tints")
-            .default("given by `color` and `finish`")
-            .also(&["base", "kind", "extends"]),
-        Key::new("finish", Choice(finishes), "How its surface reflects light").default_word("glossy"),
-        Key::new("texture", Identifier, "The name of a texture from an include file")
+        KeySpec::new(
+            "like",
+            Choice(library),
+            "A material of [the library](materials.md), which `color` tints",
+        )
+        .default("given by `color` and `finish`")
+        .also(&["base", "kind", "extends"]),
+        KeySpec::new("finish", Choice(finishes), "How its surface reflects light").default_word("glossy"),
+        KeySpec::new("texture", Identifier, "The name of a texture from an include file")
             .default("given by `color` and `finish`"),
-        Key::new(
+        KeySpec::new(
             "sdl",
             Sdl(Where::Inside),
             "SDL for the inside of an object: `texture { … }`, `interior { … }`",
@@ -374,23 +390,23 @@ static ENVIRONMENT: TableSpec = TableSpec {
     noun: "the environment",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "preset",
             Choice(presets),
             "A matching set of sky, ground, default lights and ambient light; each can be replaced",
         )
         .default("\"daylight\""),
-        Key::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
+        KeySpec::new("ground", Either(&[Boolean, Table(&GROUND)]), "The checkered ground")
             .default("true; false in space, or if a body is a plane")
             .also(&["floor"]),
-        Key::new(
+        KeySpec::new(
             "sky",
             Either(&[Boolean, Color]),
             "The sky: that of the preset, a plain color, or none (black)",
         )
         .default_flag(true)
         .also(&["background"]),
-        Key::new("fog", Boolean, "Haze into which the ground fades towards the horizon")
+        KeySpec::new("fog", Boolean, "Haze into which the ground fades towards the horizon")
             .default_flag(true)
             .also(&["haze"]),
     ],
@@ -400,11 +416,11 @@ static GROUND: TableSpec = TableSpec {
     noun: "the ground",
     rule: Rule::Any,
     keys: &[
-        Key::new("height", ANY, "Its height")
+        KeySpec::new("height", ANY, "Its height")
             .unit("m")
             .default("just under the lowest point of the motion; with `simulation.contacts`, 0")
             .also(&["y", "level"]),
-        Key::new("tile", POSITIVE, "The edge of one tile").unit("m").default(
+        KeySpec::new("tile", POSITIVE, "The edge of one tile").unit("m").default(
             "the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, by the size of the motion",
         ),
         RESTITUTION.default("that of the body on it; 0 if neither has one"),
@@ -417,14 +433,14 @@ static POVRAY: TableSpec = TableSpec {
     noun: "the part for POV-Ray",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "include",
             List { of: &Include, min: 0, max: usize::MAX },
             "Include files: POV-Ray's own, or files beside the scene, which are copied into the scripts",
         )
         .default_numbers(&[])
         .also(&["includes"]),
-        Key::new(
+        KeySpec::new(
             "assets",
             List { of: &Asset, min: 0, max: usize::MAX },
             "Files beside the scene that SDL reads, such as images, height fields and fonts; they are \
@@ -432,13 +448,17 @@ static POVRAY: TableSpec = TableSpec {
         )
         .default_numbers(&[])
         .also(&["files", "images", "textures", "maps"]),
-        Key::new("sdl", Sdl(Where::Top), "SDL for every script, before the bodies").default("none"),
-        Key::new("templates", Text, "A folder with templates that replace those built in; needs `--trust`")
-            .default("those built in"),
-        Key::new("unit", POSITIVE, "The length of one POV-Ray unit")
+        KeySpec::new("sdl", Sdl(Where::Top), "SDL for every script, before the bodies").default("none"),
+        KeySpec::new(
+            "templates",
+            Text,
+            "A folder with templates that replace those built in; needs `--trust`",
+        )
+        .default("those built in"),
+        KeySpec::new("unit", POSITIVE, "The length of one POV-Ray unit")
             .unit("m")
             .default("1; a power of ten for scenes too small or too large for POV-Ray"),
-        Key::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts")
+        KeySpec::new("digits", Integer(4, 17), "Significant digits of the numbers in scripts")
             .default_number(9.0),
     ],
 };
@@ -447,24 +467,28 @@ static OUTPUT: TableSpec = TableSpec {
     noun: "the output",
     rule: Rule::Any,
     keys: &[
-        Key::new("size", List { of: &Integer(1, 65535), min: 2, max: 2 }, "Width and height of the images")
-            .unit("pixels")
-            .default_numbers(&[1280.0, 720.0])
-            .also(&["resolution", "width", "height"]),
-        Key::new(
+        KeySpec::new(
+            "size",
+            List { of: &Integer(1, 65535), min: 2, max: 2 },
+            "Width and height of the images",
+        )
+        .unit("pixels")
+        .default_numbers(&[1280.0, 720.0])
+        .also(&["resolution", "width", "height"]),
+        KeySpec::new(
             "layout",
             Choice(layouts),
             "Whether every script is complete; else shared parts are in `common.inc`",
         )
         .default_word("self-contained"),
-        Key::new(
+        KeySpec::new(
             "transparent",
             Boolean,
             "Whether the background is transparent (alpha), without sky and ground",
         )
         .default_flag(false)
         .also(&["alpha"]),
-        Key::new(
+        KeySpec::new(
             "video_rate",
             Number(Bound::From(0.01, 1000.0)),
             "Frames per second of the film: slow motion below `frame_rate`, time lapse above it",

@@ -2,7 +2,7 @@
 
 use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
 use super::keys::POSITIVE;
-use super::{Bound, Collection, Key, Kind, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 use crate::scene::{Corner, GridPlane, Side};
 
 fn corners() -> Vec<&'static str> {
@@ -20,15 +20,18 @@ fn planes() -> Vec<&'static str> {
 static SCALE_BAR_KINDS: [Kind; 2] = [Boolean, Table(&SCALE_BAR_TABLE)];
 static GRID_KINDS: [Kind; 2] = [Boolean, Table(&GRID_TABLE)];
 
-pub(super) const LABEL: Key =
-    Key::new("label", Named(&LABEL_TABLE), "Texts in the picture, with [values of the moment](#labels)")
+pub(super) const LABEL: KeySpec =
+    KeySpec::new("label", Named(&LABEL_TABLE), "Texts in the picture, with [values of the moment](#labels)")
         .also(&["labels", "text", "caption"]);
-pub(super) const SCALE_BAR: Key =
-    Key::new("scale_bar", Either(&SCALE_BAR_KINDS), "A bar that shows a length at the centre of the motion")
-        .default_flag(false)
-        .also(&["scalebar", "ruler", "scale"]);
-pub(super) const GRID: Key =
-    Key::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read positions from")
+pub(super) const SCALE_BAR: KeySpec = KeySpec::new(
+    "scale_bar",
+    Either(&SCALE_BAR_KINDS),
+    "A bar that shows a length at the centre of the motion",
+)
+.default_flag(false)
+.also(&["scalebar", "ruler", "scale"]);
+pub(super) const GRID: KeySpec =
+    KeySpec::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read positions from")
         .default_flag(false)
         .also(&["grids", "graph_paper"]);
 
@@ -36,34 +39,34 @@ static LABEL_TABLE: TableSpec = TableSpec {
     noun: "a label",
     rule: Rule::AtMostOne(&[&["body", "corner"]]),
     keys: &[
-        Key::new(
+        KeySpec::new(
             "text",
             Text,
             "The words; `${t:.2}` becomes the time with 2 decimals, and likewise for any formula",
         )
         .required()
         .also(&["content", "value", "caption"]),
-        Key::new("body", Reference(Collection::Body), "The body that it labels")
+        KeySpec::new("body", Reference(Collection::Body), "The body that it labels")
             .default("none: the label stands in a corner")
             .also(&["on", "of", "attach", "attached_to"]),
-        Key::new("side", Choice(sides), "With `body`, its side of the body").default_word("above"),
-        Key::new(
+        KeySpec::new("side", Choice(sides), "With `body`, its side of the body").default_word("above"),
+        KeySpec::new(
             "ghosts",
             Boolean,
             "With `body`, whether each ghost has a label, too, with values of the ghost's time",
         )
         .default_flag(false),
-        Key::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
+        KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
             .default_word("top-left")
             .also(&["place", "position", "location", "at"]),
-        Key::new(
+        KeySpec::new(
             "size",
             Number(Bound::From(0.01, 0.5)),
             "The height of its lines, as part of the picture's height",
         )
         .default("0.055, and at least 13 pixels")
         .also(&["font_size", "fontsize", "text_size", "height"]),
-        Key::new("color", Color, "Its color")
+        KeySpec::new("color", Color, "Its color")
             .default("dark, or light on a dark background")
             .also(&["colour"]),
     ],
@@ -73,11 +76,11 @@ static SCALE_BAR_TABLE: TableSpec = TableSpec {
     noun: "the scale bar",
     rule: Rule::Any,
     keys: &[
-        Key::new("length", POSITIVE, "The length to show")
+        KeySpec::new("length", POSITIVE, "The length to show")
             .unit("m")
             .default("1, 2 or 5 times a power of ten, about a fifth of the picture's width")
             .also(&["size", "width"]),
-        Key::new("corner", Choice(corners), "Its corner of the picture")
+        KeySpec::new("corner", Choice(corners), "Its corner of the picture")
             .default_word("bottom-left")
             .also(&["place", "position", "location", "at"]),
     ],
@@ -87,11 +90,11 @@ static GRID_TABLE: TableSpec = TableSpec {
     noun: "the grid",
     rule: Rule::Any,
     keys: &[
-        Key::new("spacing", POSITIVE, "The distance between lines")
+        KeySpec::new("spacing", POSITIVE, "The distance between lines")
             .unit("m")
             .default("that of the ground's tiles")
             .also(&["step", "every", "tile", "size"]),
-        Key::new("plane", Choice(planes), "Its plane: on the ground, or upright behind the motion")
+        KeySpec::new("plane", Choice(planes), "Its plane: on the ground, or upright behind the motion")
             .default_word("ground"),
     ],
 };

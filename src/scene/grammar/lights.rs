@@ -3,21 +3,25 @@
 use super::Kind::{Boolean, Color, Table};
 use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
 use super::motion::TIMED_VECTOR;
-use super::{Key, Rule, TableSpec};
+use super::{KeySpec, Rule, TableSpec};
 
 pub(super) static LIGHT: TableSpec = TableSpec {
     noun: "a light",
     rule: Rule::ExactlyOne(&["point", "area", "sun"]),
     keys: &[
-        Key::new("point", Table(&POINT_LIGHT), "A lamp without size: hard shadows"),
-        Key::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
-        Key::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
+        KeySpec::new("point", Table(&POINT_LIGHT), "A lamp without size: hard shadows"),
+        KeySpec::new("area", Table(&AREA_LIGHT), "A lamp with a size: soft shadows"),
+        KeySpec::new("sun", Table(&SUN), "Light from so far away that all its rays are parallel")
             .also(&["directional", "parallel"]),
-        Key::new("color", Color, "Its color").default_word("white").also(&["colour"]),
-        Key::new("intensity", NON_NEGATIVE, "Its brightness: 1 makes a white surface that faces it white")
-            .default_number(1.0)
-            .also(&["brightness", "power", "strength"]),
-        Key::new("shadows", Boolean, "Whether it casts shadows and highlights, or only brightens")
+        KeySpec::new("color", Color, "Its color").default_word("white").also(&["colour"]),
+        KeySpec::new(
+            "intensity",
+            NON_NEGATIVE,
+            "Its brightness: 1 makes a white surface that faces it white",
+        )
+        .default_number(1.0)
+        .also(&["brightness", "power", "strength"]),
+        KeySpec::new("shadows", Boolean, "Whether it casts shadows and highlights, or only brightens")
             .default_flag(true)
             .also(&["shadow"]),
     ],
@@ -26,7 +30,7 @@ pub(super) static LIGHT: TableSpec = TableSpec {
 static POINT_LIGHT: TableSpec = TableSpec {
     noun: "a point light",
     rule: Rule::Any,
-    keys: &[Key::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
+    keys: &[KeySpec::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
         .unit("m")
         .required()
         .also(&["position", "pos"])],
@@ -36,16 +40,18 @@ static AREA_LIGHT: TableSpec = TableSpec {
     noun: "an area light",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
+        KeySpec::new("location", TIMED_VECTOR, "Its position; numbers, or formulas of `t`")
             .unit("m")
             .required()
             .also(&["position", "pos"]),
-        Key::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
+        KeySpec::new("size", POSITIVE, "Its diameter").unit("m").required().also(&["radius", "width"]),
     ],
 };
 
 static SUN: TableSpec = TableSpec {
     noun: "a sun",
     rule: Rule::Any,
-    keys: &[Key::new("direction", AXIS, "The direction in which its light travels").required().also(&["to"])],
+    keys: &[KeySpec::new("direction", AXIS, "The direction in which its light travels")
+        .required()
+        .also(&["to"])],
 };

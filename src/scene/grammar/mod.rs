@@ -31,7 +31,7 @@ pub use schema::schema;
 
 /// The description of one key of a table.
 #[derive(Debug)]
-pub struct Key {
+pub struct KeySpec {
     /// The name of the key.
     pub name: &'static str,
     /// The type of the key's value.
@@ -54,7 +54,7 @@ pub struct TableSpec {
     /// The noun for the table in messages, such as "a body".
     pub noun: &'static str,
     /// The keys of the table, in the order of the documentation.
-    pub keys: &'static [Key],
+    pub keys: &'static [KeySpec],
     /// The rule for keys that exclude each other.
     pub rule: Rule,
 }
@@ -72,58 +72,58 @@ pub enum Rule {
 
 impl TableSpec {
     /// Returns the description of a key. `None` if the table has no key with this name.
-    pub fn key(&self, name: &str) -> Option<&'static Key> {
+    pub fn key(&self, name: &str) -> Option<&'static KeySpec> {
         self.keys.iter().find(|key| key.name == name)
     }
 }
 
-impl Key {
+impl KeySpec {
     /// Describes an optional key without unit or default.
-    const fn new(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
-        Key { name, kind, unit: "", default: DefaultValue::Nothing, meaning, required: false, also: &[] }
+    const fn new(name: &'static str, kind: Kind, meaning: &'static str) -> KeySpec {
+        KeySpec { name, kind, unit: "", default: DefaultValue::Nothing, meaning, required: false, also: &[] }
     }
 
-    const fn unit(mut self, unit: &'static str) -> Key {
+    const fn unit(mut self, unit: &'static str) -> KeySpec {
         self.unit = unit;
         self
     }
 
     /// Sets a description of the default in words.
-    const fn default(self, words: &'static str) -> Key {
+    const fn default(self, words: &'static str) -> KeySpec {
         self.or(DefaultValue::Words(words))
     }
 
-    const fn default_number(self, number: f64) -> Key {
+    const fn default_number(self, number: f64) -> KeySpec {
         self.or(DefaultValue::Number(number))
     }
 
-    const fn default_fraction(self, dividend: f64, divisor: f64) -> Key {
+    const fn default_fraction(self, dividend: f64, divisor: f64) -> KeySpec {
         self.or(DefaultValue::Fraction(dividend, divisor))
     }
 
-    const fn default_numbers(self, numbers: &'static [f64]) -> Key {
+    const fn default_numbers(self, numbers: &'static [f64]) -> KeySpec {
         self.or(DefaultValue::Numbers(numbers))
     }
 
-    const fn default_flag(self, flag: bool) -> Key {
+    const fn default_flag(self, flag: bool) -> KeySpec {
         self.or(DefaultValue::Flag(flag))
     }
 
-    const fn default_word(self, word: &'static str) -> Key {
+    const fn default_word(self, word: &'static str) -> KeySpec {
         self.or(DefaultValue::Word(word))
     }
 
-    const fn or(mut self, default: DefaultValue) -> Key {
+    const fn or(mut self, default: DefaultValue) -> KeySpec {
         self.default = default;
         self
     }
 
-    const fn required(mut self) -> Key {
+    const fn required(mut self) -> KeySpec {
         self.required = true;
         self
     }
 
-    const fn also(mut self, also: &'static [&'static str]) -> Key {
+    const fn also(mut self, also: &'static [&'static str]) -> KeySpec {
         self.also = also;
         self
     }

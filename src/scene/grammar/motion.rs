@@ -2,7 +2,7 @@
 
 use super::Kind::{Choice, Either, File, List, Number, Table, Text, Timed, TimedNumbers};
 use super::keys::{AXIS, ORIENTATION, VECTOR};
-use super::{Bound, Key, Kind, Rule, TableSpec};
+use super::{Bound, KeySpec, Kind, Rule, TableSpec};
 
 /// A vector of three components, each a number or a formula of the time.
 pub(super) const TIMED_VECTOR: Kind = TimedNumbers(3, Bound::Any);
@@ -11,10 +11,10 @@ pub(super) static MOTION: TableSpec = TableSpec {
     noun: "a motion",
     rule: Rule::ExactlyOne(&["formula", "keyframes", "trajectory"]),
     keys: &[
-        Key::new("formula", Table(&FORMULA), "By formulas of the time `t`").also(&["formulas", "path"]),
-        Key::new("keyframes", Table(&KEYFRAMES), "Through positions at given times")
+        KeySpec::new("formula", Table(&FORMULA), "By formulas of the time `t`").also(&["formulas", "path"]),
+        KeySpec::new("keyframes", Table(&KEYFRAMES), "Through positions at given times")
             .also(&["keys", "frames"]),
-        Key::new(
+        KeySpec::new(
             "trajectory",
             Table(&TRAJECTORY),
             "From a CSV file of another run or program; the body exists while the file has rows for it",
@@ -27,11 +27,11 @@ static FORMULA: TableSpec = TableSpec {
     noun: "a motion by formulas",
     rule: Rule::Any,
     keys: &[
-        Key::new("location", TIMED_VECTOR, "Its centre of mass; formulas of `t`")
+        KeySpec::new("location", TIMED_VECTOR, "Its centre of mass; formulas of `t`")
             .unit("m")
             .default("that of the body")
             .also(&["position", "pos"]),
-        Key::new(
+        KeySpec::new(
             "orientation",
             Either(&[TIMED_VECTOR, Table(&TURNING)]),
             "Its orientation, by formulas of `t`: a list of three angles is short for `orientation.euler`",
@@ -46,11 +46,11 @@ static TURNING: TableSpec = TableSpec {
     noun: "a turning",
     rule: Rule::AtMostOne(&[&["euler", "axis"], &["euler", "angle"]]),
     keys: &[
-        Key::new("euler", TIMED_VECTOR, "Rotations about the world's x, then y, then z")
+        KeySpec::new("euler", TIMED_VECTOR, "Rotations about the world's x, then y, then z")
             .unit("degrees")
             .default("none"),
-        Key::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
-        Key::new("angle", Timed(Bound::Any), "The angle of rotation about `axis`; a formula of `t`")
+        KeySpec::new("axis", AXIS, "The axis of rotation; goes with `angle`").default("none"),
+        KeySpec::new("angle", Timed(Bound::Any), "The angle of rotation about `axis`; a formula of `t`")
             .unit("degrees")
             .default("none"),
     ],
@@ -61,7 +61,7 @@ fn smoothness() -> Vec<&'static str> {
 }
 
 /// The key that selects the interpolation between keyframes, for bodies and cameras.
-pub(super) const BETWEEN_KEYFRAMES: Key = Key::new(
+pub(super) const BETWEEN_KEYFRAMES: KeySpec = KeySpec::new(
     "interpolation",
     Choice(smoothness),
     "The motion between keyframes: smooth, starting and ending at rest, or straight at constant speed",
@@ -73,7 +73,7 @@ static KEYFRAMES: TableSpec = TableSpec {
     noun: "a motion by keyframes",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "at",
             List { of: &Table(&KEYFRAME), min: 1, max: 100_000 },
             "The keyframes, in order of time",
@@ -88,12 +88,15 @@ static KEYFRAME: TableSpec = TableSpec {
     noun: "a keyframe",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Number(Bound::Any), "The time of the keyframe").unit("s").required().also(&["t"]),
-        Key::new("location", VECTOR, "Its centre of mass")
+        KeySpec::new("time", Number(Bound::Any), "The time of the keyframe")
+            .unit("s")
+            .required()
+            .also(&["t"]),
+        KeySpec::new("location", VECTOR, "Its centre of mass")
             .unit("m")
             .default("that of the previous keyframe, or of the body")
             .also(&["position", "pos"]),
-        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "Its orientation, as for a body")
+        KeySpec::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "Its orientation, as for a body")
             .unit("degrees")
             .default("that of the previous keyframe, or of the body")
             .also(&["rotation", "rotate"]),
@@ -108,7 +111,7 @@ static TRAJECTORY: TableSpec = TableSpec {
     noun: "a motion from a file",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "file",
             File,
             "The CSV file, beside the scene: a row for each time and body. A body exists from its first row \
@@ -117,13 +120,13 @@ static TRAJECTORY: TableSpec = TableSpec {
         )
         .required()
         .also(&["csv", "path"]),
-        Key::new("body", Text, "The body's name in the file")
+        KeySpec::new("body", Text, "The body's name in the file")
             .default("its name in the scene")
             .also(&["name"]),
-        Key::new("interpolation", Choice(polynomials), "The interpolation between rows")
+        KeySpec::new("interpolation", Choice(polynomials), "The interpolation between rows")
             .default_word("cubic")
             .also(&["mode"]),
-        Key::new("columns", Table(&COLUMNS), "The names of the columns in the file"),
+        KeySpec::new("columns", Table(&COLUMNS), "The names of the columns in the file"),
     ],
 };
 
@@ -133,19 +136,23 @@ static COLUMNS: TableSpec = TableSpec {
     noun: "names of columns",
     rule: Rule::Any,
     keys: &[
-        Key::new("time", Text, "The column of the time").default("\"t\", or else \"time\"").also(&["t"]),
-        Key::new("body", Text, "The column of the body's name; without it, all rows belong to the body")
+        KeySpec::new("time", Text, "The column of the time").default("\"t\", or else \"time\"").also(&["t"]),
+        KeySpec::new("body", Text, "The column of the body's name; without it, all rows belong to the body")
             .default("\"body\""),
-        Key::new("location", NAMES, "The columns of its centre of mass").default("[\"x\", \"y\", \"z\"]"),
-        Key::new(
+        KeySpec::new("location", NAMES, "The columns of its centre of mass").default("[\"x\", \"y\", \"z\"]"),
+        KeySpec::new(
             "orientation",
             List { of: &Text, min: 4, max: 4 },
             "The columns of its orientation, a quaternion",
         )
         .default("[\"qx\", \"qy\", \"qz\", \"qw\"], if present"),
-        Key::new("velocity", NAMES, "The columns of its velocity, for cubic interpolation")
+        KeySpec::new("velocity", NAMES, "The columns of its velocity, for cubic interpolation")
             .default("[\"vx\", \"vy\", \"vz\"], if present"),
-        Key::new("angular_velocity", NAMES, "The columns of its angular velocity, for cubic interpolation")
-            .default("[\"wx\", \"wy\", \"wz\"], if present"),
+        KeySpec::new(
+            "angular_velocity",
+            NAMES,
+            "The columns of its angular velocity, for cubic interpolation",
+        )
+        .default("[\"wx\", \"wy\", \"wz\"], if present"),
     ],
 };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Key, Kind, Rule, SCENE, TableSpec, quoted};
+use super::{KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::{BodyMeasure, JointMeasure, RunMeasure};
 
@@ -431,8 +431,8 @@ impl Page {
         }
     }
 
-    fn row(&mut self, key: &Key) {
-        let Key { name, kind, unit, default, meaning, required, .. } = key;
+    fn row(&mut self, key: &KeySpec) {
+        let KeySpec { name, kind, unit, default, meaning, required, .. } = key;
         let default = if *required { "**required**".to_owned() } else { default.in_words() };
         let value = self.in_short(kind).replace('|', "\\|");
         let _ = writeln!(self.text, "| `{name}` | {value} | {unit} | {default} | {meaning} |");

@@ -2,7 +2,7 @@
 
 use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
 use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
-use super::{Bound, Key, Kind, Rule, TableSpec};
+use super::{Bound, KeySpec, Kind, Rule, TableSpec};
 
 /// The maximum number of copies in a scene. More copies would exceed the memory of a typical computer.
 pub const MAX_COPIES: i64 = 500_000;
@@ -11,7 +11,7 @@ pub const MAX_COPIES: i64 = 500_000;
 pub(super) const COUNT: Kind = Integer(1, MAX_COPIES);
 
 /// The key that makes copies of a force or a joint.
-pub(super) const LINKS: Key = Key::new(
+pub(super) const LINKS: KeySpec = KeySpec::new(
     "repeat",
     COUNT,
     "The number of copies, `rod[0]`, `rod[1]`, …; formulas and names of bodies may contain their index `i`: \
@@ -21,33 +21,34 @@ pub(super) const LINKS: Key = Key::new(
 .also(&["copies", "times"]);
 
 /// Describes the required key `count`, the number of copies in a pattern.
-const fn count() -> Key {
-    Key::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
+const fn count() -> KeySpec {
+    KeySpec::new("count", COUNT, "The number of copies").required().also(&["n", "number", "copies"])
 }
 
 pub(super) static REPEAT: TableSpec = TableSpec {
     noun: "a repeat",
     rule: Rule::ExactlyOne(&["count", "grid", "ring", "line", "curve", "scatter"]),
     keys: &[
-        Key::new(
+        KeySpec::new(
             "count",
             COUNT,
             "The number of copies, `ball[0]`, `ball[1]`, …, with the index `i` for formulas; `repeat = 9` \
              is short for it",
         )
         .also(&["n", "number", "copies", "times"]),
-        Key::new(
+        KeySpec::new(
             "grid",
             Table(&GRID),
             "Copies in rows, layers and columns: `brick[3,0]`, in formulas `i`, `j`, `k`",
         )
         .also(&["array", "lattice"]),
-        Key::new("ring", Table(&RING), "Copies on a circle around `location`").also(&["circle", "around"]),
-        Key::new("line", Table(&LINE), "Copies evenly spaced on a straight line, including both ends")
+        KeySpec::new("ring", Table(&RING), "Copies on a circle around `location`")
+            .also(&["circle", "around"]),
+        KeySpec::new("line", Table(&LINE), "Copies evenly spaced on a straight line, including both ends")
             .also(&["row"]),
-        Key::new("curve", Table(&CURVE), "Copies evenly spaced along a curve")
+        KeySpec::new("curve", Table(&CURVE), "Copies evenly spaced along a curve")
             .also(&["path", "spline", "spiral"]),
-        Key::new(
+        KeySpec::new(
             "scatter",
             Table(&SCATTER),
             "Copies at random positions in a volume around `location`, without overlap",
@@ -60,10 +61,10 @@ static GRID: TableSpec = TableSpec {
     noun: "a grid",
     rule: Rule::Any,
     keys: &[
-        Key::new("count", List { of: &COUNT, min: 1, max: 3 }, "The numbers of copies along x, y and z")
+        KeySpec::new("count", List { of: &COUNT, min: 1, max: 3 }, "The numbers of copies along x, y and z")
             .required()
             .also(&["counts", "size", "n"]),
-        Key::new(
+        KeySpec::new(
             "spacing",
             Either(&[ANY, List { of: &ANY, min: 1, max: 3 }]),
             "The distance between copies along x, y and z; one number is for all; the first copy is at \
@@ -80,11 +81,11 @@ static RING: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("radius", POSITIVE, "The radius of the circle through the copies' centres")
+        KeySpec::new("radius", POSITIVE, "The radius of the circle through the copies' centres")
             .unit("m")
             .required()
             .also(&["r", "diameter"]),
-        Key::new(
+        KeySpec::new(
             "axis",
             AXIS,
             "The axis of the circle, by the right-hand rule; the first copy is towards x, or towards y if x \
@@ -92,9 +93,13 @@ static RING: TableSpec = TableSpec {
         )
         .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["normal"]),
-        Key::new("turned", Boolean, "Whether each copy is rotated about the axis by its angle on the circle")
-            .default_flag(true)
-            .also(&["align", "rotate"]),
+        KeySpec::new(
+            "turned",
+            Boolean,
+            "Whether each copy is rotated about the axis by its angle on the circle",
+        )
+        .default_flag(true)
+        .also(&["align", "rotate"]),
     ],
 };
 
@@ -103,11 +108,11 @@ static LINE: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("from", VECTOR, "The position of the first copy, relative to `location`")
+        KeySpec::new("from", VECTOR, "The position of the first copy, relative to `location`")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["start"]),
-        Key::new("to", VECTOR, "The position of the last copy, relative to `location`")
+        KeySpec::new("to", VECTOR, "The position of the last copy, relative to `location`")
             .unit("m")
             .required()
             .also(&["end"]),
@@ -119,7 +124,7 @@ static CURVE: TableSpec = TableSpec {
     rule: Rule::ExactlyOne(&["at", "points"]),
     keys: &[
         count(),
-        Key::new(
+        KeySpec::new(
             "at",
             Formulas(3),
             "The curve, relative to `location`, by formulas of `u` from 0 to 1; copies are evenly spaced \
@@ -127,17 +132,17 @@ static CURVE: TableSpec = TableSpec {
         )
         .unit("m")
         .also(&["formula", "xyz"]),
-        Key::new(
+        KeySpec::new(
             "points",
             List { of: &VECTOR, min: 2, max: usize::MAX },
             "Points of a smooth curve (Catmull–Rom spline), relative to `location`",
         )
         .unit("m")
         .also(&["through", "vertices"]),
-        Key::new("closed", Boolean, "Whether it ends where it begins, with a single copy there")
+        KeySpec::new("closed", Boolean, "Whether it ends where it begins, with a single copy there")
             .default_flag(false)
             .also(&["loop", "cyclic"]),
-        Key::new(
+        KeySpec::new(
             "turned",
             Boolean,
             "Whether each copy is rotated so that its x axis follows the curve, with y upwards",
@@ -152,14 +157,14 @@ static SCATTER: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        Key::new("within", Table(&VOLUME), "The volume, which contains each copy entirely")
+        KeySpec::new("within", Table(&VOLUME), "The volume, which contains each copy entirely")
             .required()
             .also(&["in", "volume", "region"]),
-        Key::new("gap", NON_NEGATIVE, "The least distance between the bounding balls of two copies")
+        KeySpec::new("gap", NON_NEGATIVE, "The least distance between the bounding balls of two copies")
             .unit("m")
             .default_number(0.0)
             .also(&["distance", "spacing"]),
-        Key::new("turned", Boolean, "Whether each copy has a random orientation, uniformly distributed")
+        KeySpec::new("turned", Boolean, "Whether each copy has a random orientation, uniformly distributed")
             .default_flag(false)
             .also(&["rotate"]),
     ],
@@ -169,31 +174,35 @@ static VOLUME: TableSpec = TableSpec {
     noun: "a volume",
     rule: Rule::ExactlyOne(&["box", "sphere", "cylinder"]),
     keys: &[
-        Key::new("box", Table(&BOX), "A box").also(&["cube", "cuboid"]),
-        Key::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
-        Key::new("cylinder", Table(&CYLINDER), "A cylinder around the y axis").also(&["disc", "disk"]),
+        KeySpec::new("box", Table(&BOX), "A box").also(&["cube", "cuboid"]),
+        KeySpec::new("sphere", Table(&SPHERE), "A ball").also(&["ball"]),
+        KeySpec::new("cylinder", Table(&CYLINDER), "A cylinder around the y axis").also(&["disc", "disk"]),
     ],
 };
 
 static BOX: TableSpec = TableSpec {
     noun: "a box to scatter in",
     rule: Rule::Any,
-    keys: &[Key::new("size", Numbers(3, Bound::NonNegative), "Its edges along x, y, z; 0 for a flat box")
-        .unit("m")
-        .required()],
+    keys: &[KeySpec::new(
+        "size",
+        Numbers(3, Bound::NonNegative),
+        "Its edges along x, y, z; 0 for a flat box",
+    )
+    .unit("m")
+    .required()],
 };
 
 static SPHERE: TableSpec = TableSpec {
     noun: "a ball to scatter in",
     rule: Rule::Any,
-    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required()],
+    keys: &[KeySpec::new("radius", POSITIVE, "Its radius").unit("m").required()],
 };
 
 static CYLINDER: TableSpec = TableSpec {
     noun: "a cylinder to scatter in",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "Its radius").unit("m").required(),
-        Key::new("height", NON_NEGATIVE, "Its height; 0 makes it a disc").unit("m").required(),
+        KeySpec::new("radius", POSITIVE, "Its radius").unit("m").required(),
+        KeySpec::new("height", NON_NEGATIVE, "Its height; 0 makes it a disc").unit("m").required(),
     ],
 };

@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Bound, Collection, Key, Kind, Rule, SCENE, TableSpec};
+use super::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::MATERIALS;
 use crate::scene::color::NAMES;
 
@@ -34,7 +34,7 @@ enum Whole {
 
 /// Returns a schema that only demands the required keys, of a table and of all tables within it.
 fn requirements(spec: &TableSpec) -> Map<String, Value> {
-    let inner = |key: &Key| {
+    let inner = |key: &KeySpec| {
         let required = match &key.kind {
             Kind::Named(spec) => match requirements(spec) {
                 required if required.is_empty() => required,
@@ -101,7 +101,7 @@ fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     names.iter().enumerate().flat_map(with)
 }
 
-fn property(key: &Key, whole: Whole) -> Value {
+fn property(key: &KeySpec, whole: Whole) -> Value {
     let mut schema = kind(&key.kind, whole);
     let unit = if key.unit.is_empty() { String::new() } else { format!(", in {}", key.unit) };
     let default = match key.default.in_words() {

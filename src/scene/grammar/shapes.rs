@@ -2,25 +2,27 @@
 
 use super::Kind::{Asset, Boolean, Either, List, Number, Numbers, Sdl, Table};
 use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};
-use super::{Bound, Key, Rule, TableSpec};
+use super::{Bound, KeySpec, Rule, TableSpec};
 use crate::scene::sdl::Where;
 
-const SPHERE: Key = Key::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
-const BOX: Key = Key::new("box", Table(&BOX_KEYS), "A box, optionally with rounded edges")
+const SPHERE: KeySpec = KeySpec::new("sphere", Table(&SPHERE_KEYS), "A ball").also(&["ball"]);
+const BOX: KeySpec = KeySpec::new("box", Table(&BOX_KEYS), "A box, optionally with rounded edges")
     .also(&["cube", "cuboid", "brick"]);
-const CYLINDER: Key =
-    Key::new("cylinder", Table(&CYLINDER_KEYS), "A cylinder").also(&["disk", "disc", "rod", "tube", "pipe"]);
-const CAPSULE: Key =
-    Key::new("capsule", Table(&CAPSULE_KEYS), "A cylinder with a hemisphere on either end").also(&["pill"]);
-const CONE: Key = Key::new(
+const CYLINDER: KeySpec = KeySpec::new("cylinder", Table(&CYLINDER_KEYS), "A cylinder")
+    .also(&["disk", "disc", "rod", "tube", "pipe"]);
+const CAPSULE: KeySpec =
+    KeySpec::new("capsule", Table(&CAPSULE_KEYS), "A cylinder with a hemisphere on either end")
+        .also(&["pill"]);
+const CONE: KeySpec = KeySpec::new(
     "cone",
     Table(&CONE_KEYS),
     "An upright cone or frustum; the centre of mass of a cone is a quarter of the height above its base",
 )
 .also(&["frustum"]);
-const TORUS: Key = Key::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
-const MESH: Key =
-    Key::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes")
+const TORUS: KeySpec =
+    KeySpec::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
+const MESH: KeySpec =
+    KeySpec::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes")
         .also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
 
 pub(super) static SHAPE: TableSpec = TableSpec {
@@ -47,27 +49,27 @@ pub(super) static SHAPE: TableSpec = TableSpec {
         CONE,
         TORUS,
         MESH,
-        Key::new("plane", Table(&PLANE), "An infinite plane, always fixed").also(&["floor", "ground"]),
-        Key::new(
+        KeySpec::new("plane", Table(&PLANE), "An infinite plane, always fixed").also(&["floor", "ground"]),
+        KeySpec::new(
             "axes",
             Table(&AXES),
             "A triad of arrows along x, y, z, as heavy as a ball of half their length",
         )
         .also(&["axis", "triad", "frame"]),
-        Key::new(
+        KeySpec::new(
             "heightfield",
             Table(&HEIGHTFIELD),
             "A landscape with heights from the gray levels of an image, always fixed; its `location` is the \
              middle of its rectangle at the height of black",
         )
         .also(&["height_field", "terrain", "landscape", "heightmap", "image"]),
-        Key::new(
+        KeySpec::new(
             "compound",
             Table(&COMPOUND),
             "Several solids of one density as one body; its `location` is their common centre of mass",
         )
         .also(&["union", "parts", "composite", "group"]),
-        Key::new("sdl", Table(&SDL), "An object in SDL, with a solid for mechanics").also(&[
+        KeySpec::new("sdl", Table(&SDL), "An object in SDL, with a solid for mechanics").also(&[
             "povray",
             "custom",
             "isosurface",
@@ -78,7 +80,7 @@ pub(super) static SHAPE: TableSpec = TableSpec {
 static COMPOUND: TableSpec = TableSpec {
     noun: "a compound",
     rule: Rule::Any,
-    keys: &[Key::new(
+    keys: &[KeySpec::new(
         "parts",
         List { of: &Table(&PART), min: 1, max: usize::MAX },
         "Its parts; where they overlap, both count",
@@ -98,7 +100,7 @@ static PART: TableSpec = TableSpec {
         CONE,
         TORUS,
         MESH,
-        Key::new(
+        KeySpec::new(
             "location",
             VECTOR,
             "The part's own centre of mass, along the body's axes; their common origin does not matter",
@@ -106,10 +108,14 @@ static PART: TableSpec = TableSpec {
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
         .also(&["position", "pos", "center", "translate", "origin", "offset"]),
-        Key::new("orientation", Either(&[VECTOR, Table(&ORIENTATION)]), "Its orientation within the body")
-            .unit("degrees")
-            .default("not turned")
-            .also(&["rotation", "rotate", "angle", "attitude"]),
+        KeySpec::new(
+            "orientation",
+            Either(&[VECTOR, Table(&ORIENTATION)]),
+            "Its orientation within the body",
+        )
+        .unit("degrees")
+        .default("not turned")
+        .also(&["rotation", "rotate", "angle", "attitude"]),
     ],
 };
 
@@ -117,7 +123,7 @@ static SDL: TableSpec = TableSpec {
     noun: "a shape in SDL",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "object",
             Sdl(Where::Inside),
             "One object in SDL, in metres, with its centre of mass at the origin; without `material` it \
@@ -125,7 +131,7 @@ static SDL: TableSpec = TableSpec {
         )
         .required()
         .also(&["sdl", "code", "text", "draw"]),
-        Key::new("stand_in", Table(&STAND_IN), "The solid that gives its mass, inertia and extent")
+        KeySpec::new("stand_in", Table(&STAND_IN), "The solid that gives its mass, inertia and extent")
             .required()
             .also(&["physics", "collider", "proxy", "bounds", "shape"]),
     ],
@@ -140,18 +146,21 @@ static STAND_IN: TableSpec = TableSpec {
 static SPHERE_KEYS: TableSpec = TableSpec {
     noun: "a sphere",
     rule: Rule::Any,
-    keys: &[Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"])],
+    keys: &[KeySpec::new("radius", POSITIVE, "Its radius")
+        .unit("m")
+        .required()
+        .also(&["r", "size", "diameter"])],
 };
 
 static BOX_KEYS: TableSpec = TableSpec {
     noun: "a box",
     rule: Rule::Any,
     keys: &[
-        Key::new("size", Numbers(3, Bound::Positive), "Its full edge lengths along its own x, y, z")
+        KeySpec::new("size", Numbers(3, Bound::Positive), "Its full edge lengths along its own x, y, z")
             .unit("m")
             .required()
             .also(&["edges", "extents", "dimensions", "half_extents"]),
-        Key::new(
+        KeySpec::new(
             "rounding",
             NON_NEGATIVE,
             "The radius of its edges and corners, at most half its smallest edge; included in `size`",
@@ -166,8 +175,8 @@ static CYLINDER_KEYS: TableSpec = TableSpec {
     noun: "a cylinder",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
-        Key::new("height", POSITIVE, "Its height, along its own y")
+        KeySpec::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
+        KeySpec::new("height", POSITIVE, "Its height, along its own y")
             .unit("m")
             .required()
             .also(&["h", "length"]),
@@ -178,8 +187,8 @@ static CAPSULE_KEYS: TableSpec = TableSpec {
     noun: "a capsule",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
-        Key::new("height", POSITIVE, "Its total height along its own y: at least twice its radius")
+        KeySpec::new("radius", POSITIVE, "Its radius").unit("m").required().also(&["r", "size", "diameter"]),
+        KeySpec::new("height", POSITIVE, "Its total height along its own y: at least twice its radius")
             .unit("m")
             .required()
             .also(&["h", "length"]),
@@ -190,17 +199,17 @@ static CONE_KEYS: TableSpec = TableSpec {
     noun: "a cone",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "The radius of its base").unit("m").required().also(&[
+        KeySpec::new("radius", POSITIVE, "The radius of its base").unit("m").required().also(&[
             "r",
             "size",
             "diameter",
             "base_radius",
         ]),
-        Key::new("height", POSITIVE, "Its height, along its own y")
+        KeySpec::new("height", POSITIVE, "Its height, along its own y")
             .unit("m")
             .required()
             .also(&["h", "length"]),
-        Key::new("top_radius", NON_NEGATIVE, "The radius of its upper end; 0 gives it a tip")
+        KeySpec::new("top_radius", NON_NEGATIVE, "The radius of its upper end; 0 gives it a tip")
             .unit("m")
             .default_number(0.0)
             .also(&["radius2", "r2", "tip_radius"]),
@@ -211,18 +220,18 @@ static TORUS_KEYS: TableSpec = TableSpec {
     noun: "a torus",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "The distance from its centre to the middle of its tube")
+        KeySpec::new("radius", POSITIVE, "The distance from its centre to the middle of its tube")
             .unit("m")
             .required()
             .also(&["r", "size", "diameter", "major_radius", "major"]),
-        Key::new("tube_radius", POSITIVE, "The radius of its tube, at most its `radius`")
+        KeySpec::new("tube_radius", POSITIVE, "The radius of its tube, at most its `radius`")
             .unit("m")
             .required()
             .also(&["tube", "thickness", "minor_radius", "minor"]),
     ],
 };
 
-const SMOOTH: Key = Key::new(
+const SMOOTH: KeySpec = KeySpec::new(
     "smooth",
     Either(&[Boolean, Number(Bound::From(0.0, 180.0))]),
     "Which edges look smooth: all, none, or those between faces that meet at no more than this angle in \
@@ -236,7 +245,7 @@ static MESH_KEYS: TableSpec = TableSpec {
     noun: "a mesh",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "file",
             Asset,
             "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is \
@@ -244,7 +253,7 @@ static MESH_KEYS: TableSpec = TableSpec {
         )
         .required()
         .also(&["path", "name", "source", "obj", "stl", "filename"]),
-        Key::new("scale", POSITIVE, "The length of one unit of the file: 0.001 for millimetres")
+        KeySpec::new("scale", POSITIVE, "The length of one unit of the file: 0.001 for millimetres")
             .unit("m")
             .default_number(1.0)
             .also(&["unit", "units", "size", "factor"]),
@@ -256,7 +265,7 @@ static HEIGHTFIELD: TableSpec = TableSpec {
     noun: "a heightfield",
     rule: Rule::Any,
     keys: &[
-        Key::new(
+        KeySpec::new(
             "file",
             Asset,
             "A PNG in the scene's folder; each pixel is a point of the landscape, and the upper edge is the \
@@ -264,7 +273,7 @@ static HEIGHTFIELD: TableSpec = TableSpec {
         )
         .required()
         .also(&["image", "path", "png", "name", "source"]),
-        Key::new(
+        KeySpec::new(
             "size",
             Numbers(3, Bound::Positive),
             "The distance between the centres of the first and last pixel along x; the height from black to \
@@ -280,7 +289,7 @@ static HEIGHTFIELD: TableSpec = TableSpec {
 static PLANE: TableSpec = TableSpec {
     noun: "a plane",
     rule: Rule::Any,
-    keys: &[Key::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
+    keys: &[KeySpec::new("normal", AXIS, "The direction out of the plane, in the body's own axes")
         .default_numbers(&[0.0, 1.0, 0.0])
         .also(&["direction", "up"])],
 };
@@ -288,5 +297,8 @@ static PLANE: TableSpec = TableSpec {
 static AXES: TableSpec = TableSpec {
     noun: "axes",
     rule: Rule::Any,
-    keys: &[Key::new("length", POSITIVE, "The length of each arrow").unit("m").required().also(&["size"])],
+    keys: &[KeySpec::new("length", POSITIVE, "The length of each arrow")
+        .unit("m")
+        .required()
+        .also(&["size"])],
 };

@@ -2,7 +2,7 @@
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
 use super::keys::{POSITIVE, VECTOR};
-use super::{Key, Kind, Rule, TableSpec};
+use super::{KeySpec, Kind, Rule, TableSpec};
 
 static AXES_KINDS: [Kind; 2] = [Boolean, Table(&AXES_TABLE)];
 static TRAIL_KINDS: [Kind; 2] = [Boolean, Table(&TRAIL_TABLE)];
@@ -11,69 +11,71 @@ static ARROW_KINDS: [Kind; 2] = [Boolean, Table(&ARROW_TABLE)];
 
 // The keys for additional objects that are drawn with a body.
 
-pub(super) const ARROWS: Key = Key::new(
+pub(super) const ARROWS: KeySpec = KeySpec::new(
     "arrows",
     Table(&ARROWS_TABLE),
     "Arrows: from its surface for its velocity, acceleration and net force, parallel ones side by side; \
      from their points of action for its weight and contact forces",
 )
 .also(&["vectors", "arrow"]);
-pub(super) const JOINT_ARROWS: Key = Key::new(
+pub(super) const JOINT_ARROWS: KeySpec = KeySpec::new(
     "arrows",
     Table(&JOINT_ARROWS_TABLE),
     "Arrows for its action on its second end, starting there; the action on the first end is opposite",
 )
 .also(&["vectors", "arrow"]);
-pub(super) const AXES: Key =
-    Key::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which rotate with it")
+pub(super) const AXES: KeySpec =
+    KeySpec::new("axes", Either(&AXES_KINDS), "Its own axes x, y, z, which rotate with it")
         .default_flag(false)
         .also(&["triad", "frame"]);
-pub(super) const GHOSTS: Key = Key::new(
+pub(super) const GHOSTS: KeySpec = KeySpec::new(
     "ghosts",
     Table(&GHOSTS_TABLE),
     "Its earlier poses at regular intervals, drawn paler, as in a stroboscopic photo",
 )
 .also(&["ghost", "strobe", "stroboscope", "onion_skin"]);
-pub(super) const TRAIL: Key = Key::new("trail", Either(&TRAIL_KINDS), "A line along its past path")
+pub(super) const TRAIL: KeySpec = KeySpec::new("trail", Either(&TRAIL_KINDS), "A line along its past path")
     .default_flag(false)
     .also(&["trails", "path", "trace", "track", "tail", "trajectory"]);
 // The keys for the look of a spring.
-pub(super) const LINE: Key = Key::new(
+pub(super) const LINE: KeySpec = KeySpec::new(
     "line",
     Choice(|| vec!["coil", "straight", "none"]),
     "Its form between its ends; not drawn if they leave no room",
 )
 .default_word("coil")
 .also(&["look", "drawn", "draw", "visible", "style"]);
-pub(super) const COIL: Key = Key::new(
+pub(super) const COIL: KeySpec = KeySpec::new(
     "coil",
     Either(&COIL_KINDS),
     "The size and color of its coil or line; `false` hides it, as `line = \"none\"` does",
 )
 .default_flag(true);
 
-const COLOR: Key = Key::new("color", Color, "Its color").also(&["colour"]);
+const COLOR: KeySpec = KeySpec::new("color", Color, "Its color").also(&["colour"]);
 
 static ARROWS_TABLE: TableSpec = TableSpec {
     noun: "a body's arrows",
     rule: Rule::Any,
     keys: &[
-        Key::new("velocity", ARROW, "Its velocity, blue").default_flag(false).also(&["v"]),
-        Key::new("acceleration", ARROW, "The net force on it divided by its mass, orange")
+        KeySpec::new("velocity", ARROW, "Its velocity, blue").default_flag(false).also(&["v"]),
+        KeySpec::new("acceleration", ARROW, "The net force on it divided by its mass, orange")
             .default_flag(false)
             .also(&["a"]),
-        Key::new("force", ARROW, "The net force on it, magenta").default_flag(false).also(&["f", "forces"]),
-        Key::new("weight", ARROW, "Its weight, green, from its centre")
+        KeySpec::new("force", ARROW, "The net force on it, magenta")
+            .default_flag(false)
+            .also(&["f", "forces"]),
+        KeySpec::new("weight", ARROW, "Its weight, green, from its centre")
             .default_flag(false)
             .also(&["gravity"]),
-        Key::new(
+        KeySpec::new(
             "normal",
             ARROW,
             "The normal force of each touching body, red, from the contact; needs `simulation.contacts`",
         )
         .default_flag(false)
         .also(&["normal_force", "contact", "contacts", "reaction"]),
-        Key::new(
+        KeySpec::new(
             "friction",
             ARROW,
             "The friction of each touching body, yellow, from the contact; needs `simulation.contacts`",
@@ -87,8 +89,10 @@ static JOINT_ARROWS_TABLE: TableSpec = TableSpec {
     noun: "a joint's arrows",
     rule: Rule::Any,
     keys: &[
-        Key::new("force", ARROW, "Its force, magenta").default_flag(false).also(&["f", "forces", "reaction"]),
-        Key::new("torque", ARROW, "Its torque, along the torque's axis, green")
+        KeySpec::new("force", ARROW, "Its force, magenta")
+            .default_flag(false)
+            .also(&["f", "forces", "reaction"]),
+        KeySpec::new("torque", ARROW, "Its torque, along the torque's axis, green")
             .default_flag(false)
             .also(&["moment", "torques"]),
     ],
@@ -100,7 +104,7 @@ static ARROW_TABLE: TableSpec = TableSpec {
     noun: "an arrow",
     rule: Rule::Any,
     keys: &[
-        Key::new("scale", POSITIVE, "Its length per m/s, m/s², N or N·m")
+        KeySpec::new("scale", POSITIVE, "Its length per m/s, m/s², N or N·m")
             .unit("m")
             .default(
                 "the same for all arrows of its kind, chosen to make the longest easy to see; weight, \
@@ -114,7 +118,7 @@ static ARROW_TABLE: TableSpec = TableSpec {
 static AXES_TABLE: TableSpec = TableSpec {
     noun: "a body's axes",
     rule: Rule::Any,
-    keys: &[Key::new("length", POSITIVE, "The length of each")
+    keys: &[KeySpec::new("length", POSITIVE, "The length of each")
         .unit("m")
         .default("twice the body's extent")
         .also(&["size", "scale"])],
@@ -124,11 +128,11 @@ static GHOSTS_TABLE: TableSpec = TableSpec {
     noun: "ghosts",
     rule: Rule::Any,
     keys: &[
-        Key::new("every", POSITIVE, "The interval; the first ghost is at 0")
+        KeySpec::new("every", POSITIVE, "The interval; the first ghost is at 0")
             .unit("s")
             .required()
             .also(&["interval", "period", "step", "dt"]),
-        Key::new("arrows", Boolean, "Whether each has the arrows of the body").default_flag(true),
+        KeySpec::new("arrows", Boolean, "Whether each has the arrows of the body").default_flag(true),
     ],
 };
 
@@ -136,16 +140,16 @@ static TRAIL_TABLE: TableSpec = TableSpec {
     noun: "a trail",
     rule: Rule::Any,
     keys: &[
-        Key::new("duration", POSITIVE, "How far back it goes; it tapers towards its end")
+        KeySpec::new("duration", POSITIVE, "How far back it goes; it tapers towards its end")
             .unit("s")
             .default("the whole past")
             .also(&["length", "time"]),
-        Key::new("width", POSITIVE, "Its width")
+        KeySpec::new("width", POSITIVE, "Its width")
             .unit("m")
             .default("three thousandths of the picture's")
             .also(&["thickness", "radius"]),
         COLOR.default("that of the body"),
-        Key::new(
+        KeySpec::new(
             "at",
             VECTOR,
             "The point of the body that draws it, in the body's own axes, relative to its centre of mass",
@@ -160,10 +164,10 @@ static COIL_TABLE: TableSpec = TableSpec {
     noun: "a coil",
     rule: Rule::Any,
     keys: &[
-        Key::new("radius", POSITIVE, "Its radius, also that of a straight line")
+        KeySpec::new("radius", POSITIVE, "Its radius, also that of a straight line")
             .unit("m")
             .default("by its length and the bodies at its ends"),
-        Key::new("turns", Integer(1, 200), "The number of its turns").default("The number of turns"),
+        KeySpec::new("turns", Integer(1, 200), "The number of its turns").default("The number of turns"),
         COLOR.default("steel"),
     ],
 };

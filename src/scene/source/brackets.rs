@@ -43,7 +43,7 @@ struct Open {
 }
 
 /// A dotted key that is being read.
-struct Key {
+struct DottedKey {
     start: usize,
     parts: u32,
     /// True if the last token was a dot, so that another part of the key must follow.
@@ -54,7 +54,7 @@ struct Looker<'a> {
     text: &'a str,
     source: SourceId,
     open: Vec<Open>,
-    key: Option<Key>,
+    key: Option<DottedKey>,
     found: Brackets,
 }
 
@@ -116,7 +116,7 @@ impl Looker<'_> {
     fn part_of_key(&mut self, span: toml_parser::Span) {
         let before = self.key.take().filter(|key| key.goes_on);
         let (start, parts) = before.map_or((span.start(), 1), |key| (key.start, key.parts + 1));
-        self.key = Some(Key { start, parts, goes_on: false });
+        self.key = Some(DottedKey { start, parts, goes_on: false });
         if parts == MAX_DEPTH + 1 {
             let place = Span::new(self.source, start..span.end());
             let error = Diagnostic::error(Code::TomlSyntax, format!("a key has more than {MAX_DEPTH} parts"));

@@ -13,7 +13,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
 use crate::scene::source::Node;
-use crate::scene::{Body, Emitter, Force, ForceKind, Simulation};
+use crate::scene::{Body, Emitter, Force, ForceKind, SimulationSettings};
 
 /// Reads one force of any kind.
 struct Reader<'a, 'c> {
@@ -22,7 +22,7 @@ struct Reader<'a, 'c> {
     span: Span,
     bodies: &'a [Body],
     emitters: &'a [Emitter],
-    simulation: &'a Simulation,
+    simulation: &'a SimulationSettings,
     /// Whether the force acts on the particles of an emitter.
     has_particles: bool,
     /// The warning text that says why the force does not act on a body, such as "it has no charge".
@@ -42,7 +42,7 @@ pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
     emitters: &[Emitter],
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Vec<Force> {
     let tables = root.named("force");

@@ -6,7 +6,7 @@ use super::joint::kind_in_header;
 use super::key_of;
 use super::text::{removal, whole};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::grammar::{KeySpec, Kind, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 
 /// The kind that the user probably meant for a table, such as the shape `sphere` for a body.
@@ -54,7 +54,7 @@ fn by_word(table: &Table, spec: &'static TableSpec) -> Option<MeantKind> {
         let word = entry.node.as_str()?;
         let name = &*entry.name.text;
         let (mut way, kinds) = match spec.key(name) {
-            Some(Key { kind: Kind::Table(kinds), name, .. }) => (vec![*name], *kinds),
+            Some(KeySpec { kind: Kind::Table(kinds), name, .. }) => (vec![*name], *kinds),
             None if matches!(name, "type" | "kind") => kinds_of(spec).unwrap_or((Vec::new(), spec)),
             _ => return None,
         };
@@ -93,7 +93,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
     let is_table = |name: &str| kinds.key(name).is_some_and(|key| key.kind.table().is_some());
     let is_full = names.iter().any(|name| is_there(name) && is_table(name));
     let name = path.rsplit(['.', '[']).next().unwrap_or_default().trim_matches([']', '"']);
-    let is_named = |key: &Key| key_of(name, kinds).is_some_and(|named| named.name == key.name);
+    let is_named = |key: &KeySpec| key_of(name, kinds).is_some_and(|named| named.name == key.name);
     // A key of the scene language counts twice as much as a name from other programs.
     let fits = |inner: &'static TableSpec| -> usize {
         let worth = |word: &&str| match inner.key(word) {
@@ -122,8 +122,8 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
 pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     let mut required = spec.keys.iter().filter(|key| key.required).peekable();
     let is_it =
-        |entry: &Entry, key: &Key| key_of(&entry.name.text, spec).is_some_and(|it| it.name == key.name);
-    let is_said = |key: &Key| table.entries.iter().any(|entry| is_it(entry, key));
+        |entry: &Entry, key: &KeySpec| key_of(&entry.name.text, spec).is_some_and(|it| it.name == key.name);
+    let is_said = |key: &KeySpec| table.entries.iter().any(|entry| is_it(entry, key));
     let has_ends = spec.key("between").is_some_and(|key| key.required) && table.entries.iter().any(is_end);
     required.peek().is_none() || has_ends || required.any(is_said)
 }

@@ -4,13 +4,13 @@ use super::super::Context;
 use super::text::{header_end, is_file};
 use super::{ends, joint, key_of};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::grammar::{KeySpec, Kind, Rule, TableSpec};
 use crate::scene::source::Table;
 
 /// Adds a fix that inserts the missing key `key` with an example value into the table whose name is at the span `at`.
 pub(in crate::scene::check) fn mend_missing(
     error: Diagnostic,
-    key: &Key,
+    key: &KeySpec,
     at: Option<Span>,
     context: &Context<'_>,
 ) -> Diagnostic {
@@ -58,7 +58,7 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
 /// Returns the TOML text of an example of a kind of shape, force or joint, such as `shape.sphere.radius = 0.5`. `None` if a required key
 /// has no example value.
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
-    let mut keys: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    let mut keys: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
     if keys.is_empty() {
         // Add one optional key: an empty drag or Lorentz force would have no effect.
         keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
@@ -77,7 +77,7 @@ pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<
 }
 
 /// Returns the TOML text of an example value for a key. `None` if there is no example for this kind of value.
-pub(super) fn example_of(key: &Key, context: &Context<'_>) -> Option<String> {
+pub(super) fn example_of(key: &KeySpec, context: &Context<'_>) -> Option<String> {
     let text = match (&key.kind, key.name) {
         (Kind::List { .. }, "between") => return ends::example(context),
         (Kind::Number(_), "radius" | "every") => "0.5",

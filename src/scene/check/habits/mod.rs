@@ -31,12 +31,12 @@ pub(super) use self::word::other_word;
 pub(super) use self::not_built::is_word_to_come;
 
 use self::not_built::not_built;
-use crate::scene::grammar::{Key, TableSpec, quoted};
+use crate::scene::grammar::{KeySpec, TableSpec, quoted};
 
 /// Returns the key of a table that has this name in jabuka or in other programs.
-fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static Key> {
+fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static KeySpec> {
     let folded = word.to_lowercase();
-    let is_it = |key: &&Key| key.name == folded || key.also.contains(&folded.as_str());
+    let is_it = |key: &&KeySpec| key.name == folded || key.also.contains(&folded.as_str());
     spec.keys.iter().find(is_it)
 }
 

@@ -7,7 +7,7 @@ use super::kind::is_begun;
 use super::text::{header_end, raw, removal, whole};
 use super::way::key_at;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::{Key, Kind, Rule, SCENE, TableSpec};
+use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
 /// Returns the error for a table without the key of its collection (`[ball]` instead of `[body.ball]`), or for a key of a body outside of
@@ -152,7 +152,7 @@ pub(in crate::scene::check) fn mend_unnamed(
         return error.fix(entry.name.span, format!("{word}.{}", name_of(word)));
     }
     // In `clock = "t = ${t}"` below `[label]`, the user gave the name `clock`, but not the key `text`.
-    let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    let required: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
     match required.as_slice() {
         [only] if spec.key(key).is_none() && only.kind.takes(&inner.node.value) => {
             error.fix(inner.name.span, format!("{key}.{}", only.name))

@@ -5,7 +5,7 @@ use super::key_of;
 use super::missing::insertion;
 use super::text::{header_end, raw, removal, whole};
 use crate::diagnostic::{Code, Span};
-use crate::scene::grammar::{Key, TableSpec};
+use crate::scene::grammar::{KeySpec, TableSpec};
 use crate::scene::source::{Entry, Table};
 
 /// A named table, such as a body, a force or a joint, to which a misplaced key of an inner table may belong.
@@ -46,7 +46,7 @@ impl Owner<'_> {
 
     /// Returns the edits that move an entry to this table. `None` if the table has this key already, or if the position for the entry is
     /// unclear.
-    fn edits(&self, entry: &Entry, key: &Key, context: &Context<'_>) -> Option<[(Span, String); 2]> {
+    fn edits(&self, entry: &Entry, key: &KeySpec, context: &Context<'_>) -> Option<[(Span, String); 2]> {
         if self.table.get(key.name).is_some() || entry.name.span.source != self.at.source {
             return None;
         }

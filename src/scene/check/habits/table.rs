@@ -4,7 +4,7 @@ use super::super::Context;
 use super::missing::example_of;
 use super::text::raw;
 use crate::scene::Color;
-use crate::scene::grammar::{Key, Kind, Rule, TableSpec};
+use crate::scene::grammar::{KeySpec, Kind, Rule, TableSpec};
 use crate::scene::source::{Node, Value};
 use crate::scene::units;
 
@@ -17,14 +17,14 @@ pub(super) fn as_table(
     context: &Context<'_>,
 ) -> Option<String> {
     let raw = raw(node.span, context);
-    let entry = |key: &Key, value: &str| Some(format!("{{ {} = {value} }}", key.name));
-    let required: Vec<&Key> = spec.keys.iter().filter(|key| key.required).collect();
+    let entry = |key: &KeySpec, value: &str| Some(format!("{{ {} = {value} }}", key.name));
+    let required: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
     if matches!(node.value, Value::Table(_)) || matches!(spec.rule, Rule::ExactlyOne(_)) {
         return None;
     }
     match (required.as_slice(), &node.value) {
         ([count, rest @ ..], Value::Integer(_)) if count.name == "count" && count.kind.takes(&node.value) => {
-            let example = |key: &&Key| Some(format!(", {} = {}", key.name, example_of(key, context)?));
+            let example = |key: &&KeySpec| Some(format!(", {} = {}", key.name, example_of(key, context)?));
             let rest = rest.iter().map(example).collect::<Option<Vec<_>>>()?.concat();
             Some(format!("{{ count = {raw}{rest} }}"))
         }
@@ -49,7 +49,8 @@ pub(super) fn as_table(
         ([], Value::Array(items))
             if items.len() == 3 && !matches!(items[0].value, Value::String(_)) || name == "formula" =>
         {
-            let is_vector = |key: &&Key| matches!(key.kind, Kind::Numbers(3, _) | Kind::TimedNumbers(3, _));
+            let is_vector =
+                |key: &&KeySpec| matches!(key.kind, Kind::Numbers(3, _) | Kind::TimedNumbers(3, _));
             entry(spec.keys.iter().find(is_vector)?, raw)
         }
         ([], Value::Array(items)) => {
@@ -63,8 +64,8 @@ pub(super) fn as_table(
 
 /// Returns the TOML text of the entry that a word stands for: a choice, a color, a number with its unit, or a switch.
 fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
-    let find = |is: &dyn Fn(&Key) -> bool| spec.keys.iter().find(|key| is(key));
-    let is_choice = |key: &Key| matches!(key.kind, Kind::Choice(words) if words().contains(&word));
+    let find = |is: &dyn Fn(&KeySpec) -> bool| spec.keys.iter().find(|key| is(key));
+    let is_choice = |key: &KeySpec| matches!(key.kind, Kind::Choice(words) if words().contains(&word));
     if let Some(key) = find(&is_choice) {
         return Some(format!("{} = \"{word}\"", key.name));
     }
@@ -73,7 +74,7 @@ fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
     }
     if let Some((number, unit)) = units::quantity(word) {
         let measured =
-            |key: &Key| matches!(key.kind, Kind::Number(_)) && units::factor(unit, key.unit).is_some();
+            |key: &KeySpec| matches!(key.kind, Kind::Number(_)) && units::factor(unit, key.unit).is_some();
         let key = find(&measured)?;
         return Some(format!("{} = {}", key.name, units::converted(number, unit, key.unit)?));
     }

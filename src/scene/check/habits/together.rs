@@ -6,7 +6,7 @@ use super::launch::{ANGLES, SPEEDS, by_angle, find};
 use super::text::{operand, raw, removal, whole, whole_line};
 use super::{ends, joint, key_of, quoted_and};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::{Key, Rule, TableSpec};
+use crate::scene::grammar::{KeySpec, Rule, TableSpec};
 use crate::scene::source::{Entry, Table};
 use crate::scene::units;
 
@@ -157,7 +157,7 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
         .find(|entry| names.contains(&&*entry.name.text) && entry.node.as_number().is_some())?;
     let key = spec.key(&kind.name.text)?;
     let inner = key.kind.table().filter(|inner| inner.key("count").is_some())?;
-    let others: Vec<(&Entry, &Key)> = table
+    let others: Vec<(&Entry, &KeySpec)> = table
         .entries
         .iter()
         .filter(|entry| spec.key(&entry.name.text).is_none())
@@ -168,7 +168,7 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
     let error = Diagnostic::error(Code::UnknownKey, message)
         .at(first.name.span, format!("this is a key of {}", inner.noun))
         .fix(kind.name.span, format!("{}.count", key.name));
-    let fix = |error: Diagnostic, (entry, it): &(&Entry, &Key)| {
+    let fix = |error: Diagnostic, (entry, it): &(&Entry, &KeySpec)| {
         error.fix(entry.name.span, format!("{}.{}", key.name, it.name))
     };
     let spans = others.iter().map(|(entry, _)| entry.name.span).chain([kind.name.span]).collect();

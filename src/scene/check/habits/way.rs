@@ -6,7 +6,7 @@ use super::kind::MeantKind;
 use super::missing::insertion;
 use super::text::{raw, removal, whole};
 use crate::diagnostic::Span;
-use crate::scene::grammar::{Key, Rule, SCENE, TableSpec};
+use crate::scene::grammar::{KeySpec, Rule, SCENE, TableSpec};
 use crate::scene::source::{Entry, Table};
 
 /// Returns the path of keys from a table to the key that the unknown key `entry` was probably meant to be. `None` if no key is similar.
@@ -20,7 +20,7 @@ pub(super) fn way(
     // An entry whose value is a table can only become a key that takes a table.
     let takes = |way: &Vec<&'static str>| {
         let is_table = entry.node.as_table().is_some();
-        let can = |key: &Key| key.kind.table().is_some() || key.kind.takes(&entry.node.value);
+        let can = |key: &KeySpec| key.kind.table().is_some() || key.kind.takes(&entry.node.value);
         !is_table || key_at(way, spec).is_some_and(can)
     };
     let of_kind = meant.and_then(|meant| meant.way_to(word)).filter(takes);
@@ -83,7 +83,7 @@ fn is_excluded(
 }
 
 /// Returns the key at the end of a path of keys.
-pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static Key> {
+pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static KeySpec> {
     let (first, rest) = way.split_first()?;
     let key = spec.key(first)?;
     if rest.is_empty() { Some(key) } else { key_at(rest, key.kind.table()?) }
@@ -115,7 +115,7 @@ pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String,
 }
 
 /// Returns the key of `[simulation]` with this name. `None` for ambiguous names from other programs, such as `length` and `rate`.
-fn of_simulation(word: &str) -> Option<&'static Key> {
+fn of_simulation(word: &str) -> Option<&'static KeySpec> {
     const PLAIN: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
     let key = key_of(word, SCENE.key("simulation")?.kind.table()?)?;
     (key.name == word || PLAIN.contains(&word)).then_some(key)

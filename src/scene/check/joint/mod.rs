@@ -16,7 +16,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
-use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, Simulation};
+use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, SimulationSettings};
 
 /// The largest initial error of a joint's constraint that gives no warning, relative to the size of the joint. Rounding of coordinates
 /// with few digits causes larger errors.
@@ -29,7 +29,7 @@ const TOO_FAR: f64 = 1e-3;
 pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
-    simulation: &Simulation,
+    simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
@@ -103,7 +103,7 @@ struct Reader<'a, 'c> {
     name: &'a str,
     span: Span,
     bodies: &'a [Body],
-    simulation: &'a Simulation,
+    simulation: &'a SimulationSettings,
     /// The names of all gears in the scene.
     gears: &'a [&'a str],
     context: &'a mut Context<'c>,

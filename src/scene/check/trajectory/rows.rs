@@ -9,7 +9,7 @@ use super::Recording;
 use super::columns::{Column, Columns, LENGTH, RATIO, TIME, TURNING, VELOCITY};
 use super::fields::Fields;
 use crate::diagnostic::Code;
-use crate::dynamics::Key;
+use crate::dynamics::Keyframe;
 
 /// A mistake in a trajectory file, before its position is turned into a source span.
 pub(super) struct Wrong {
@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
                 }
                 continue;
             }
-            keys.push(Key {
+            keys.push(Keyframe {
                 time,
                 location,
                 orientation,
