@@ -52,6 +52,9 @@ impl Expander<'_> {
         }
         let (count, because, letter) = match &repeat {
             Some(repeat) => (count_of(&repeat.node), repeat.node.span, repeat.name.span),
+            None if let Some(repeat) = misplaced_repeat(&table, spec) => {
+                (count_of(&repeat.node), repeat.node.span, repeat.name.span)
+            }
             None => {
                 let mut ends = Vec::new();
                 ends_of_i(&table, spec, &mut ends);
@@ -176,12 +179,21 @@ fn by_index(name: &str) -> String {
     }
 }
 
-/// Returns true if a force or a joint has to be copied: it has a `repeat`, or it names bodies by `i`.
+/// Returns true if a force or a joint has to be copied: it has a `repeat`, also in the wrong table, or it names bodies by `i`.
 fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     let Some(table) = entry.node.as_table() else { return false };
     let mut ends = Vec::new();
     ends_of_i(table, spec, &mut ends);
-    table.get("repeat").is_some() || !ends.is_empty()
+    table.get("repeat").is_some() || misplaced_repeat(table, spec).is_some() || !ends.is_empty()
+}
+
+/// Finds a `repeat` in a table of the force or joint that has no such key, such as `[joint.NAME.rope]`. The validation reports it. Copies
+/// are made as if it were in the right place, so that formulas with the index `i` cause no further errors.
+fn misplaced_repeat<'t>(table: &'t Table, spec: &'static TableSpec) -> Option<&'t Entry> {
+    table.entries.iter().find_map(|entry| match &spec.key(&entry.name.text)?.kind {
+        Kind::Table(inner) if inner.key("repeat").is_none() => entry.node.as_table()?.get("repeat"),
+        _ => None,
+    })
 }
 
 /// Returns true if the entry is a gear, a joint that couples two other joints.

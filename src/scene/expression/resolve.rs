@@ -235,7 +235,8 @@ fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
     let error = error(Code::UnknownName, range, format!("there is no variable `{name}`"));
     match name {
         "t" => error.label("this number is set once, before the time begins"),
-        "i" | "j" | "k" => error.label("only a body with a `repeat` of so many directions has this index"),
+        "i" => error.label("only copies have this index: write a `repeat`"),
+        "j" | "k" => error.label("only a body with a `repeat` of so many directions has this index"),
         "inf" | "nan" => error.label("the numbers of a scene are finite"),
         _ => {
             let label = scope.suggest(name);
