@@ -9,7 +9,7 @@ use crate::dynamics::{Accounts, Loads, Moment, State};
 
 impl Model {
     /// Computes the sums of all forces and torques at `time`, s, and writes them to `loads`. Constraint forces are not included:
-    /// [`System::evaluate`](super::System::evaluate) adds them.
+    /// [`System::evaluate`](super::super::System::evaluate) adds them.
     ///
     /// The loads on bodies that do not move are zero, because the support of the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {

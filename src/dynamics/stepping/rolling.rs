@@ -10,7 +10,7 @@
 //! step, divided by its duration. The engine keeps its own velocity, because its contact forces and friction rely on it.
 
 use glam::DVec3;
-use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle, TypedShape};
+use rapier3d_f64::prelude::{ContactPair, PhysicsWorld, RigidBodyHandle, TypedShape};
 
 use super::joint::Joints;
 
@@ -92,7 +92,7 @@ fn between(velocity: DVec3, displacement: DVec3, largest: f64) -> DVec3 {
 fn touches(engine: &PhysicsWorld, body: RigidBodyHandle) -> bool {
     let colliders = engine.bodies.get(body).map_or(&[][..], |body| body.colliders());
     let mut pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
-    pairs.any(|pair| pair.has_any_active_contact())
+    pairs.any(ContactPair::has_any_active_contact)
 }
 
 /// Returns the radius of a round shape, m, or the largest radius of its round parts; 0 for other shapes.
