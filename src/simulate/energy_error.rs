@@ -33,7 +33,8 @@ impl EnergyScale {
     }
 
     /// Whether the energy error is relative to the largest kinetic energy.
-    pub(crate) fn is_largest_kinetic(&self) -> bool {
+    #[must_use]
+    pub fn is_largest_kinetic(&self) -> bool {
         *self == EnergyScale::LargestKinetic
     }
 }
