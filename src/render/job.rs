@@ -6,11 +6,11 @@ use std::time::Duration;
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use super::making::Making;
 use super::order::coarse_to_fine;
 use super::pool::Pool;
-use super::process::{Setup, Unit};
+use super::process::{RenderTask, Setup};
 use super::record::{Compare, Record, State, Verdict};
+use super::result_collector::ResultCollector;
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
 
 /// A job that renders the images of a sequence of scripts, with its settings.
@@ -191,20 +191,22 @@ impl Job<'_> {
         pool.jobs = self.jobs;
         pool.retries = self.retries;
         pool.time_limit = self.time_limit;
-        let unit = |index: usize| {
+        let task = |index: usize| {
             let script = &scripts[groups[index].members[0]];
             let asks_clock = groups[index].record.frame.is_some();
-            Unit { index, frame: script.frame, script: script.file.clone(), moment: None, asks_clock }
+            RenderTask { index, frame: script.frame, script: script.file.clone(), moment: None, asks_clock }
         };
-        let moments = |unit: Unit| -> Vec<Unit> {
+        let moments = |task: RenderTask| -> Vec<RenderTask> {
             let moments = sequence.moments.map(|moments| {
-                (0..moments).map(|m| Unit { moment: Some(m), asks_clock: false, ..unit.clone() }).collect()
+                (0..moments)
+                    .map(|m| RenderTask { moment: Some(m), asks_clock: false, ..task.clone() })
+                    .collect()
             });
-            moments.unwrap_or_else(|| vec![unit])
+            moments.unwrap_or_else(|| vec![task])
         };
-        let units: Vec<Unit> = coarse_to_fine(groups.len()).map(unit).flat_map(moments).collect();
-        let mut making = Making::new(self, groups, outcome, watch);
-        let finished = pool.run(units, &mut |unit, fate| making.take(&unit, fate))?;
+        let tasks: Vec<RenderTask> = coarse_to_fine(groups.len()).map(task).flat_map(moments).collect();
+        let mut collector = ResultCollector::new(self, groups, outcome, watch);
+        let finished = pool.run(tasks, &mut |task, result| collector.take(&task, result))?;
         outcome.stopped = !finished;
         outcome.processes = pool.started();
         outcome.warnings = pool.warnings();

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::process::{Process, Setup, Step, Unit};
+use super::process::{Process, RenderTask, Setup, Step};
 use super::{Images, RenderError, cpu};
 
 /// The time that POV-Ray waits between two images, s, measured with POV-Ray 3.7.
@@ -23,8 +23,8 @@ const MOST: usize = 12;
 /// The interval between two polls of the POV-Ray processes.
 const TICK: Duration = Duration::from_millis(8);
 
-/// The result of rendering one picture (a [`Unit`]).
-pub(super) enum Fate {
+/// The result of rendering one picture (a [`RenderTask`]).
+pub(super) enum TaskResult {
     /// The image was rendered: its path, and its rendering time in s. The file exists until this result has been handled.
     Image(PathBuf, f64),
     /// POV-Ray has reported this error in the script.
@@ -45,9 +45,9 @@ pub(super) struct Pool<'a> {
     pub(super) stop: &'a AtomicBool,
     processors: usize,
     running: Vec<Process>,
-    queue: VecDeque<Unit>,
+    queue: VecDeque<RenderTask>,
     /// The number of POV-Ray's crashes on each picture.
-    deaths: HashMap<Unit, u32>,
+    deaths: HashMap<RenderTask, u32>,
     started: usize,
     /// The number of images so far, their total time, and the time of the slowest one, s.
     measured: (usize, f64, f64),
@@ -79,10 +79,10 @@ impl<'a> Pool<'a> {
     /// If the disk is full, a folder has disappeared, or `done` fails.
     pub(super) fn run(
         &mut self,
-        units: impl IntoIterator<Item = Unit>,
-        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+        tasks: impl IntoIterator<Item = RenderTask>,
+        done: &mut dyn FnMut(RenderTask, TaskResult) -> Result<(), RenderError>,
     ) -> Result<bool, RenderError> {
-        self.queue = units.into_iter().collect();
+        self.queue = tasks.into_iter().collect();
         let mut looked = Instant::now();
         while !(self.queue.is_empty() && self.running.is_empty()) {
             if self.stop.load(Ordering::Relaxed) {
@@ -156,22 +156,22 @@ impl<'a> Pool<'a> {
         // The first image is rendered alone, so that the user can look at it while all others are being rendered.
         let is_first = self.started == 0;
         let share = if is_first { 1 } else { self.share() };
-        let mut units = Vec::new();
+        let mut tasks = Vec::new();
         while let Some(next) = self.queue.front() {
             // A script that uses POV-Ray's clock needs a process of its own. So does a picture after a crash, since another picture in the
             // same process may have caused the crash.
             let alone = next.asks_clock || self.deaths.contains_key(next);
-            if units.len() >= share || (alone && !units.is_empty()) {
+            if tasks.len() >= share || (alone && !tasks.is_empty()) {
                 break;
             }
-            units.extend(self.queue.pop_front());
+            tasks.extend(self.queue.pop_front());
             if alone {
                 break;
             }
         }
         let folder = self.images.work_folder(self.started)?;
-        let humble = !is_first && self.measured.0 == 0 && self.jobs.is_none();
-        let process = Process::start(&self.setup, folder.clone(), units, humble);
+        let low_priority = !is_first && self.measured.0 == 0 && self.jobs.is_none();
+        let process = Process::start(&self.setup, folder.clone(), tasks, low_priority);
         self.running.push(process.map_err(RenderError::io(folder))?);
         self.started += 1;
         Ok(())
@@ -182,14 +182,14 @@ impl<'a> Pool<'a> {
         &mut self,
         index: usize,
         step: Step,
-        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+        done: &mut dyn FnMut(RenderTask, TaskResult) -> Result<(), RenderError>,
     ) -> Result<bool, RenderError> {
         match step {
             Step::Working => return Ok(true),
-            Step::Image { unit, path, seconds } => {
+            Step::Image { task, path, seconds } => {
                 let (images, cost, slowest) = self.measured;
                 self.measured = (images + 1, cost + seconds, slowest.max(seconds));
-                done(unit, Fate::Image(path, seconds))?;
+                done(task, TaskResult::Image(path, seconds))?;
                 return Ok(true);
             }
             Step::Done => {}
@@ -197,19 +197,19 @@ impl<'a> Pool<'a> {
                 let mut left = left.into_iter();
                 let broken = left.next();
                 // The remaining pictures go back to the front of the queue.
-                left.rev().for_each(|unit| self.queue.push_front(unit));
-                if let Some(unit) = broken {
-                    self.queue.retain(|other| other.index != unit.index);
-                    done(unit, Fate::Broken(message))?;
+                left.rev().for_each(|task| self.queue.push_front(task));
+                if let Some(task) = broken {
+                    self.queue.retain(|other| other.index != task.index);
+                    done(task, TaskResult::Broken(message))?;
                 }
             }
             Step::Died { why, left } => {
                 self.probe(index)?;
                 let mut left = left.into_iter();
                 let died = left.next();
-                left.rev().for_each(|unit| self.queue.push_front(unit));
-                if let Some(unit) = died {
-                    self.again(unit, &why, done)?;
+                left.rev().for_each(|task| self.queue.push_front(task));
+                if let Some(task) = died {
+                    self.again(task, &why, done)?;
                 }
             }
         }
@@ -228,18 +228,18 @@ impl<'a> Pool<'a> {
     /// Queues a picture again after POV-Ray has crashed on it, unless all retries are used up.
     fn again(
         &mut self,
-        unit: Unit,
+        task: RenderTask,
         why: &str,
-        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+        done: &mut dyn FnMut(RenderTask, TaskResult) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
-        let deaths = self.deaths.entry(unit.clone()).or_insert(0);
+        let deaths = self.deaths.entry(task.clone()).or_insert(0);
         *deaths += 1;
         if *deaths > self.retries {
-            self.queue.retain(|other| other.index != unit.index);
+            self.queue.retain(|other| other.index != task.index);
             let times = if *deaths == 1 { String::new() } else { format!(" ({deaths} times)") };
-            return done(unit, Fate::Died(format!("POV-Ray gave no image: {why}{times}")));
+            return done(task, TaskResult::Died(format!("POV-Ray gave no image: {why}{times}")));
         }
-        self.queue.push_front(unit);
+        self.queue.push_front(task);
         Ok(())
     }
 
@@ -256,7 +256,7 @@ impl<'a> Pool<'a> {
     /// Kills processes that hang or exceed the time limit.
     fn guard(
         &mut self,
-        done: &mut dyn FnMut(Unit, Fate) -> Result<(), RenderError>,
+        done: &mut dyn FnMut(RenderTask, TaskResult) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let seconds = cpu::seconds_by_group();
         let limit = self.time_limit.unwrap_or_else(|| self.usual_limit());

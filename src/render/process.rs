@@ -17,7 +17,7 @@ use crate::sandbox::Needs;
 
 /// A picture for POV-Ray to render: a frame, or one moment of a frame with motion blur.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Unit {
+pub(super) struct RenderTask {
     /// The index of the frame's group within the job. The frames of a group have equal scripts.
     pub(super) index: usize,
     /// The number of the frame within the film.
@@ -49,7 +49,7 @@ pub(super) struct Setup<'a> {
 pub(super) struct Process {
     child: Started,
     folder: PathBuf,
-    units: Vec<Unit>,
+    tasks: Vec<RenderTask>,
     names: Names,
     done: usize,
     /// The time at which POV-Ray began the current image.
@@ -65,13 +65,13 @@ pub(super) enum Step {
     /// The process is running, without a new image.
     Working,
     /// The image of a picture is complete.
-    Image { unit: Unit, path: PathBuf, seconds: f64 },
+    Image { task: RenderTask, path: PathBuf, seconds: f64 },
     /// The process has rendered its last image, and has ended or was killed.
     Done,
     /// The process has ended early, with an error message about the script of the first remaining picture.
-    Broken { message: String, left: Vec<Unit> },
+    Broken { message: String, left: Vec<RenderTask> },
     /// The process has ended early or was killed, for a reason outside of the script.
-    Died { why: String, left: Vec<Unit> },
+    Died { why: String, left: Vec<RenderTask> },
 }
 
 /// How POV-Ray numbers the image files of a process.
@@ -83,29 +83,29 @@ enum Names {
 }
 
 impl Process {
-    /// Starts a POV-Ray process that renders some pictures. With `humble`, the process has a low priority.
+    /// Starts a POV-Ray process that renders some pictures. With `low_priority`, the process has a low priority.
     pub(super) fn start(
         setup: &Setup<'_>,
         folder: PathBuf,
-        units: Vec<Unit>,
-        humble: bool,
+        tasks: Vec<RenderTask>,
+        low_priority: bool,
     ) -> io::Result<Process> {
         // A symbolic link with a plain name stands for the folder of the scripts, since the folder's name may contain characters that
         // POV-Ray's command line and strings cannot.
         std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
-        fs::write(folder.join("run.pov"), master(&units))?;
+        fs::write(folder.join("run.pov"), master(&tasks))?;
         let (last, [begin, end]) = (setup.last, setup.clock);
-        let (names, range) = match units.as_slice() {
-            [unit] if unit.asks_clock => {
-                let frame = unit.frame;
+        let (names, range) = match tasks.as_slice() {
+            [task] if task.asks_clock => {
+                let frame = task.frame;
                 let digits = if last == 0 { 0 } else { last.to_string().len() };
                 let range =
                     [format!("+KFI0 +KFF{last} +KI{begin} +KF{end}"), format!("+SF{frame} +EF{frame}")];
                 (Names::Own(frame, digits), range.join(" "))
             }
-            _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", units.len() - 1)),
+            _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", tasks.len() - 1)),
         };
-        let needs = Needs { read: &[setup.scripts], write: &[&folder], humble };
+        let needs = Needs { read: &[setup.scripts], write: &[&folder], low_priority };
         let mut command = setup.povray.command(needs);
         command
             .current_dir(&folder)
@@ -113,7 +113,7 @@ impl Process {
             .args(["+Lscripts", "+Lscripts/assets"])
             .arg(format!("+WT{}", setup.threads))
             .args(setup.options)
-            .arg(if units.iter().any(|unit| unit.moment.is_some()) { "+FN16" } else { "+FN8" })
+            .arg(if tasks.iter().any(|task| task.moment.is_some()) { "+FN16" } else { "+FN8" })
             .args(range.split(' '))
             .args(["+Irun.pov", "+Oimage.png"])
             .stdin(Stdio::null())
@@ -121,7 +121,7 @@ impl Process {
             .stderr(File::create(folder.join("console.txt"))?);
         let child = Started::new(&mut command)?;
         let now = Instant::now();
-        Ok(Process { child, folder, units, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
+        Ok(Process { child, folder, tasks, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
 
     /// Polls the process for a new image or its end.
@@ -131,10 +131,10 @@ impl Process {
             Ok(exit) => exit,
             Err(error) => return self.died(format!("it cannot be watched: {error}")),
         };
-        if let Some(unit) = self.units.get(self.done) {
+        if let Some(task) = self.tasks.get(self.done) {
             let path = self.folder.join(self.names.of(self.done));
             if is_whole(&path) {
-                let unit = unit.clone();
+                let task = task.clone();
                 let cpu = cpu::seconds(self.child.id());
                 let seconds = match cpu {
                     Some(cpu) if cpu - self.cpu_before > 0.01 => cpu - self.cpu_before,
@@ -143,7 +143,7 @@ impl Process {
                 self.cpu_before = cpu.unwrap_or(0.0);
                 self.since = Instant::now();
                 self.done += 1;
-                return Step::Image { unit, path, seconds };
+                return Step::Image { task, path, seconds };
             }
         } else {
             // All images are complete. Waiting for POV-Ray's own end would take a third of a second.
@@ -193,14 +193,14 @@ impl Process {
         let message = said(&self.folder.join("errors.txt"));
         if exit.code() == Some(1) && !message.is_empty() {
             self.child.end();
-            return Step::Broken { message, left: self.units.split_off(self.done) };
+            return Step::Broken { message, left: self.tasks.split_off(self.done) };
         }
         let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
         let console = String::from_utf8_lossy(&console);
         // For missing images, fonts and the like, POV-Ray prints this error instead of a parse error.
         if let Some(message) = console.lines().find_map(|line| line.strip_prefix("Fatal error in parser: ")) {
             self.child.end();
-            return Step::Broken { message: message.to_owned(), left: self.units.split_off(self.done) };
+            return Step::Broken { message: message.to_owned(), left: self.tasks.split_off(self.done) };
         }
         let last = console.lines().rev().find(|line| !line.trim().is_empty());
         let why = match (exit.signal(), exit.code()) {
@@ -216,7 +216,7 @@ impl Process {
 
     fn died(&mut self, why: String) -> Step {
         self.child.end();
-        Step::Died { why, left: self.units.split_off(self.done.min(self.units.len())) }
+        Step::Died { why, left: self.tasks.split_off(self.done.min(self.tasks.len())) }
     }
 }
 
@@ -239,15 +239,15 @@ impl Names {
 }
 
 /// Returns the main script of a process, which includes another script for each frame number.
-fn master(units: &[Unit]) -> String {
+fn master(tasks: &[RenderTask]) -> String {
     let mut text = "#version 3.7;\n#switch (frame_number)\n".to_owned();
-    for (index, unit) in units.iter().enumerate() {
-        let case = if unit.asks_clock { unit.frame } else { index };
-        let _ = writeln!(text, "#case ({case})\n#declare frame_number = {};", unit.frame);
-        if let Some(moment) = unit.moment {
+    for (index, task) in tasks.iter().enumerate() {
+        let case = if task.asks_clock { task.frame } else { index };
+        let _ = writeln!(text, "#case ({case})\n#declare frame_number = {};", task.frame);
+        if let Some(moment) = task.moment {
             let _ = writeln!(text, "#declare Shutter_Sample = {moment};");
         }
-        let _ = writeln!(text, "#include \"scripts/{}\"\n#break", unit.script);
+        let _ = writeln!(text, "#include \"scripts/{}\"\n#break", task.script);
     }
     text + "#end\n"
 }

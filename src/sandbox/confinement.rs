@@ -45,7 +45,7 @@ pub(crate) struct Needs<'a> {
     /// The files and folders that the program writes. Its temporary files go to the first folder.
     pub(crate) write: &'a [&'a Path],
     /// True if the program runs at low priority.
-    pub(crate) humble: bool,
+    pub(crate) low_priority: bool,
 }
 
 impl Confinement {
@@ -84,7 +84,7 @@ impl Confinement {
         let Some(Launcher(launcher)) = &self.launcher else { return Command::new(program) };
         let mut command = Command::new(launcher);
         command.args(["sandbox", "--parent", &std::process::id().to_string()]);
-        if needs.humble {
+        if needs.low_priority {
             command.args(["--nice", "10"]);
         }
         let all = self.reads_all.then_some(Path::new("/"));

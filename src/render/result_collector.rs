@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use super::exposure::Exposure;
 use super::job::{Event, Group, Job, Outcome};
-use super::pool::Fate;
-use super::process::Unit;
+use super::pool::TaskResult;
+use super::process::RenderTask;
 use super::{Fault, RenderError};
 
 /// Receives the result of each picture that POV-Ray renders, in any order.
-pub(super) struct Making<'a> {
+pub(super) struct ResultCollector<'a> {
     job: &'a Job<'a>,
     groups: &'a [Group],
     outcome: &'a mut Outcome,
@@ -23,51 +23,57 @@ pub(super) struct Making<'a> {
     failed: HashSet<usize>,
 }
 
-impl<'a> Making<'a> {
+impl<'a> ResultCollector<'a> {
     pub(super) fn new(
         job: &'a Job<'a>,
         groups: &'a [Group],
         outcome: &'a mut Outcome,
         watch: &'a mut dyn FnMut(Event<'_>),
-    ) -> Making<'a> {
-        Making { job, groups, outcome, watch, exposures: HashMap::new(), failed: HashSet::new() }
+    ) -> ResultCollector<'a> {
+        ResultCollector { job, groups, outcome, watch, exposures: HashMap::new(), failed: HashSet::new() }
     }
 
     /// Records the result of rendering one picture.
-    pub(super) fn take(&mut self, unit: &Unit, fate: Fate) -> Result<(), RenderError> {
-        match (fate, unit.moment) {
-            (Fate::Image(path, seconds), None) => self.image(unit, &path, seconds),
-            (Fate::Image(path, seconds), Some(moment)) => self.moment(unit, moment, &path, seconds),
-            (Fate::Broken(said) | Fate::Died(said), _) => self.failure(unit, &said),
+    pub(super) fn take(&mut self, task: &RenderTask, result: TaskResult) -> Result<(), RenderError> {
+        match (result, task.moment) {
+            (TaskResult::Image(path, seconds), None) => self.image(task, &path, seconds),
+            (TaskResult::Image(path, seconds), Some(moment)) => self.moment(task, moment, &path, seconds),
+            (TaskResult::Broken(said) | TaskResult::Died(said), _) => self.failure(task, &said),
         }
     }
 
     /// Stores the image of a moment of a frame with motion blur. The last moment completes the frame.
-    fn moment(&mut self, unit: &Unit, moment: u32, path: &Path, seconds: f64) -> Result<(), RenderError> {
-        if self.failed.contains(&unit.index) {
+    fn moment(
+        &mut self,
+        task: &RenderTask,
+        moment: u32,
+        path: &Path,
+        seconds: f64,
+    ) -> Result<(), RenderError> {
+        if self.failed.contains(&task.index) {
             return Ok(());
         }
         let of = self.job.sequence.moments.unwrap_or(1);
-        let exposure = match self.exposures.entry(unit.index) {
+        let exposure = match self.exposures.entry(task.index) {
             Entry::Occupied(begun) => begun.into_mut(),
-            Entry::Vacant(new) => new.insert(Exposure::new(self.job.images, unit.index)?),
+            Entry::Vacant(new) => new.insert(Exposure::new(self.job.images, task.index)?),
         };
         if !exposure.add(path, moment, seconds, of)? {
             return Ok(());
         }
-        let Some(exposure) = self.exposures.remove(&unit.index) else { return Ok(()) };
-        self.image(unit, &exposure.develop()?, exposure.seconds)
+        let Some(exposure) = self.exposures.remove(&task.index) else { return Ok(()) };
+        self.image(task, &exposure.develop()?, exposure.seconds)
     }
 
     /// Stores the image of a frame, and copies of it for all frames with equal scripts.
-    fn image(&mut self, unit: &Unit, path: &Path, seconds: f64) -> Result<(), RenderError> {
+    fn image(&mut self, task: &RenderTask, path: &Path, seconds: f64) -> Result<(), RenderError> {
         let (images, scripts) = (self.job.images, self.job.sequence.scripts());
-        let group = &self.groups[unit.index];
+        let group = &self.groups[task.index];
         let first = &scripts[group.members[0]];
         images.adopt(path, &first.name, &group.record)?;
         self.outcome.rendered += 1;
         if self.outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
-            self.outcome.slowest = Some((unit.frame, seconds));
+            self.outcome.slowest = Some((task.frame, seconds));
         }
         (self.watch)(Event::Made { frame: first.frame, seconds: Some(seconds) });
         for &other in &group.members[1..] {
@@ -79,16 +85,16 @@ impl<'a> Making<'a> {
     }
 
     /// Records the failure of a frame, and of all frames with equal scripts.
-    fn failure(&mut self, unit: &Unit, said: &str) -> Result<(), RenderError> {
+    fn failure(&mut self, task: &RenderTask, said: &str) -> Result<(), RenderError> {
         /// If this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
         const HOPELESS: usize = 8;
         // Other moments of the failed frame may still be rendered. Their images are ignored.
-        self.exposures.remove(&unit.index);
-        if !self.failed.insert(unit.index) {
+        self.exposures.remove(&task.index);
+        if !self.failed.insert(task.index) {
             return Ok(());
         }
         let sequence = self.job.sequence;
-        for &member in &self.groups[unit.index].members {
+        for &member in &self.groups[task.index].members {
             let script = &sequence.scripts()[member];
             let path: PathBuf = sequence.folder().join(&script.file);
             let fault = Fault::parse(script.frame, path, said, self.job.povray);
