@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Stopped;
 use super::lockstep::{ComparedRun, Ended, Watch, together};
-use super::measure::{Distance, Measured, union};
+use super::measure::{ComparedBodies, Distance, union};
 use super::neighbours::displaced;
 use super::setting::Setting;
 use crate::dynamics::{Accounts, Snapshot};
@@ -37,7 +37,7 @@ pub(super) struct Moment {
 pub(super) struct Compared {
     pub(super) moments: Vec<Moment>,
     /// For each body: the largest differences between the run and the run at half the timestep, and the length of the body's path.
-    pub(super) bodies: Vec<Off>,
+    pub(super) bodies: Vec<Deviation>,
     /// The diagonal of the box around the motion of all bodies, m, from the finest run.
     pub(super) size: f64,
     /// The largest speed of a body in the run, m/s.
@@ -61,7 +61,7 @@ pub(super) struct Compared {
 /// The largest differences of a body between the run and the run at half the timestep, the time of the largest one (s), and the length of
 /// the body's path (`way`, m).
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Off {
+pub(super) struct Deviation {
     pub(super) most: Distance,
     pub(super) time: f64,
     pub(super) way: f64,
@@ -81,7 +81,7 @@ struct Seen {
 pub(super) fn compare(
     scene: &Scene,
     own: Setting,
-    measured: &Measured,
+    measured: &ComparedBodies,
     watch: &mut Watch<'_>,
 ) -> Result<Compared, Stopped> {
     let settings = [own, own.finer(2), own.finer(4)];
@@ -92,7 +92,8 @@ pub(super) fn compare(
     let costs = settings.iter().chain([&own]).map(|setting| setting.cost(scene) / frames as f64);
     let mut runs: Vec<ComparedRun<'_>> =
         scenes.iter().zip(costs).map(|(scene, cost)| ComparedRun::new(scene, cost)).collect();
-    let mut found = Compared { bodies: vec![Off::default(); measured.bodies.len()], ..Compared::default() };
+    let mut found =
+        Compared { bodies: vec![Deviation::default(); measured.bodies.len()], ..Compared::default() };
     let mut seen = Seen {
         before: vec![None; measured.bodies.len()],
         momenta: None,
@@ -110,7 +111,7 @@ pub(super) fn compare(
 }
 
 impl Compared {
-    fn see(&mut self, measured: &Measured, seen: &mut Seen, moments: &[Option<Snapshot>]) {
+    fn see(&mut self, measured: &ComparedBodies, seen: &mut Seen, moments: &[Option<Snapshot>]) {
         let [run, half, quarter, twin] = moments else { return };
         for (kept, moment) in seen.boxes.iter_mut().zip([run, half, quarter]) {
             let here = moment.as_ref().and_then(|moment| measured.around(moment));
@@ -154,7 +155,7 @@ impl Compared {
         self.moments.push(moment);
     }
 
-    fn see_ways(&mut self, measured: &Measured, seen: &mut Seen, run: &Snapshot) {
+    fn see_ways(&mut self, measured: &ComparedBodies, seen: &mut Seen, run: &Snapshot) {
         for (body, &id) in measured.bodies.iter().enumerate() {
             let now = run.body(id);
             if let (Some(now), Some(before)) = (now, seen.before[body]) {
@@ -167,7 +168,7 @@ impl Compared {
 
     /// Returns the largest distance between a point of a body in the run and at half the timestep, m. Updates the largest differences of
     /// each body.
-    fn see_off(&mut self, measured: &Measured, moments: [&Snapshot; 2]) -> f64 {
+    fn see_off(&mut self, measured: &ComparedBodies, moments: [&Snapshot; 2]) -> f64 {
         let mut most = 0.0_f64;
         for (body, distance) in points(measured, moments) {
             let off = &mut self.bodies[body];
@@ -185,7 +186,7 @@ impl Compared {
 
 /// Yields the distance between two snapshots for each compared body that both contain, with the index of the body among the compared ones.
 pub(super) fn points<'s>(
-    measured: &'s Measured,
+    measured: &'s ComparedBodies,
     moments: [&'s Snapshot; 2],
 ) -> impl Iterator<Item = (usize, Distance)> + 's {
     (0..measured.bodies.len())
@@ -193,7 +194,7 @@ pub(super) fn points<'s>(
 }
 
 /// Returns the mean-square differences between the bodies of two snapshots: of positions (m²), velocities (m²/s²) and orientations (rad²).
-fn apart(measured: &Measured, moments: [&Snapshot; 2]) -> [f64; 3] {
+fn apart(measured: &ComparedBodies, moments: [&Snapshot; 2]) -> [f64; 3] {
     let (mut sums, mut count) = ([0.0; 3], 0.0);
     for body in 0..measured.bodies.len() {
         let Some(pair) = measured.pair(body, moments) else { continue };

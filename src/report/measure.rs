@@ -6,7 +6,7 @@ use crate::dynamics::{BodySnapshot, Shape, Snapshot};
 use crate::scene::Scene;
 
 /// The bodies that are compared between runs: those that forces move.
-pub(super) struct Measured {
+pub(super) struct ComparedBodies {
     /// The indices of the compared bodies in the scene.
     pub(super) bodies: Vec<usize>,
     /// For each compared body, the distance of its farthest point from its center, m. It is 0 for a ball, since a ball looks the same in
@@ -29,9 +29,9 @@ pub(super) struct Distance {
     pub(super) point: f64,
 }
 
-impl Measured {
+impl ComparedBodies {
     /// Selects the bodies of a scene that forces move, and computes their sizes, masses and moments of inertia.
-    pub(super) fn of(scene: &Scene) -> Measured {
+    pub(super) fn of(scene: &Scene) -> ComparedBodies {
         let moves = |id: &usize| {
             let body = &scene.bodies[*id];
             !body.start.fixed && body.motion.is_none() && body.start.mass > 0.0
@@ -43,7 +43,7 @@ impl Measured {
         let reach = bodies.iter().zip(&radius).map(|(&id, r)| if is_ball(id) { 0.0 } else { *r }).collect();
         let mass = of(&|id| scene.bodies[id].start.mass);
         let inertia = of(&|id| scene.bodies[id].start.inertia.max_element());
-        Measured { reach, radius, mass, inertia, bodies }
+        ComparedBodies { reach, radius, mass, inertia, bodies }
     }
 
     /// Returns a compared body in two snapshots. `body` is its index among the compared bodies. `None` if a snapshot lacks the body.
@@ -114,7 +114,7 @@ mod tests {
                     [body.rock]\nshape.sphere.radius = 1\nfixed = true\n\
                     [body.lift]\nshape.sphere.radius = 1\nmotion.formula.location = ['t', 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
-        let measured = Measured::of(&scene);
+        let measured = ComparedBodies::of(&scene);
         assert_eq!(measured.bodies, [0, 1]);
         let one = BodySnapshot::default();
         let two = BodySnapshot { location: DVec3::X, orientation: DQuat::from_rotation_y(0.1), ..one };

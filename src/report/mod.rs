@@ -30,16 +30,16 @@ mod verdict;
 
 use serde::Serialize;
 
-use self::measure::Measured;
+use self::measure::ComparedBodies;
 use self::setting::Setting;
 use self::trials::Goal;
 use self::verdict::Verdict;
 use crate::scene::Scene;
 
 pub use lockstep::{Ended, Watch};
-pub use neighbours::Parting;
-pub use trials::{Trial, Untried};
-pub use verdict::{BodyError, Conserved, Order, Trusted};
+pub use neighbours::Separation;
+pub use trials::{Trial, Untested};
+pub use verdict::{AccurateUntil, BodyError, Conserved, Order};
 
 /// The default accuracy, as a fraction of the size of the scene: about a pixel of an image.
 pub const ACCURACY: f64 = 1e-3;
@@ -74,7 +74,7 @@ pub struct Assessment {
     /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it.
     pub recommended: Option<usize>,
     /// The methods that were not tested, or not at timesteps as small as necessary, with the reasons.
-    pub untried: Vec<Untried>,
+    pub untried: Vec<Untested>,
     /// True if the scene has particles. Their errors are not measured.
     pub has_particles: bool,
 }
@@ -98,7 +98,7 @@ pub fn assess(
     accuracy: f64,
     watch: &mut dyn FnMut(Phase, f64) -> bool,
 ) -> Result<Assessment, Stopped> {
-    let (own, measured) = (Setting::of(scene), Measured::of(scene));
+    let (own, measured) = (Setting::of(scene), ComparedBodies::of(scene));
     let mut assessment = Assessment {
         integrator: own.method.name,
         order: own.method.order,

@@ -8,7 +8,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::measure::Measured;
+use super::measure::ComparedBodies;
 use crate::scene::Scene;
 
 /// The initial distance between two neighboring runs, as a fraction of the size of the scene.
@@ -29,7 +29,7 @@ const LARGE: f64 = 1e4;
 /// How two neighboring runs, whose starts differ very slightly, separate with time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum Parting {
+pub enum Separation {
     /// The separation is unknown, because no body could be displaced or there were too few frames.
     Unknown,
     /// Neighboring runs separate no faster than in regular motion.
@@ -58,7 +58,7 @@ pub enum Parting {
 
 /// Returns the scene of a neighboring run: the bodies that forces move start at slightly different positions with slightly different
 /// velocities. In a scene with contacts, only the velocities differ, so that no bodies overlap. A plane motion stays in its plane.
-pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
+pub(super) fn displaced(scene: &Scene, measured: &ComparedBodies) -> Scene {
     let mut twin = scene.clone();
     let starts = || scene.bodies.iter().map(|body| body.start.location);
     let Some(min) = starts().reduce(DVec3::min) else { return twin };
@@ -91,7 +91,7 @@ pub(super) fn displaced(scene: &Scene, measured: &Measured) -> Scene {
 
 /// Returns 1 for each coordinate axis along which bodies can move, and 0 for the normal of a plane motion. Bodies move along an axis if
 /// their positions differ along it or a velocity or force has a component along it. All components are 1 if the motion is not plane.
-fn axes_of_motion(scene: &Scene, measured: &Measured) -> DVec3 {
+fn axes_of_motion(scene: &Scene, measured: &ComparedBodies) -> DVec3 {
     let mut free = DVec3::ZERO;
     let mut first = None;
     for &id in &measured.bodies {
@@ -124,7 +124,7 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
 
 /// Classifies the separation of two neighboring runs. `times` are in s; `distances` are fractions of the size of the scene. Also returns
 /// the mean of MEGNO's Y, 0 if unknown.
-pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
+pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Separation, f64) {
     /// The smallest number of frames from which the separation can be classified.
     const FEW: usize = 8;
     let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
@@ -133,20 +133,20 @@ pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Parting, f64) {
         .filter(|&k| distances[k] > 0.0)
         .map(|k| (times[k] - times[begin], libm::log(distances[k])))
         .collect();
-    let (Some(first), Some(last)) = (seen.first(), seen.last()) else { return (Parting::Unknown, 0.0) };
+    let (Some(first), Some(last)) = (seen.first(), seen.last()) else { return (Separation::Unknown, 0.0) };
     if seen.len() < FEW {
-        return (Parting::Unknown, 0.0);
+        return (Separation::Unknown, 0.0);
     }
     let growth = libm::exp(last.1 - first.1);
     let ((mean, late), slope) = (megno(&seen), slope(&seen));
     let found = if mean > CHAOTIC && slope > 0.0 {
-        Parting::Chaotic { lyapunov_time: 1.0 / slope, doubling_time: std::f64::consts::LN_2 / slope }
+        Separation::Chaotic { lyapunov_time: 1.0 / slope, doubling_time: std::f64::consts::LN_2 / slope }
     } else if near < distances.len() && growth > LARGE {
-        Parting::Sudden { time: times[near] }
+        Separation::Sudden { time: times[near] }
     } else if mean.max(late) > REGULAR || growth > LARGE {
-        Parting::Unclear { growth }
+        Separation::Unclear { growth }
     } else {
-        Parting::Regular { growth }
+        Separation::Regular { growth }
     };
     (found, mean)
 }
@@ -181,7 +181,7 @@ fn slope(seen: &[(f64, f64)]) -> f64 {
 mod tests {
     use super::*;
 
-    fn of(distance: impl Fn(f64) -> f64) -> Parting {
+    fn of(distance: impl Fn(f64) -> f64) -> Separation {
         let times: Vec<f64> = (0..500).map(|k| 0.04 * f64::from(k)).collect();
         let distances: Vec<f64> = times.iter().map(|t| 1e-9 * distance(*t)).collect();
         parting(&times, &distances).0
@@ -189,14 +189,19 @@ mod tests {
 
     #[test]
     fn exponential_growth_is_told_from_powers_of_time() {
-        assert!(matches!(of(|_| 1.0), Parting::Regular { growth: 1.0 }));
-        assert!(matches!(of(|t| 1.0 + 50.0 * t), Parting::Regular { .. }));
+        assert!(matches!(of(|_| 1.0), Separation::Regular { growth: 1.0 }));
+        assert!(matches!(of(|t| 1.0 + 50.0 * t), Separation::Regular { .. }));
         // A planet's orbit: the distance between neighboring runs grows in proportion to time, and is a hundred times larger near the sun.
         let orbit = |t: f64| (1.0 + 30.0 * t) * (1.0 + 99.0 * libm::pow(libm::cos(t), 20.0));
-        assert!(matches!(of(orbit), Parting::Regular { .. }), "{:?}", of(orbit));
-        assert!(matches!(of(|t| 1.0 + 30.0 * t * t), Parting::Regular { .. } | Parting::Unclear { .. }));
+        assert!(matches!(of(orbit), Separation::Regular { .. }), "{:?}", of(orbit));
+        assert!(matches!(
+            of(|t| 1.0 + 30.0 * t * t),
+            Separation::Regular { .. } | Separation::Unclear { .. }
+        ));
         let chaos = |t: f64| libm::exp(1.5 * t) * (1.2 + libm::sin(5.0 * t));
-        let Parting::Chaotic { lyapunov_time, doubling_time } = of(chaos) else { panic!("{:?}", of(chaos)) };
+        let Separation::Chaotic { lyapunov_time, doubling_time } = of(chaos) else {
+            panic!("{:?}", of(chaos))
+        };
         assert!((1.5 * lyapunov_time - 1.0).abs() < 0.05, "{lyapunov_time}");
         assert!((doubling_time / lyapunov_time - std::f64::consts::LN_2).abs() < 1e-12);
     }
@@ -204,19 +209,19 @@ mod tests {
     #[test]
     fn an_impact_that_tears_neighbours_apart_is_no_regular_motion() {
         let torn = |t: f64| if t < 5.0 { 1.0 } else { libm::exp(60.0 * (t - 5.0)) };
-        let Parting::Sudden { time } = of(torn) else { panic!("{:?}", of(torn)) };
+        let Separation::Sudden { time } = of(torn) else { panic!("{:?}", of(torn)) };
         assert!((time - 5.28).abs() < 0.05, "{time}");
         assert!(matches!(
             of(|t| if t < 5.0 { 1.0 } else { 1e5 }),
-            Parting::Unclear { .. } | Parting::Chaotic { .. }
+            Separation::Unclear { .. } | Separation::Chaotic { .. }
         ));
     }
 
     #[test]
     fn what_nobody_can_see_part_is_not_known() {
-        assert_eq!(of(|_| 0.0), Parting::Unknown);
-        assert_eq!(of(|_| 1e9), Parting::Unknown);
-        assert_eq!(parting(&[], &[]).0, Parting::Unknown);
+        assert_eq!(of(|_| 0.0), Separation::Unknown);
+        assert_eq!(of(|_| 1e9), Separation::Unknown);
+        assert_eq!(parting(&[], &[]).0, Separation::Unknown);
     }
 
     #[test]
@@ -224,7 +229,7 @@ mod tests {
         let text = "simulation.gravity = [0, -9.81, 0]\n[body.a]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n\
                     [body.b]\nshape.sphere.radius = 0.1\nlocation = [2, 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
-        let twin = displaced(&scene, &Measured::of(&scene));
+        let twin = displaced(&scene, &ComparedBodies::of(&scene));
         for (one, two) in scene.bodies.iter().zip(&twin.bodies) {
             let by = two.start.location - one.start.location;
             assert!(by.z == 0.0 && (by.length() - 1e-9).abs() < 1e-15, "{by}");

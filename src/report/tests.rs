@@ -104,7 +104,7 @@ fn what_is_recommended_reaches_the_accuracy() {
 fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
     for scene in [oscillator("velocity-verlet", 0.01), kepler("velocity-verlet", 0.01)] {
         let found = assessed(&scene, 1e-3).1.neighbours;
-        assert!(matches!(found, Parting::Regular { .. }), "{found:?}");
+        assert!(matches!(found, Separation::Regular { .. }), "{found:?}");
     }
     let pendulum = scene(
         "simulation = { duration = 20, step = 0.004, integrator = 'rk4', gravity = [0, -9.81, 0] }\n\
@@ -113,7 +113,7 @@ fn orbits_are_regular_and_a_double_pendulum_is_chaotic() {
          [joint.top.rod]\nbetween = [[0, 0, 0], 'upper']\n[joint.bottom.rod]\nbetween = ['upper', 'lower']\n",
     );
     let (assessment, verdict) = assessed(&pendulum, 1e-3);
-    let Parting::Chaotic { lyapunov_time, .. } = verdict.neighbours else {
+    let Separation::Chaotic { lyapunov_time, .. } = verdict.neighbours else {
         panic!("{:?}", verdict.neighbours)
     };
     // The Lyapunov time is of the order of the period of a small oscillation, 2 s, divided by 2π.

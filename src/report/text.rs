@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::neighbours::APART;
-use super::verdict::{Conserved, Order, Trusted, Verdict};
-use super::{Assessment, Parting, Trial, Untried};
+use super::verdict::{AccurateUntil, Conserved, Order, Verdict};
+use super::{Assessment, Separation, Trial, Untested};
 use crate::dynamics::Method;
 
 /// The largest number of bodies in the table of errors.
@@ -118,16 +118,16 @@ impl Assessment {
 
     fn motion_in_words(&self, verdict: &Verdict) -> String {
         match verdict.neighbours {
-            Parting::Unknown => "too few frames tell whether it is chaotic".to_owned(),
-            Parting::Regular { growth } => format!("regular so far: {}", apart(growth)),
-            Parting::Sudden { time } => format!(
+            Separation::Unknown => "too few frames tell whether it is chaotic".to_owned(),
+            Separation::Regular { growth } => format!("regular so far: {}", apart(growth)),
+            Separation::Sudden { time } => format!(
                 "unpredictable: neighbours that begin {APART:e} of the size apart are torn apart by t = {} s",
                 digits(time, 3)
             ),
-            Parting::Unclear { growth } => {
+            Separation::Unclear { growth } => {
                 format!("perhaps chaotic: {}; a longer run would tell", apart(growth))
             }
-            Parting::Chaotic { lyapunov_time, doubling_time } => {
+            Separation::Chaotic { lyapunov_time, doubling_time } => {
                 let start = format!(
                     "chaotic: a small difference doubles every {} s (Lyapunov time {} s)",
                     digits(doubling_time, 2),
@@ -182,7 +182,7 @@ impl Assessment {
         }));
         table(out, &rows);
         let mut said: Vec<&str> = Vec::new();
-        for Untried { why, .. } in &self.untried {
+        for Untested { why, .. } in &self.untried {
             if !said.contains(&why.as_str()) {
                 let names = self.untried.iter().filter(|other| other.why == *why);
                 let names: Vec<&str> = names.map(|untried| untried.integrator).collect();
@@ -197,7 +197,7 @@ impl Assessment {
         let own = self.trials.iter().find(|trial| self.is_own(trial));
         let Some(best) = self.recommended.map(|place| &self.trials[place]) else {
             let why = match verdict.neighbours {
-                Parting::Chaotic { .. } | Parting::Sudden { .. } => {
+                Separation::Chaotic { .. } | Separation::Sudden { .. } => {
                     "nothing that was tried reaches this to the end: small differences grow too fast"
                 }
                 _ if matches!(verdict.order, Order::None { .. }) => {
@@ -270,7 +270,7 @@ impl Verdict {
             Order::Other { measured } => format!(
                 "{measured:.1} measured, less than the {nominal} of `{method}`: {}",
                 match self.neighbours {
-                    Parting::Chaotic { .. } => "in chaos, the estimate is a rough one",
+                    Separation::Chaotic { .. } => "in chaos, the estimate is a rough one",
                     _ => "impacts or a coarse step do this, and the estimate is a rough one",
                 }
             ),
@@ -316,11 +316,13 @@ fn momenta(verdict: &Verdict) -> String {
     }
 }
 
-fn until(trusted: Trusted) -> String {
+fn until(trusted: AccurateUntil) -> String {
     match trusted {
-        Trusted { to_the_end: true, .. } => "to the end".to_owned(),
-        Trusted { until: Some(time), frame, .. } => format!("until t = {} s, frame {frame}", digits(time, 4)),
-        Trusted { until: None, .. } => "not even the first frame after the start".to_owned(),
+        AccurateUntil { to_the_end: true, .. } => "to the end".to_owned(),
+        AccurateUntil { until: Some(time), frame, .. } => {
+            format!("until t = {} s, frame {frame}", digits(time, 4))
+        }
+        AccurateUntil { until: None, .. } => "not even the first frame after the start".to_owned(),
     }
 }
 

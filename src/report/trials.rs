@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Stopped;
 use super::compare::points;
 use super::lockstep::{ComparedRun, Ended, Watch, together};
-use super::measure::{Measured, union};
+use super::measure::{ComparedBodies, union};
 use super::setting::{Setting, refused};
 use super::verdict::Order;
 use crate::dynamics::Method;
@@ -47,7 +47,7 @@ pub struct Trial {
 
 /// A method that was not tested, or not at a timestep as small as necessary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Untried {
+pub struct Untested {
     /// The name of the integration method.
     pub integrator: &'static str,
     /// The reason why the method, or a smaller timestep, was not tested.
@@ -58,7 +58,7 @@ pub struct Untried {
 #[derive(Debug, Default)]
 pub(super) struct Trials {
     pub(super) tried: Vec<Trial>,
-    pub(super) untried: Vec<Untried>,
+    pub(super) untried: Vec<Untested>,
 }
 
 /// Returns the ratio of a run's error to its difference from the run at half the timestep, for a method of this order: 2ᵖ/(2ᵖ−1).
@@ -69,13 +69,13 @@ pub(super) fn factor(order: f64) -> f64 {
 
 /// Returns the methods to test with a scene, its own first, and the methods that the scene cannot use. Other methods of first order are
 /// left out, since they would not be more accurate.
-fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untried>) {
+fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untested>) {
     let own = scene.simulation.method;
     let of_use = |method: &&&Method| method.order > 1 && !method.is_of_planets();
     let others = || Method::all().filter(|method| !std::ptr::eq(*method, own)).filter(|it| of_use(&it));
     let tried = std::iter::once(own).chain(others().filter(|method| refused(scene, method).is_none()));
     let untried = others().filter_map(|method| {
-        Some(Untried { integrator: method.name, why: refused(scene, method)?.to_owned() })
+        Some(Untested { integrator: method.name, why: refused(scene, method)?.to_owned() })
     });
     (tried.collect(), untried.collect())
 }
@@ -89,7 +89,7 @@ const EVALUATIONS: f64 = 6e6;
 /// The goal of the search for a method and a timestep.
 pub(super) struct Goal<'a> {
     pub(super) scene: &'a Scene,
-    pub(super) measured: &'a Measured,
+    pub(super) measured: &'a ComparedBodies,
     pub(super) own: Setting,
     /// The allowed error of any point, as a fraction of the size of the scene.
     pub(super) accuracy: f64,
@@ -132,7 +132,7 @@ impl Goal<'_> {
             }
             let (tried, why) = self.search_method(method, known, &mut left, watch)?;
             trials.tried.extend(tried);
-            trials.untried.extend(why.map(|why| Untried { integrator: method.name, why }));
+            trials.untried.extend(why.map(|why| Untested { integrator: method.name, why }));
         }
         for trial in &mut trials.tried {
             trial.reaches = self.reaches(trial);

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::compare::{Compared, Moment};
 use super::lockstep::Ended;
-use super::measure::Measured;
-use super::neighbours::{Parting, parting};
+use super::measure::ComparedBodies;
+use super::neighbours::{Separation, parting};
 use super::setting::Setting;
 use super::trials::{Trial, factor};
 use crate::dynamics::{Accounts, Method};
@@ -35,13 +35,13 @@ pub struct Verdict {
     /// The measured order of the method: how fast the error decreases with the timestep.
     pub order: Order,
     /// How fast neighboring runs separate, which tells regular motion from chaos.
-    pub neighbours: Parting,
+    pub neighbours: Separation,
     /// MEGNO, the mean exponential growth of the distance between two neighboring runs: 2 for most regular motion, 0 if unknown.
     pub megno: f64,
     /// The time until which the run reaches the requested accuracy.
-    pub trusted: Trusted,
+    pub trusted: AccurateUntil,
     /// The time until which no point has an error above 1 % of the size of the scene.
-    pub trusted_to_a_percent: Trusted,
+    pub trusted_to_a_percent: AccurateUntil,
     /// The runs that broke down: this run, its repetitions at smaller timesteps, or the run from a slightly different start.
     pub broken: Vec<Broken>,
     /// The curves of a plot of the errors over time.
@@ -122,7 +122,7 @@ pub enum Order {
 
 /// The time until which a run reaches an accuracy, as a time and as a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Trusted {
+pub struct AccurateUntil {
     /// The time of the last accurate frame, s. `None` if even the first frame after the start is inaccurate.
     pub until: Option<f64>,
     /// The number of the last accurate frame.
@@ -194,7 +194,7 @@ impl Verdict {
     pub(super) fn of(
         scene: &Scene,
         own: Setting,
-        measured: &Measured,
+        measured: &ComparedBodies,
         compared: &Compared,
         accuracy: f64,
     ) -> Verdict {
@@ -238,8 +238,8 @@ impl Verdict {
             order,
             neighbours,
             megno,
-            trusted: Trusted::of(compared, factor, accuracy * size, ended),
-            trusted_to_a_percent: Trusted::of(compared, factor, 0.01 * size, ended),
+            trusted: AccurateUntil::of(compared, factor, accuracy * size, ended),
+            trusted_to_a_percent: AccurateUntil::of(compared, factor, 0.01 * size, ended),
             broken: broken.collect(),
             curves,
         }
@@ -300,14 +300,14 @@ fn conserved(compared: &Compared, kind: usize) -> Conserved {
     Conserved::Kept { drift: largest(0, &mut compared.moments.iter()) / most }
 }
 
-impl Trusted {
+impl AccurateUntil {
     /// Finds the time until which a run's error is at most `most` meters. `factor` converts the difference of two runs to the error;
     /// `ended` is true if the run broke down.
-    fn of(compared: &Compared, factor: f64, most: f64, ended: bool) -> Trusted {
+    fn of(compared: &Compared, factor: f64, most: f64, ended: bool) -> AccurateUntil {
         let is_right = |moment: &&Moment| moment.off.is_some_and(|off| factor * off <= most);
         let frames = compared.moments.iter().take_while(is_right).count();
         let last = compared.moments[..frames].last().filter(|_| frames > 1);
-        Trusted {
+        AccurateUntil {
             until: last.map(|moment| moment.time),
             frame: frames.saturating_sub(1),
             to_the_end: frames == compared.moments.len() && !ended,

@@ -9,7 +9,7 @@ mod png;
 mod svg;
 
 use super::verdict::{Curves, Verdict};
-use super::{Assessment, Parting, text};
+use super::{Assessment, Separation, text};
 use axis::Axis;
 
 pub use chart::{Chart, Curve};
@@ -164,13 +164,13 @@ impl Picture {
 fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
     let Curves { times, drift, error, neighbours } = &verdict.curves;
     let parting = match verdict.neighbours {
-        Parting::Chaotic { doubling_time, .. } => {
+        Separation::Chaotic { doubling_time, .. } => {
             format!(": chaotic, it doubles every {} s", text::digits(doubling_time, 2))
         }
-        Parting::Sudden { time } => format!(": torn apart by t = {} s", text::digits(time, 3)),
-        Parting::Unclear { .. } => ": perhaps chaotic".to_owned(),
-        Parting::Regular { .. } => ": regular so far".to_owned(),
-        Parting::Unknown => String::new(),
+        Separation::Sudden { time } => format!(": torn apart by t = {} s", text::digits(time, 3)),
+        Separation::Unclear { .. } => ": perhaps chaotic".to_owned(),
+        Separation::Regular { .. } => ": regular so far".to_owned(),
+        Separation::Unknown => String::new(),
     };
     let wanted = text::digits(assessment.accuracy, 2);
     vec![
