@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::manifest::Entry;
-use super::{Folder, OutputError, Tally};
+use super::{DigestWriter, Folder, OutputError};
 use crate::emit::ASSETS;
 use crate::scene::Asset;
 
@@ -20,7 +20,7 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
         make_folders(folder.path(), Path::new(&name))?;
         let original = |error| OutputError::Io(asset.path.clone(), error);
         let mut file = File::open(&asset.path).map_err(original)?;
-        let mut tally = Tally::default();
+        let mut writer = DigestWriter::default();
         folder.try_write_with(&name, |copy| {
             let mut buffer = [0; 1 << 16];
             loop {
@@ -28,14 +28,14 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
                     0 => return Ok(()),
                     length => {
                         let piece = &buffer[..length];
-                        tally.add(piece);
+                        writer.add(piece);
                         copy.write_all(piece)
                             .map_err(|error| OutputError::Io(folder.path().join(&name), error))?;
                     }
                 }
             }
         })?;
-        Ok(tally.entry(None, name))
+        Ok(writer.entry(None, name))
     };
     assets.iter().map(copy).collect()
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::manifest::Entry;
-use super::{Folder, OutputError, Tally};
+use super::{DigestWriter, Folder, OutputError};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::ASSETS;
 
@@ -96,7 +96,7 @@ fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
         // A symbolic link is replaced, which leaves its target unchanged.
         Ok(metadata) if !metadata.is_file() => Ok(false),
         Ok(metadata) if metadata.len() != entry.bytes => Ok(true),
-        Ok(_) => Ok(Tally::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
+        Ok(_) => Ok(DigestWriter::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
     }
 }
 

@@ -29,7 +29,7 @@ const MAX_BYTES: u64 = 512 << 20;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manifest {
     /// The data about the whole folder and its scene.
-    pub head: Head,
+    pub head: Header,
     /// The files of the folder: first those of the whole sequence, then the scripts in the order of their frames. While scripts are being
     /// written, the list holds only the files that stay unchanged.
     pub files: Vec<Entry>,
@@ -42,7 +42,7 @@ impl Manifest {
         #[derive(Deserialize)]
         struct File {
             #[serde(flatten)]
-            head: Head,
+            head: Header,
             #[serde(default)]
             files: Vec<Entry>,
         }
@@ -168,7 +168,7 @@ pub enum State {
 /// The header of a manifest: all of its data except the list of files. Fields that were added after the first version are optional, so
 /// that old manifests can be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Head {
+pub struct Header {
     /// The name of the program that wrote the manifest.
     pub(super) generator: String,
     /// The version of the program that wrote the manifest.
@@ -224,18 +224,18 @@ pub struct Head {
     pub planned: Option<String>,
 }
 
-impl Head {
+impl Header {
     /// Makes the header for a folder that contains all files of a run.
-    pub(super) fn new(run: &Run<'_>) -> Head {
-        let head = Head::of(run.scene(), run.view(), run.shutter());
+    pub(super) fn new(run: &Run<'_>) -> Header {
+        let head = Header::of(run.scene(), run.view(), run.shutter());
         let warnings = run.warnings().into_iter().map(Warning::of).collect();
         let Survey { drift, drift_scale, .. } = run.survey();
-        Head { drift: Some(*drift), drift_scale: *drift_scale, warnings, ..head }
+        Header { drift: Some(*drift), drift_scale: *drift_scale, warnings, ..head }
     }
 
     /// Makes a header from the scene alone, without the energy error and the warnings of its run.
-    pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Head {
-        Head {
+    pub(super) fn of(scene: &Scene, view: Option<&str>, shutter: Option<Shutter>) -> Header {
+        Header {
             generator: GENERATOR.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             build: env!("JABUKA_BUILD").to_owned(),
@@ -269,15 +269,15 @@ impl Head {
     }
 
     /// Returns true if both headers have the same program, scene and view, so that jabuka would write the same scripts now.
-    pub(super) fn is_of(&self, other: &Head) -> bool {
-        let what = |head: &Head| [head.version.clone(), head.build.clone(), head.digest.clone()];
+    pub(super) fn is_of(&self, other: &Header) -> bool {
+        let what = |head: &Header| [head.version.clone(), head.build.clone(), head.digest.clone()];
         self.state != State::Clearing && what(self) == what(other) && self.view == other.view
     }
 }
 
 /// Reads the header of the manifest at a path. `None` if the file is missing, is a symbolic link, or comes from another program.
-pub(crate) fn read(path: &Path) -> Option<Head> {
-    let head: Head = serde_json::from_reader(open(path)?).ok()?;
+pub(crate) fn read(path: &Path) -> Option<Header> {
+    let head: Header = serde_json::from_reader(open(path)?).ok()?;
     head.is_ours().then_some(head)
 }
 
@@ -289,14 +289,14 @@ fn open(path: &Path) -> Option<impl io::Read> {
 }
 
 /// Writes a manifest as JSON, with one line for each file.
-pub(super) fn write(out: &mut impl Write, head: &Head, entries: &[Entry]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, head: &Header, entries: &[Entry]) -> io::Result<()> {
     write_each(out, head, entries.iter().cloned().map(Ok))
 }
 
 /// Writes a manifest as JSON. The entries come from an iterator, so that the whole list need not be in memory.
 pub(super) fn write_each(
     out: &mut impl Write,
-    head: &Head,
+    head: &Header,
     entries: impl Iterator<Item = io::Result<Entry>>,
 ) -> io::Result<()> {
     let text = serde_json::to_string_pretty(head)?;
@@ -319,9 +319,9 @@ mod tests {
     use super::*;
     use crate::Scene;
 
-    fn head() -> Head {
+    fn head() -> Header {
         let scene = Scene::parse("[body.ball]\nshape.sphere.radius = 1").unwrap();
-        Head::new(&Run::new(&scene).unwrap())
+        Header::new(&Run::new(&scene).unwrap())
     }
 
     /// Makes a temporary folder that contains a manifest with these entries. `change` edits the text of the manifest.
@@ -343,7 +343,7 @@ mod tests {
         let manifest = Manifest::read(folder(&entries, |text| text).path()).unwrap();
         assert_eq!(manifest, Manifest { head: head(), files: entries.to_vec() });
         assert!(manifest.is_complete());
-        let Head { width, height, transparent, frame_rate, .. } = manifest.head;
+        let Header { width, height, transparent, frame_rate, .. } = manifest.head;
         assert_eq!((width, height, transparent, frame_rate), (Some(1280), Some(720), Some(false), 25.0));
     }
 
@@ -354,7 +354,7 @@ mod tests {
             text.lines().filter(|line| !lines.iter().any(|key| line.contains(key))).collect::<String>()
         };
         let manifest = Manifest::read(folder(&[], without).path()).unwrap();
-        assert_eq!(manifest.head, Head { width: None, height: None, transparent: None, ..head() });
+        assert_eq!(manifest.head, Header { width: None, height: None, transparent: None, ..head() });
     }
 
     #[test]

@@ -5,25 +5,25 @@
 
 mod assets;
 mod compare;
+mod digest_writer;
 mod edited;
 mod error;
 mod folder;
 mod ledger;
 mod manifest;
 mod moment;
-mod tally;
 mod trails;
 mod up_to_date;
 mod write;
 
 pub use compare::{Difference, Kind, Line, compare};
+use digest_writer::DigestWriter;
 pub(crate) use edited::free_name;
 pub use error::OutputError;
 pub use folder::Folder;
 pub(crate) use folder::{is_own_name, scripts, trail_files};
 pub(crate) use manifest::read as read_manifest;
-pub use manifest::{Entry, Head, MANIFEST, Manifest, State};
+pub use manifest::{Entry, Header, MANIFEST, Manifest, State};
 pub use moment::write_moment;
-use tally::Tally;
 pub use up_to_date::up_to_date;
 pub use write::{Written, write};

@@ -1,6 +1,6 @@
 //! Writes the script of a single moment of a run.
 
-use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
+use super::manifest::{self, Entry, Header, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
 use super::write::put_blurred;
 use super::{Folder, OutputError, assets};
@@ -19,10 +19,10 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     let frame = &exposure.frame;
     let script = run.script(frame)?;
 
-    let head = Head::new(run);
+    let head = Header::new(run);
     let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
     folder.set_aside(old.iter())?;
-    let begun = Head { state: State::Clearing, ..head.clone() };
+    let begun = Header { state: State::Clearing, ..head.clone() };
     folder.write_with(MANIFEST, |file| manifest::write(file, &begun, &[]))?;
     folder.remove_scripts()?;
 

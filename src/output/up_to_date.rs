@@ -5,8 +5,8 @@ use std::path::Path;
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use super::Tally;
-use super::manifest::{Entry, Head, Manifest};
+use super::DigestWriter;
+use super::manifest::{Entry, Header, Manifest};
 use crate::emit::{ASSETS, frame_name, shutter_name};
 use crate::scene::{Scene, View};
 use crate::simulate::Selection;
@@ -21,7 +21,7 @@ pub fn up_to_date(
 ) -> Option<Manifest> {
     let manifest = Manifest::read(folder).filter(Manifest::is_complete)?;
     let shutter = view.map_or(&scene.camera, |view| &view.camera).shutter;
-    let head = Head::of(scene, view.map(|view| view.name.as_str()), shutter);
+    let head = Header::of(scene, view.map(|view| view.name.as_str()), shutter);
     if !manifest.head.is_of(&head) {
         return None;
     }
@@ -49,6 +49,6 @@ fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
 /// Returns true if a file has the length and the digest of a manifest entry.
 fn is_of(path: &Path, entry: &Entry) -> bool {
     let length = path.metadata().map(|metadata| metadata.len());
-    let tally = || Tally::of_file(path).map(|tally| tally.entry(entry.frame, entry.name.clone()));
-    length.is_ok_and(|length| length == entry.bytes) && tally().is_ok_and(|found| found == *entry)
+    let writer = || DigestWriter::of_file(path).map(|writer| writer.entry(entry.frame, entry.name.clone()));
+    length.is_ok_and(|length| length == entry.bytes) && writer().is_ok_and(|found| found == *entry)
 }

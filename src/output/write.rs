@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::ledger::Ledger;
-use super::manifest::{self, Entry, Head, MANIFEST, Manifest, State};
+use super::manifest::{self, Entry, Header, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
-use super::{Folder, OutputError, Tally, assets};
+use super::{DigestWriter, Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::{frame_name, shutter_name};
 use crate::scene::Shutter;
@@ -41,9 +41,9 @@ pub fn write(
     selection: &Selection,
     done: &(dyn Fn() + Sync),
 ) -> Result<Written, OutputError> {
-    let head = Head::new(run);
+    let head = Header::new(run);
     let put_head = |state: State, untouched: &[Entry]| {
-        let head = Head { state, planned: Some(selection.to_string()), ..head.clone() };
+        let head = Header { state, planned: Some(selection.to_string()), ..head.clone() };
         folder.write_with(MANIFEST, |file| manifest::write(file, &head, untouched))
     };
     let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
@@ -185,7 +185,7 @@ pub(super) fn put_blurred(
 ) -> Result<Entry, OutputError> {
     let frame = &exposure.frame;
     let name = shutter_name(frame.index, run.scene().simulation.frames());
-    let mut digest = Tally::default();
+    let mut digest = DigestWriter::default();
     let moments = exposure.moments(shutter).map(|moment| {
         let moment = moment?;
         trails.put(run, folder, &moment)?;

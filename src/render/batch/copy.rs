@@ -6,14 +6,14 @@ use std::io;
 use std::path::Path;
 
 use crate::emit::{COMMON, INI, MASTER};
-use crate::output::{self, Entry, Folder, Head, MANIFEST, Manifest, OutputError};
+use crate::output::{self, Entry, Folder, Header, MANIFEST, Manifest, OutputError};
 use crate::render::files;
 
 /// Returns the header of a folder's manifest.
 ///
 /// # Errors
 /// If the folder contains no scripts of jabuka's, or some scripts are missing.
-pub(super) fn complete(scripts: &Path) -> Result<Head, OutputError> {
+pub(super) fn complete(scripts: &Path) -> Result<Header, OutputError> {
     match output::read_manifest(&scripts.join(MANIFEST)) {
         None => Err(OutputError::NoScripts(scripts.to_owned())),
         Some(head) if head.state != output::State::Complete => {

@@ -10,12 +10,12 @@ use super::Entry;
 
 /// Computes the SHA-256 and the length of a file from its pieces.
 #[derive(Default)]
-pub(super) struct Tally {
+pub(super) struct DigestWriter {
     hash: Sha256,
     bytes: u64,
 }
 
-impl Tally {
+impl DigestWriter {
     /// Adds the next piece of the file.
     pub(super) fn add(&mut self, piece: &[u8]) {
         self.hash.update(piece);
@@ -23,10 +23,10 @@ impl Tally {
     }
 
     /// Reads the file at a path to its end.
-    pub(super) fn of_file(path: &Path) -> io::Result<Tally> {
-        let mut tally = Tally::default();
-        io::copy(&mut File::open(path)?, &mut tally)?;
-        Ok(tally)
+    pub(super) fn of_file(path: &Path) -> io::Result<DigestWriter> {
+        let mut writer = DigestWriter::default();
+        io::copy(&mut File::open(path)?, &mut writer)?;
+        Ok(writer)
     }
 
     /// Makes the manifest entry of the file that consists of all added pieces.
@@ -35,7 +35,7 @@ impl Tally {
     }
 }
 
-impl io::Write for Tally {
+impl io::Write for DigestWriter {
     fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
         self.add(piece);
         Ok(piece.len())
@@ -52,10 +52,10 @@ mod tests {
 
     #[test]
     fn the_entry_of_the_pieces_is_that_of_the_whole() {
-        let mut tally = Tally::default();
-        tally.add(b"sphere { 0, ");
-        tally.add(b"1 }");
-        let entry = tally.entry(Some(3), "frame_0003.pov".to_owned());
+        let mut writer = DigestWriter::default();
+        writer.add(b"sphere { 0, ");
+        writer.add(b"1 }");
+        let entry = writer.entry(Some(3), "frame_0003.pov".to_owned());
         assert_eq!(entry, Entry::of(Some(3), "frame_0003.pov".to_owned(), b"sphere { 0, 1 }"));
     }
 }
