@@ -21,7 +21,7 @@ const READ_BY_SDL: &str = "the SDL of the scene reads it";
 
 /// The files and folders that a command must not overwrite.
 #[derive(Debug, Default)]
-pub struct Kept {
+pub struct ProtectedFiles {
     inputs: Vec<Input>,
     /// The names and identities of the scene's assets, which are copied into the folders of scripts.
     assets: Vec<(String, Option<Identity>)>,
@@ -74,20 +74,20 @@ impl fmt::Display for CannotOverwrite {
 
 impl std::error::Error for CannotOverwrite {}
 
-impl Kept {
+impl ProtectedFiles {
     /// Protects all inputs of a scene: its file, included files, tables, meshes, heightfields, assets and templates, and the files that
     /// its SDL reads, as far as their names can be found in the SDL.
-    pub fn of_scene(scene: &Scene) -> Kept {
+    pub fn of_scene(scene: &Scene) -> ProtectedFiles {
         let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
-        let kept = Kept {
+        let protected = ProtectedFiles {
             assets: scene.povray.assets.iter().map(asset).collect(),
             named: scene.povray.reads.clone(),
-            ..Kept::default()
+            ..ProtectedFiles::default()
         };
         let mut absolute = scene.povray.reads.clone();
         absolute.retain(|(_, name)| Path::new(name).is_absolute());
-        let kept = kept.and_files(scene.files(), "the scene is made from it");
-        kept.and_files(render::named(Path::new("/"), &absolute), READ_BY_SDL)
+        let protected = protected.and_files(scene.files(), "the scene is made from it");
+        protected.and_files(render::named(Path::new("/"), &absolute), READ_BY_SDL)
     }
 
     /// Protects further files that the command reads. `use_of_it` is the end of an error message, such as `the scene is made from it`.
@@ -96,7 +96,7 @@ impl Kept {
         mut self,
         files: impl IntoIterator<Item = P>,
         use_of_it: &'static str,
-    ) -> Kept {
+    ) -> ProtectedFiles {
         let input = |file: P| {
             let path = file.as_ref();
             Input { path: resolved(path), identity: Identity::of(path), use_of_it }
@@ -109,7 +109,7 @@ impl Kept {
     ///
     /// # Errors
     /// If an input has the path of a file that will be written into the folder.
-    pub fn and_folder(mut self, folder: &Path) -> Result<Kept, CannotOverwrite> {
+    pub fn and_folder(mut self, folder: &Path) -> Result<ProtectedFiles, CannotOverwrite> {
         let resolved = resolved(folder);
         let is_replaced = |input: &&Input| {
             let Ok(name) = input.path.strip_prefix(&resolved) else { return false };
@@ -205,12 +205,12 @@ mod tests {
         fs::hard_link(at("wall.gif"), at("hard.gif")).unwrap();
         std::os::unix::fs::symlink("wall.gif", at("soft.gif")).unwrap();
         std::os::unix::fs::symlink(".", at("here")).unwrap();
-        let kept = Kept::default().and_files([at("wall.gif")], "the scene is made from it");
+        let protected = ProtectedFiles::default().and_files([at("wall.gif")], "the scene is made from it");
         for name in ["wall.gif", "hard.gif", "soft.gif", "sub/../wall.gif", "here/here/wall.gif"] {
-            assert!(said(kept.check(&at(name))).ends_with("and the scene is made from it"), "{name}");
+            assert!(said(protected.check(&at(name))).ends_with("and the scene is made from it"), "{name}");
         }
         for name in ["new.gif", "sub/wall.gif", "no/such/folder/wall.gif"] {
-            assert_eq!(kept.check(&at(name)), Ok(()), "{name}");
+            assert_eq!(protected.check(&at(name)), Ok(()), "{name}");
         }
     }
 
@@ -218,26 +218,27 @@ mod tests {
     fn what_jabuka_keeps_in_its_folders_is_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        let kept = Kept::default().and_folder(&at("out/scene")).unwrap();
+        let protected = ProtectedFiles::default().and_folder(&at("out/scene")).unwrap();
         for name in
             ["frame_0003.png", "FRAME_0003.PNG", "manifest.json", "x/../common.inc", "assets/a/wall.png"]
         {
-            said(kept.check(&at("out/scene").join(name)));
+            said(protected.check(&at("out/scene").join(name)));
         }
         for name in ["film.mp4", "frame_3.png", "images/frame_0003.png", "sheet.png"] {
-            assert_eq!(kept.check(&at("out/scene").join(name)), Ok(()), "{name}");
+            assert_eq!(protected.check(&at("out/scene").join(name)), Ok(()), "{name}");
         }
         // The folder `.jabuka` marks a folder of images that another command has rendered.
         fs::create_dir_all(at("images/.jabuka")).unwrap();
-        said(Kept::default().check(&at("images/frame_0003.png")));
-        assert_eq!(Kept::default().check(&at("images/sheet.png")), Ok(()));
+        said(ProtectedFiles::default().check(&at("images/frame_0003.png")));
+        assert_eq!(ProtectedFiles::default().check(&at("images/sheet.png")), Ok(()));
     }
 
     #[test]
     fn a_folder_is_not_filled_over_what_is_read() {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
-        let reading = |name: &str| Kept::default().and_files([at(name)], "the scene is made from it");
+        let reading =
+            |name: &str| ProtectedFiles::default().and_files([at(name)], "the scene is made from it");
         assert!(reading("frame_0000.png").and_folder(folder.path()).is_err());
         assert!(reading("common.inc").and_folder(&at("no/..")).is_err());
         assert!(reading("heights.png").and_folder(folder.path()).is_ok());
@@ -265,14 +266,17 @@ mod tests {
         fs::write(at("scene.toml"), format!("povray.sdl = '''{sdl}'''\n{scene}\n")).unwrap();
         let trusting = crate::scene::Options { trust: true, ..Default::default() };
         let scene = Scene::from_path_with(at("scene.toml"), &trusting).unwrap();
-        let kept = Kept::of_scene(&scene);
+        let protected = ProtectedFiles::of_scene(&scene);
         for name in ["sky.png", "deep.png", "parts.inc"] {
-            assert!(said(kept.check(&at(name))).ends_with("and the SDL of the scene reads it"), "{name}");
+            assert!(
+                said(protected.check(&at(name))).ends_with("and the SDL of the scene reads it"),
+                "{name}"
+            );
         }
-        assert_eq!(kept.check(&at("free.png")), Ok(()));
+        assert_eq!(protected.check(&at("free.png")), Ok(()));
         // A relative name in SDL starts from the folder of the scripts, which is unknown until it is added.
-        assert_eq!(kept.check(&at("out/near.png")), Ok(()));
-        let kept = kept.and_folder(&at("out")).unwrap();
-        assert!(said(kept.check(&at("out/near.png"))).ends_with("and the SDL of the scene reads it"));
+        assert_eq!(protected.check(&at("out/near.png")), Ok(()));
+        let protected = protected.and_folder(&at("out")).unwrap();
+        assert!(said(protected.check(&at("out/near.png"))).ends_with("and the SDL of the scene reads it"));
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use jabuka::diagnostic::visible;
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::linear_light;
 
 use super::{Failure, say};
@@ -20,8 +20,9 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let kept = Kept::default().and_files(&arguments.images, "it is one of the images to average");
-    say::spared(kept.check(&arguments.output))?;
+    let protected =
+        ProtectedFiles::default().and_files(&arguments.images, "it is one of the images to average");
+    say::spared(protected.check(&arguments.output))?;
     let mean = linear_light::mean(&arguments.images).and_then(|mean| mean.write(&arguments.output));
     mean.map_err(|error| {
         say::error(&format!("error: {}\n", visible(&error.to_string())));

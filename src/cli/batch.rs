@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, OutputError};
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::Film;
 use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
 use jabuka::simulate::Selection;
@@ -102,8 +102,8 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
     for (_, folder) in &cameras {
-        let kept = Kept::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
-        say::spared(kept.and_then(|kept| kept.and_folder(&folder.join("images"))))?;
+        let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
+        say::spared(protected.and_then(|protected| protected.and_folder(&folder.join("images"))))?;
     }
     let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));

@@ -6,7 +6,7 @@ use std::time::Instant;
 use jabuka::Run;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::simulate::Selection;
 
 use super::progress::Progress;
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     if !arguments.check {
         for (_, folder) in &cameras {
-            say::spared(Kept::of_scene(&scene).and_folder(folder))?;
+            say::spared(ProtectedFiles::of_scene(&scene).and_folder(folder))?;
         }
     }
     let cache = arguments.of_scene.cache()?;

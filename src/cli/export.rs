@@ -9,7 +9,7 @@ use jabuka::export::{
     ExportError, Exported, write_csv, write_events, write_glb, write_joints, write_particles,
 };
 use jabuka::output::OutputError;
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::scene::ContactLaw;
 use jabuka::simulate::{Recorded, Selection};
 
@@ -102,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = files.output;
     let format = Format::of(output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
-    say::spared(Kept::of_scene(&scene).check(output))?;
+    say::spared(ProtectedFiles::of_scene(&scene).check(output))?;
     if arguments.joints && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use jabuka::diagnostic::visible_path;
-use jabuka::overwrite::{CannotOverwrite, Kept};
+use jabuka::overwrite::{CannotOverwrite, ProtectedFiles};
 use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Shot};
 use jabuka::sandbox::{Confinement, Launcher};
 
@@ -39,11 +39,11 @@ impl Products {
         Ok(Products { film: film.transpose()?, rate: arguments.film.video_rate, sheet })
     }
 
-    /// Returns an error if the film or the contact sheet would replace a file in `kept`.
-    pub(super) fn replace_nothing_of(&self, kept: &Kept) -> Result<(), CannotOverwrite> {
+    /// Returns an error if the film or the contact sheet would replace a file in `protected`.
+    pub(super) fn replace_nothing_of(&self, protected: &ProtectedFiles) -> Result<(), CannotOverwrite> {
         let film = self.film.iter().map(|(film, _)| film.path());
         let mut paths = film.chain(self.sheet.iter().map(ContactSheet::path));
-        paths.try_for_each(|path| kept.check(path))
+        paths.try_for_each(|path| protected.check(path))
     }
 
     /// Checks, before any frame is rendered, that the products can be made from images of this size. `rate` is the film's frame rate that

@@ -8,7 +8,7 @@ use jabuka::Scene;
 use jabuka::cache::Cache;
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder, OutputError};
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
 use jabuka::scene::View;
 use jabuka::simulate::Selection;
@@ -89,9 +89,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage(message.to_owned()));
     }
     for (_, folder) in &cameras {
-        let kept = Kept::of_scene(&scene).and_folder(folder);
-        let kept = kept.and_then(|kept| kept.and_folder(&arguments.images(folder)));
-        say::spared(kept.and_then(|kept| products.replace_nothing_of(&kept)))?;
+        let protected = ProtectedFiles::of_scene(&scene).and_folder(folder);
+        let protected = protected.and_then(|protected| protected.and_folder(&arguments.images(folder)));
+        say::spared(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
     }
     products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folders = write_scripts(&scene, &arguments.scene.cache()?, &selection, &cameras)?;
@@ -156,8 +156,10 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         return Err(Failure::Usage(message.to_owned()));
     }
     let images = arguments.images(&arguments.source);
-    let kept = Kept::default().and_folder(&arguments.source).and_then(|kept| kept.and_folder(&images));
-    say::spared(kept.and_then(|kept| products.replace_nothing_of(&kept)))?;
+    let protected = ProtectedFiles::default()
+        .and_folder(&arguments.source)
+        .and_then(|protected| protected.and_folder(&images));
+    say::spared(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
     let _lock = match Folder::open(&arguments.source) {
         Ok(lock) => Some(lock),
         Err(error @ OutputError::Locked(_)) => {

@@ -9,7 +9,7 @@ use jabuka::Scene;
 use jabuka::diagnostic::visible_path;
 use jabuka::export::ExportError;
 use jabuka::output::OutputError;
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::report::plot::{Picture, png, svg};
 use jabuka::report::{ACCURACY, Assessment, Phase, assess};
 
@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
     if let Some((path, _)) = plot {
-        say::spared(Kept::of_scene(&scene).check(path))?;
+        say::spared(ProtectedFiles::of_scene(&scene).check(path))?;
     }
     let progress = Progress::new(2 * STEPS);
     let mut done = 0;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, Folder};
-use jabuka::overwrite::Kept;
+use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::{Images, Job, Sequence};
 use jabuka::scene::View;
 use jabuka::simulate::Moments;
@@ -55,9 +55,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     check_time(&scene, arguments.time)?;
 
     let folder = script_folder(&scene, view);
-    let kept = Kept::of_scene(&scene).and_folder(&folder);
-    let kept = kept.and_then(|kept| kept.and_folder(&folder.join("images")));
-    say::spared(kept.and_then(|kept| kept.check(&arguments.output)))?;
+    let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder);
+    let protected = protected.and_then(|protected| protected.and_folder(&folder.join("images")));
+    say::spared(protected.and_then(|protected| protected.check(&arguments.output)))?;
     let folder = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
