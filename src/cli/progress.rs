@@ -9,7 +9,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, P
 use jabuka::Scene;
 use jabuka::dynamics::Effort;
 use jabuka::output::OutputError;
-use jabuka::simulate::Labour;
+use jabuka::simulate::Workload;
 
 use super::{Failure, say};
 
@@ -28,7 +28,7 @@ struct Shared {
     bar: ProgressBar,
     start: Instant,
     effort: Effort,
-    labour: Labour,
+    workload: Workload,
     steps: Mutex<Steps>,
 }
 
@@ -48,21 +48,21 @@ struct Steps {
 impl Progress {
     /// Makes a bar for a task with this many steps. The bar is hidden at first.
     pub(super) fn new(steps: usize) -> Progress {
-        Progress::with(steps as u64, Labour::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
+        Progress::with(steps as u64, Workload::default(), "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
     /// Makes a bar for the simulation of a scene and the writing of this many scripts after it.
     pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
-        let labour = Labour::of(scene);
+        let workload = Workload::of(scene);
         let steps = scene.simulation.frames() + scripts;
-        let length = (0..steps).map(|step| weight(labour, step)).fold(0, u64::saturating_add);
-        Progress::with(length, labour, "{msg:12} {wide_bar} {percent:>3} %  {left}")
+        let length = (0..steps).map(|step| weight(workload, step)).fold(0, u64::saturating_add);
+        Progress::with(length, workload, "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }
 
     /// Makes a bar for rendering this many frames.
     pub(super) fn of_frames(frames: usize) -> Progress {
         let template = "rendering    {wide_bar} {pos} of {len}  {per_sec}  {left}  {msg}";
-        Progress::with(frames as u64, Labour::default(), template)
+        Progress::with(frames as u64, Workload::default(), template)
     }
 
     /// Makes a spinner for a task of unknown length. It shows the elapsed time.
@@ -74,11 +74,11 @@ impl Progress {
         bar.set_message(what);
         bar.enable_steady_tick(LOOK);
         let steps = Mutex::new(Steps { shown: true, ..Steps::default() });
-        let (effort, labour) = (Effort::default(), Labour::default());
-        Progress(Arc::new(Shared { bar, start: Instant::now(), effort, labour, steps }))
+        let (effort, workload) = (Effort::default(), Workload::default());
+        Progress(Arc::new(Shared { bar, start: Instant::now(), effort, workload, steps }))
     }
 
-    fn with(length: u64, labour: Labour, template: &str) -> Progress {
+    fn with(length: u64, workload: Workload, template: &str) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.with_key("left", left));
@@ -86,7 +86,7 @@ impl Progress {
         let steps = Mutex::new(Steps { shown: !std::io::stderr().is_terminal(), ..Steps::default() });
         let is_watched = !steps.lock().unwrap_or_else(PoisonError::into_inner).shown;
         let effort = Effort::default();
-        let shared = Arc::new(Shared { bar, start: Instant::now(), effort, labour, steps });
+        let shared = Arc::new(Shared { bar, start: Instant::now(), effort, workload, steps });
         if is_watched {
             let weak = Arc::downgrade(&shared);
             std::thread::spawn(move || look(&weak));
@@ -113,7 +113,7 @@ impl Progress {
     pub(super) fn step(&self) {
         let shared = &self.0;
         let mut steps = shared.steps.lock().unwrap_or_else(PoisonError::into_inner);
-        steps.position = steps.position.saturating_add(weight(shared.labour, steps.done));
+        steps.position = steps.position.saturating_add(weight(shared.workload, steps.done));
         steps.done += 1;
         steps.before = shared.effort.done();
         shared.show(&mut steps);
@@ -136,7 +136,7 @@ impl Shared {
     /// Moves the bar to the current progress. Shows it if the task has taken long enough.
     fn show(&self, steps: &mut Steps) {
         // Within a step, the bar stops one unit before the step's end. Only [`Progress::step`] completes a step.
-        let most = weight(self.labour, steps.done).saturating_sub(1);
+        let most = weight(self.workload, steps.done).saturating_sub(1);
         let within = self.effort.done().saturating_sub(steps.before).min(most);
         self.bar.set_position(steps.position.saturating_add(within));
         if !steps.shown && self.start.elapsed() > LATE {
@@ -147,8 +147,8 @@ impl Shared {
 }
 
 /// Returns the length of a step on the bar: the expected number of interactions between bodies in its frame, or 1 if the scene has none.
-fn weight(labour: Labour, step: usize) -> u64 {
-    if labour.is_empty() { 1 } else { labour.of_step(step).max(1) }
+fn weight(workload: Workload, step: usize) -> u64 {
+    if workload.is_empty() { 1 } else { workload.of_step(step).max(1) }
 }
 
 /// Updates a bar at regular intervals, until it is finished or dropped.

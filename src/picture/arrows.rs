@@ -33,7 +33,7 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
 
 /// The body or joint that an arrow belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bearer {
+pub enum ArrowOwner {
     /// The body with this index.
     Body(usize),
     /// A joint.
@@ -49,7 +49,7 @@ pub enum Bearer {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrow {
     /// The body or joint that the arrow belongs to.
-    pub bearer: Bearer,
+    pub owner: ArrowOwner,
     /// The quantity that the arrow shows.
     pub quantity: Quantity,
     /// The point where the arrow begins, in world axes, m.
@@ -105,7 +105,7 @@ pub(super) struct Arrows {
 /// A requested arrow of a joint.
 #[derive(Clone, Debug)]
 struct OfJoint {
-    bearer: Bearer,
+    owner: ArrowOwner,
     end: JointEnd,
     quantity: Quantity,
     /// The drawn length of one unit of the quantity, m. `None` if the scene gives no scale.
@@ -171,11 +171,11 @@ impl Arrows {
         }
         let of_joints = scene.joints.iter().enumerate().flat_map(|(number, joint)| {
             let [first, second] = joint.kind.between().map(|end| end.body().map(BodyId::index));
-            let bearer = Bearer::Joint { joint: number, body: second.or(first) };
+            let owner = ArrowOwner::Joint { joint: number, body: second.or(first) };
             Quantity::OF_JOINTS.into_iter().zip(joint.arrows).filter_map(move |(quantity, arrow)| {
                 let scene::Arrow { scale, color } = arrow?;
                 let color = color.unwrap_or(colors[quantity.color()]);
-                Some(OfJoint { bearer, end: JointEnd::new(scene, number), quantity, scale, color })
+                Some(OfJoint { owner, end: JointEnd::new(scene, number), quantity, scale, color })
             })
         });
         let of_joints = of_joints.collect();
@@ -207,9 +207,9 @@ impl Arrows {
         arrows.extend(self.of_joints.iter().filter_map(|arrow| {
             let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
             let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.quantity.number()]);
-            let OfJoint { bearer, quantity, color, .. } = *arrow;
+            let OfJoint { owner, quantity, color, .. } = *arrow;
             is_seen(from, to, sizes).then_some(Arrow {
-                bearer,
+                owner,
                 quantity,
                 from,
                 to,
@@ -234,7 +234,7 @@ impl Arrows {
             let to = from + vector * load.arrow.scale.unwrap_or(sizes.scales[quantity.number()]);
             let color = load.arrow.color.unwrap_or(colors[quantity.color()]);
             let mut arrow =
-                Arrow { bearer: Bearer::Body(body), quantity, from, to, radius: sizes.radius, color };
+                Arrow { owner: ArrowOwner::Body(body), quantity, from, to, radius: sizes.radius, color };
             let seen = is_seen(from, to, sizes);
             lift_from_body(&mut arrow, &scene.bodies[body], find(bodies, body)?, camera);
             seen.then_some(arrow)
@@ -281,8 +281,8 @@ impl Arrows {
         let from = root(body, at, vector);
         let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.kind]);
         let Planned { quantity, color, .. } = *arrow;
-        let bearer = Bearer::Body(*number);
-        is_seen(from, to, sizes).then_some(Arrow { bearer, quantity, from, to, radius: sizes.radius, color })
+        let owner = ArrowOwner::Body(*number);
+        is_seen(from, to, sizes).then_some(Arrow { owner, quantity, from, to, radius: sizes.radius, color })
     }
 }
 

@@ -59,10 +59,10 @@ impl ScaleBars {
     /// The length that the bar represents, m, and its width in the image plane of a camera. `None` if the center of the framed bounds is
     /// behind the camera.
     pub(super) fn extent(&self, screen: &Screen) -> Option<(f64, f64)> {
-        let spot = screen.spot(self.middle)?;
-        let fifth = 0.5 / spot.metre;
+        let point = screen.project(self.middle)?;
+        let fifth = 0.5 / point.scale;
         let length = self.bar.length.unwrap_or_else(|| decimal_step(fifth) * digit(fifth));
-        Some((length, length * spot.metre))
+        Some((length, length * point.scale))
     }
 
     /// Returns the bar and its number in the image plane of a camera. `None` if the center of the framed bounds is behind the camera.

@@ -17,18 +17,18 @@ const THINNEST: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotDrawn {
     /// The requested thing.
-    pub what: Asking,
+    pub what: RequestedItem,
     /// The name of the body or force that requests the thing. Empty for the scale bar.
     pub name: String,
     /// The reason why the thing is invisible.
-    pub why: Why,
+    pub why: Reason,
     /// The number of other things of the same kind that are invisible for the same reason.
     pub others: usize,
 }
 
 /// The kind of a requested thing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asking {
+pub enum RequestedItem {
     /// An arrow of a body.
     Arrow(Quantity),
     /// The coordinate axes of a body.
@@ -47,7 +47,7 @@ pub enum Asking {
 
 /// The reason why a requested thing is invisible.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Why {
+pub enum Reason {
     /// The thing is too small in the picture.
     TooSmall {
         /// The largest length or width of the thing in any picture, pixels.
@@ -102,78 +102,81 @@ pub(super) fn find(
 ) -> Vec<NotDrawn> {
     let pixel = view / f64::from(scene.output.width);
     let mut found = Found::default();
-    for arrow in &survey.asked.arrows {
+    for arrow in &survey.requested.arrows {
         let body = &scene.bodies[arrow.body];
         let kind = Quantity::OF_BODIES.iter().position(|quantity| *quantity == arrow.quantity);
         let scale = kind.and_then(|kind| body.showing.arrows[kind]?.scale);
         let fit = (arrow.longest > 0.0).then(|| round_down(LONGEST * view / arrow.longest));
         let why = match (arrow.lost, scale, fit) {
-            (Some(time), ..) => Why::Lost { time, fit },
+            (Some(time), ..) => Reason::Lost { time, fit },
             (None, Some(scale), Some(fit)) if arrow.longest * scale < SHORTEST * pixel => {
-                Why::TooSmall { pixels: arrow.longest * scale / pixel, fit }
+                Reason::TooSmall { pixels: arrow.longest * scale / pixel, fit }
             }
             _ => continue,
         };
-        found.add(Asking::Arrow(arrow.quantity), &body.name, why);
+        found.add(RequestedItem::Arrow(arrow.quantity), &body.name, why);
     }
-    for arrow in &survey.asked.loads {
+    for arrow in &survey.requested.loads {
         let body = &scene.bodies[arrow.body];
         let kind = Quantity::OF_LOADS.iter().position(|quantity| *quantity == arrow.quantity);
         let scale = kind.and_then(|kind| body.showing.loads[kind]?.scale);
         let why = match scale {
             // A body without normal force had no contact. Friction can be zero in spite of a contact.
-            _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Why::Untouched,
+            _ if arrow.quantity == Quantity::Normal && arrow.longest == 0.0 => Reason::Untouched,
             Some(scale) if arrow.longest > 0.0 && arrow.longest * scale < SHORTEST * pixel => {
                 let fit = round_down(LONGEST * view / arrow.longest);
-                Why::TooSmall { pixels: arrow.longest * scale / pixel, fit }
+                Reason::TooSmall { pixels: arrow.longest * scale / pixel, fit }
             }
             _ => continue,
         };
-        found.add(Asking::Arrow(arrow.quantity), &body.name, why);
+        found.add(RequestedItem::Arrow(arrow.quantity), &body.name, why);
     }
     for body in &scene.bodies {
         let Some(length) = body.showing.axes.and_then(|axes| axes.length) else { continue };
         if length < SHORTEST * pixel {
-            let why = Why::TooSmall { pixels: length / pixel, fit: decimal_step(0.2 * view) };
-            found.add(Asking::Axes, &body.name, why);
+            let why = Reason::TooSmall { pixels: length / pixel, fit: decimal_step(0.2 * view) };
+            found.add(RequestedItem::Axes, &body.name, why);
         }
     }
-    for trail in &survey.asked.trails {
+    for trail in &survey.requested.trails {
         let body = &scene.bodies[trail.body];
         let Some(width) = body.showing.trail.and_then(|trail| trail.width) else { continue };
         if width < THINNEST * pixel {
-            let why = Why::TooSmall { pixels: width / pixel, fit: decimal_step(6.0 * pixel) };
-            found.add(Asking::Trail, &body.name, why);
-        } else if trail.way > 0.0 && trail.way <= width / 2.0 {
-            found.add(Asking::Trail, &body.name, Why::Wide { way: trail.way, width });
+            let why = Reason::TooSmall { pixels: width / pixel, fit: decimal_step(6.0 * pixel) };
+            found.add(RequestedItem::Trail, &body.name, why);
+        } else if trail.largest_distance > 0.0 && trail.largest_distance <= width / 2.0 {
+            found.add(RequestedItem::Trail, &body.name, Reason::Wide { way: trail.largest_distance, width });
         }
     }
-    for asked in &survey.asked.ghosts {
+    for asked in &survey.requested.ghosts {
         let body = &scene.bodies[asked.body];
-        let why = match asked.way {
-            None => Why::Gone,
-            Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Why::Still,
+        let why = match asked.largest_distance {
+            None => Reason::Gone,
+            Some(way) if way <= ghosts::near(body) && !ghosts::is_turned(asked.turn) => Reason::Still,
             Some(_) => continue,
         };
         // Ghosts of a fixed body are invisible as expected, so no warning is needed.
         if !body.start.fixed {
-            found.add(Asking::Ghosts, &body.name, why);
+            found.add(RequestedItem::Ghosts, &body.name, why);
         }
     }
-    for (spring, size) in survey.asked.springs.iter().zip(links.springs()) {
+    for (spring, size) in survey.requested.springs.iter().zip(links.springs()) {
         let SpringSize { radius, room, is_coil } = *size;
-        let what = if is_coil { Asking::Coil } else { Asking::Line };
-        if room >= spring.room {
-            let fit = (spring.room > 0.0).then(|| decimal_step(0.3 * spring.room));
-            found.add(what, &spring.force, Why::NoRoom { radius, fit });
+        let what = if is_coil { RequestedItem::Coil } else { RequestedItem::Line };
+        if room >= spring.largest_gap {
+            let fit = (spring.largest_gap > 0.0).then(|| decimal_step(0.3 * spring.largest_gap));
+            found.add(what, &spring.force, Reason::NoRoom { radius, fit });
         } else if 2.0 * radius < THINNEST * pixel {
-            let why = Why::TooSmall { pixels: 2.0 * radius / pixel, fit: decimal_step(0.1 * spring.room) };
+            let why = Reason::TooSmall {
+                pixels: 2.0 * radius / pixel,
+                fit: decimal_step(0.1 * spring.largest_gap),
+            };
             found.add(what, &spring.force, why);
         }
     }
     if let Some((length, wide)) = bar.filter(|(_, wide)| *wide > 2.0 - 2.0 * MARGIN) {
-        let why = Why::TooLong { length, fit: decimal_step(0.5 * length / wide) };
-        found.add(Asking::ScaleBar, "", why);
+        let why = Reason::TooLong { length, fit: decimal_step(0.5 * length / wide) };
+        found.add(RequestedItem::ScaleBar, "", why);
     }
     found.0
 }
@@ -183,7 +186,7 @@ pub(super) fn find(
 struct Found(Vec<NotDrawn>);
 
 impl Found {
-    fn add(&mut self, what: Asking, name: &str, why: Why) {
+    fn add(&mut self, what: RequestedItem, name: &str, why: Reason) {
         let is_same = |known: &&mut NotDrawn| {
             known.what == what && std::mem::discriminant(&known.why) == std::mem::discriminant(&why)
         };

@@ -95,8 +95,8 @@ impl Room {
 
     /// Takes the image of a line between two points in the world. The width of the line is in meters.
     pub(super) fn cross(&mut self, ends: [DVec3; 2], width: f64, screen: &Screen) {
-        if let [Some(from), Some(to)] = ends.map(|end| screen.spot(end)) {
-            self.stripe([from.x, from.y], [to.x, to.y], width * to.metre);
+        if let [Some(from), Some(to)] = ends.map(|end| screen.project(end)) {
+            self.stripe([from.x, from.y], [to.x, to.y], width * to.scale);
         }
     }
 

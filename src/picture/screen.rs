@@ -23,13 +23,13 @@ pub struct Screen {
 
 /// The image of a point on the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct ScreenPoint {
     /// The horizontal position: -1 at the left edge of the picture, 1 at the right edge.
     pub x: f64,
     /// The vertical position: 0 in the middle, in the same scale as `x`.
     pub y: f64,
     /// The drawn length of one meter at the depth of the point.
-    pub metre: f64,
+    pub scale: f64,
 }
 
 impl Screen {
@@ -66,16 +66,19 @@ impl Screen {
     }
 
     /// Projects a point in the world onto the plane. `None` if the point is not in front of the camera.
-    pub fn spot(&self, point: DVec3) -> Option<Spot> {
+    pub fn project(&self, point: DVec3) -> Option<ScreenPoint> {
         let offset = point - self.location;
         let depth = -offset.dot(self.back);
         let half = match self.slope {
             Some(slope) => slope * depth,
             None => self.half,
         };
-        let spot =
-            Spot { x: offset.dot(self.right) / half, y: offset.dot(self.up) / half, metre: 1.0 / half };
-        (depth > 0.0 && spot.x.is_finite() && spot.y.is_finite()).then_some(spot)
+        let projected = ScreenPoint {
+            x: offset.dot(self.right) / half,
+            y: offset.dot(self.up) / half,
+            scale: 1.0 / half,
+        };
+        (depth > 0.0 && projected.x.is_finite() && projected.y.is_finite()).then_some(projected)
     }
 
     /// The ray from the viewer through a point on the plane: its origin, m, and its direction. The component of the direction along the
@@ -106,18 +109,18 @@ mod tests {
     #[test]
     fn what_is_looked_at_is_in_the_middle_and_edges_are_at_1() {
         let screen = Screen::new(DVec3::new(0.0, 0.0, 10.0), DVec3::ZERO, Some(0.5), 0.0, None);
-        assert_eq!(screen.spot(DVec3::ZERO), Some(Spot { x: 0.0, y: 0.0, metre: 0.2 }));
-        let edge = screen.spot(DVec3::new(5.0, -2.0, 0.0)).unwrap();
+        assert_eq!(screen.project(DVec3::ZERO), Some(ScreenPoint { x: 0.0, y: 0.0, scale: 0.2 }));
+        let edge = screen.project(DVec3::new(5.0, -2.0, 0.0)).unwrap();
         assert!((edge.x - 1.0).abs() < 1e-12 && (edge.y + 0.4).abs() < 1e-12);
-        assert_eq!(screen.spot(DVec3::new(0.0, 0.0, 11.0)), None);
+        assert_eq!(screen.project(DVec3::new(0.0, 0.0, 11.0)), None);
     }
 
     #[test]
     fn parallel_rays_show_everything_in_one_size() {
         let screen = Screen::new(DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, None, 4.0, None);
         for height in [-5.0, 0.0, 5.0] {
-            let spot = screen.spot(DVec3::new(1.0, height, 1.0)).unwrap();
-            assert!((spot.x - 0.5).abs() < 1e-12 && (spot.y + 0.5).abs() < 1e-12, "{spot:?}");
+            let projected = screen.project(DVec3::new(1.0, height, 1.0)).unwrap();
+            assert!((projected.x - 0.5).abs() < 1e-12 && (projected.y + 0.5).abs() < 1e-12, "{projected:?}");
         }
     }
 
@@ -127,8 +130,11 @@ mod tests {
             let screen = Screen::new(DVec3::new(3.0, 4.0, 10.0), DVec3::ZERO, slope, 4.0, None);
             let (origin, direction) = screen.ray(0.7, -0.3);
             for far in [5.0, 40.0] {
-                let spot = screen.spot(origin + direction * far).unwrap();
-                assert!((spot.x - 0.7).abs() < 1e-12 && (spot.y + 0.3).abs() < 1e-12, "{spot:?}");
+                let projected = screen.project(origin + direction * far).unwrap();
+                assert!(
+                    (projected.x - 0.7).abs() < 1e-12 && (projected.y + 0.3).abs() < 1e-12,
+                    "{projected:?}"
+                );
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Bearer, Link, LinkForm, Part, Plan, Text};
+use super::{ArrowOwner, Link, LinkShape, Part, Plan, Text};
 use crate::scene::{Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -56,7 +56,7 @@ fn a_camera_that_stands_still_sees_one_size_and_the_tips_of_all_arrows() {
         let arrows = plan.arrows(&frame);
         assert_eq!(arrows.iter().map(|arrow| arrow.radius).collect::<Vec<_>>(), [first[0].radius; 2]);
         for arrow in arrows {
-            let spot = plan.screen(&frame).unwrap().spot(arrow.to).unwrap();
+            let spot = plan.screen(&frame).unwrap().project(arrow.to).unwrap();
             assert!(spot.x.abs() < 0.95 && spot.y.abs() < 0.95 * 9.0 / 16.0, "{spot:?}");
         }
     }
@@ -186,8 +186,8 @@ fn a_grid_that_a_moving_camera_sees_fills_the_picture_and_has_its_numbers_at_the
     let screen = plan.screen(&frame).unwrap();
     let lines = plan.grid(&frame).unwrap().lines;
     for line in &lines {
-        let [from, to] = [line.from, line.to].map(|end| screen.spot(end).unwrap());
-        let leaves = |spot: crate::picture::Spot| spot.x.abs() > 1.0 || spot.y.abs() > 0.5625;
+        let [from, to] = [line.from, line.to].map(|end| screen.project(end).unwrap());
+        let leaves = |spot: crate::picture::ScreenPoint| spot.x.abs() > 1.0 || spot.y.abs() > 0.5625;
         assert!(leaves(from) && leaves(to), "{line:?}");
     }
     let numbers: Vec<_> = plan.texts(&frame).into_iter().filter(|text| text.name == "grid").collect();
@@ -248,7 +248,7 @@ fn a_label_stands_where_no_arrow_crosses_it() {
     let (scene, plan) = plan(text);
     let side = |time: f64| {
         let frame = Frames::at(&scene, time).unwrap();
-        let ball = plan.screen(&frame).unwrap().spot(frame.bodies[0].location).unwrap();
+        let ball = plan.screen(&frame).unwrap().project(frame.bodies[0].location).unwrap();
         plan.texts(&frame)[0].y.above_middle(9.0 / 16.0) - ball.y
     };
     assert!(side(0.2) < 0.0, "below the ball, whose arrow points up");
@@ -280,7 +280,7 @@ fn a_label_stands_beside_other_bodies_and_the_names_of_axes_beside_coils() {
     let screen = with.screen(&frame).unwrap();
     for [begin, end] in with.links(&frame).iter().flat_map(Link::lines) {
         for part in 0..=40 {
-            let spot = screen.spot(begin.lerp(end, f64::from(part) / 40.0)).unwrap();
+            let spot = screen.project(begin.lerp(end, f64::from(part) / 40.0)).unwrap();
             for text in with.texts(&frame) {
                 let [left, right, bottom, top] = extent(&text);
                 let is_on = left < spot.x && spot.x < right && bottom < spot.y && spot.y < top;
@@ -329,7 +329,7 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
         between = [{ body = 'plank', at = [1, 0.05, 0.1] }, { body = 'moon', at = [0, -0.1, 0] }]",
     );
     for frame in frames(&scene).step_by(5) {
-        let [Link { form: LinkForm::Coil { ends: [begin, end], .. }, .. }] = plan.links(&frame)[..] else {
+        let [Link { form: LinkShape::Coil { ends: [begin, end], .. }, .. }] = plan.links(&frame)[..] else {
             panic!("one is drawn")
         };
         let [plank, moon] = &frame.bodies[..] else { panic!("there are two") };
@@ -365,7 +365,7 @@ fn a_joint_has_arrows_for_its_force_and_its_torque() {
     ));
     let frame = frames(&scene).nth(20).unwrap();
     let [string, force, torque] = plan.arrows(&frame)[..] else { panic!("three are asked for") };
-    assert_eq!(string.bearer, Bearer::Joint { joint: 0, body: Some(0) });
+    assert_eq!(string.owner, ArrowOwner::Joint { joint: 0, body: Some(0) });
     // The arrow begins at the surface of the bob, and points towards the pivot.
     assert!(string.from.abs_diff_eq(DVec3::new(0.0, -1.9, 0.0), 1e-9), "{string:?}");
     assert!((string.to - string.from).normalize().abs_diff_eq(DVec3::Y, 1e-9), "{string:?}");

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{colors, decimal_step};
 use crate::scene::{Color, Scene};
-use crate::simulate::{Frame, Passed, Way};
+use crate::simulate::{Frame, TrailPath, TrailPoint};
 
 /// The default color of a trail if the body has no single color.
 const AMBER: Color = Color([0.93, 0.55, 0.08]);
@@ -170,10 +170,10 @@ impl Trails {
 
     /// Computes the trails up to a frame. A trail without a given width gets the width `stroke` (m).
     pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
-        let trail = |way: &Way| {
-            let of = self.trails.binary_search_by_key(&way.body, |planned| planned.trail.body).ok()?;
+        let trail = |path: &TrailPath| {
+            let of = self.trails.binary_search_by_key(&path.body, |planned| planned.trail.body).ok()?;
             let Planned { trail, least, stretches } = &self.trails[of];
-            let Line { points, stretches, reach, .. } = Line::along(way, *least, stretches);
+            let Line { points, stretches, reach, .. } = Line::along(path, *least, stretches);
             let is_line = points.len() >= 2 && reach.is_finite();
             is_line.then(|| Trail { points, stretches, reach, ..trail.clone().of_width(stroke) })
         };
@@ -194,16 +194,16 @@ struct Line {
 impl Line {
     /// Computes the points of a trail along a path, at least `least` (m) apart. The points of a stretch depend only on its own part of the
     /// path.
-    fn along(way: &Way, least: f64, remembered: &Remembered) -> Line {
+    fn along(path: &TrailPath, least: f64, remembered: &Remembered) -> Line {
         let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
-        let mut rest = way.points.as_slice();
+        let mut rest = path.points.as_slice();
         while rest.len() > 1 {
-            let found = stretch_at(rest, way.stride);
+            let found = stretch_at(rest, path.stride);
             let number = found.map(|(number, _)| number);
-            let end = found.map_or_else(|| until_stretch(rest, way.stride), |(_, end)| end);
+            let end = found.map_or_else(|| until_stretch(rest, path.stride), |(_, end)| end);
             let make = || Part::of(between(&rest[..=end], least));
             let Part { points, reach } = match number {
-                Some(number) => remembered.part((way.stride, number), make),
+                Some(number) => remembered.part((path.stride, number), make),
                 None => make(),
             };
             line.reach = line.reach.max(reach);
@@ -216,7 +216,7 @@ impl Line {
                     let first = line.points.len();
                     line.points.extend_from_slice(&points);
                     line.stretches.push(Stretch {
-                        stride: way.stride,
+                        stride: path.stride,
                         number,
                         first,
                         last: line.points.len() - 1,
@@ -239,7 +239,7 @@ impl Line {
 
 /// If a complete stretch begins at the first point: the number of the stretch, and the index of its last point. Points at impacts lie
 /// between those of frames and are not counted.
-fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
+fn stretch_at(points: &[TrailPoint], stride: usize) -> Option<(usize, usize)> {
     let frames = stride * STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
     let mut of_frames = points.iter().enumerate().filter_map(|(place, point)| Some((place, point.frame?)));
@@ -248,22 +248,22 @@ fn stretch_at(points: &[Passed], stride: usize) -> Option<(usize, usize)> {
 }
 
 /// The index of the point at which a stretch may begin, or of the last point. At least 1.
-fn until_stretch(points: &[Passed], stride: usize) -> usize {
-    let begins = |point: &Passed| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
+fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
+    let begins = |point: &TrailPoint| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
     let next = points.iter().skip(1).position(begins);
     next.map_or(points.len() - 1, |next| next + 1)
 }
 
 /// Computes the points of a trail along a part of a path, at least `least` (m) apart. Both ends are included unless the whole part is
 /// shorter.
-fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
-    let mut line: Vec<DVec3> = way.first().map(|point| point.location).into_iter().collect();
+fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
+    let mut line: Vec<DVec3> = path.first().map(|point| point.location).into_iter().collect();
     let mut put = |point: DVec3| {
         if line.last().is_none_or(|last| last.distance(point) > least) {
             line.push(point);
         }
     };
-    for pair in way.windows(2) {
+    for pair in path.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
         let bend = from.velocity.angle_between(to.velocity);
         let pieces = if bend.is_finite() { (bend / BEND).ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
@@ -274,7 +274,7 @@ fn between(way: &[Passed], least: f64) -> Vec<DVec3> {
         }
     }
     // The part must end exactly where the next part begins.
-    if let Some(end) = way.last().map(|point| point.location) {
+    if let Some(end) = path.last().map(|point| point.location) {
         let is_near = |point: &DVec3| point.distance(end) <= least;
         while line.len() > 1 && line.last().is_some_and(is_near) {
             line.pop();

@@ -10,7 +10,7 @@ use crate::dynamics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
-use crate::surface::{Appearance, Detail, Form, Motif, Piece, appearance, ground, pieces};
+use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance, ground, pieces};
 
 /// The description of a run, without its frames. Unless noted otherwise, lengths are in meters, angles in degrees, and colors in linear
 /// light.
@@ -209,7 +209,7 @@ fn detail(scene: &Scene) -> Detail {
 }
 
 /// Returns the base shapes of a scene, each once, in the order of the bodies.
-fn forms(scene: &Scene) -> Vec<Form> {
+fn forms(scene: &Scene) -> Vec<BaseShape> {
     let mut known = HashMap::new();
     let mut forms = Vec::new();
     for piece in scene.bodies.iter().flat_map(|body| pieces(&body.drawn())) {
@@ -219,7 +219,7 @@ fn forms(scene: &Scene) -> Vec<Form> {
 }
 
 fn placed(scene: &Scene) -> Vec<PieceText> {
-    let numbers: HashMap<Form, usize> =
+    let numbers: HashMap<BaseShape, usize> =
         forms(scene).into_iter().enumerate().map(|(i, form)| (form, i)).collect();
     let mut all = Vec::new();
     for (number, body) in scene.bodies.iter().enumerate() {
@@ -234,8 +234,8 @@ fn placed(scene: &Scene) -> Vec<PieceText> {
                 location: DVec3::to_array(&location),
                 turn: DQuat::to_array(&orientation),
                 color: color.map(|Color(color)| color),
-                plane: form == Form::PLANE,
-                ball: form == Form::BALL,
+                plane: form == BaseShape::PLANE,
+                ball: form == BaseShape::BALL,
                 radius,
             }
         }));
@@ -274,11 +274,11 @@ fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
         roughness: look.roughness,
         emissive: look.emissive,
         motif: match look.pattern {
-            Motif::None => "none",
-            Motif::Checkered => "checkered",
-            Motif::Striped => "striped",
-            Motif::BeachBall => "beach-ball",
-            Motif::Ground => "ground",
+            SurfacePattern::None => "none",
+            SurfacePattern::Checkered => "checkered",
+            SurfacePattern::Striped => "striped",
+            SurfacePattern::BeachBall => "beach-ball",
+            SurfacePattern::Ground => "ground",
         },
         second: look.second,
         pale,

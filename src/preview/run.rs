@@ -32,7 +32,7 @@ pub(super) struct PreviewRun {
     moments: Moments,
     cancelled: AtomicBool,
     past: Mutex<PastOfRun>,
-    pub(super) swarms: swarms::Kept,
+    pub(super) swarms: swarms::KeptSwarms,
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
@@ -91,7 +91,7 @@ impl PreviewRun {
             scene,
             cancelled: AtomicBool::new(false),
             past: Mutex::default(),
-            swarms: swarms::Kept::default(),
+            swarms: swarms::KeptSwarms::default(),
             outcome: OnceLock::new(),
         });
         let own = Arc::clone(&run);

@@ -79,13 +79,13 @@ struct Axes {
 #[derive(Serialize)]
 struct Link {
     #[serde(flatten)]
-    form: LinkForm,
+    form: LinkShape,
     color: Vector,
 }
 
 #[derive(Serialize)]
 #[serde(tag = "form", rename_all = "lowercase")]
-enum LinkForm {
+enum LinkShape {
     Pin { at: Vector, radius: f64 },
     Coil { ends: [Vector; 2], radius: f64, wire: f64, turns: u32 },
     Rod { ends: [Vector; 2], radius: f64 },
@@ -218,13 +218,13 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
 fn link(link: picture::Link<'_>) -> Link {
     let vectors = |ends: [DVec3; 2]| ends.map(|end| end.to_array());
     let form = match link.form {
-        picture::LinkForm::Pin { at, radius } => LinkForm::Pin { at: at.to_array(), radius },
-        picture::LinkForm::Coil { ends, radius, wire, turns } => {
-            LinkForm::Coil { ends: vectors(ends), radius, wire, turns }
+        picture::LinkShape::Pin { at, radius } => LinkShape::Pin { at: at.to_array(), radius },
+        picture::LinkShape::Coil { ends, radius, wire, turns } => {
+            LinkShape::Coil { ends: vectors(ends), radius, wire, turns }
         }
-        picture::LinkForm::Rod { ends, radius } => LinkForm::Rod { ends: vectors(ends), radius },
-        picture::LinkForm::Rope { points, radius } => {
-            LinkForm::Rope { points: points.iter().map(DVec3::to_array).collect(), radius }
+        picture::LinkShape::Rod { ends, radius } => LinkShape::Rod { ends: vectors(ends), radius },
+        picture::LinkShape::Rope { points, radius } => {
+            LinkShape::Rope { points: points.iter().map(DVec3::to_array).collect(), radius }
         }
     };
     Link { form, color: link.color.0 }

@@ -14,7 +14,7 @@ const MOST: f64 = 10_000.0;
 
 /// The computed particles of a run. `None` until a page requests them.
 #[derive(Default)]
-pub(super) struct Kept(Mutex<Option<Swarms>>);
+pub(super) struct KeptSwarms(Mutex<Option<Swarms>>);
 
 /// Returns the largest number of drawn particles per emitter.
 #[allow(clippy::cast_precision_loss, reason = "emitters are few")]

@@ -13,9 +13,8 @@
 //! | the frames in order, without a recording | `snapshots` |
 //! | the particles of emitters | `particles`, `swarms` |
 //! | the moments while a shutter is open | `exposure` |
-//! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `energy_error`, `asked` |
+//! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `energy_error`, `requested_sizes` |
 
-mod asked;
 mod build;
 mod diagnose;
 mod energy_error;
@@ -23,7 +22,6 @@ mod exposure;
 mod frame;
 mod frames;
 mod impacts;
-mod labour;
 mod lag;
 mod loads;
 mod moments;
@@ -33,6 +31,7 @@ mod past;
 mod reach;
 mod record;
 mod recording;
+mod requested_sizes;
 mod selection;
 mod simulation;
 mod snapshots;
@@ -43,13 +42,13 @@ mod swarms;
 #[cfg(test)]
 mod tests;
 mod vectors;
+mod workload;
 
 use crate::diagnostic::{self, Sources};
 use crate::dynamics::{self, BodyId, Breakdown};
 use crate::scene::law::quantities_at;
 use crate::scene::{ForceKind, Scene, in_string};
 
-pub use asked::{Asked, AskedArrow, AskedGhosts, AskedSlider, AskedSpring, AskedTrail};
 pub use build::world;
 pub(crate) use energy_error::EnergyError;
 pub use energy_error::EnergyScale;
@@ -57,16 +56,18 @@ pub use exposure::Exposure;
 pub use frame::Frame;
 pub use frames::{Frames, within};
 pub use impacts::ImpactCounts;
-pub use labour::{Labour, evaluations};
 pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
 pub use moments::Moments;
 pub use overlap::Overlap;
 pub use particles::Swarm;
-pub use past::{Ghost, Passed, Past, Way};
+pub use past::{Ghost, Past, TrailPath, TrailPoint};
 pub use reach::Reach;
 pub use record::{Checkpoint, Recorded, Recorder};
 pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
+pub use requested_sizes::{
+    RequestedArrow, RequestedGhosts, RequestedSizes, RequestedSlider, RequestedSpring, RequestedTrail,
+};
 pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
@@ -74,6 +75,7 @@ pub use survey::{ContactTotals, Corrected, Crossing, StretchedJoint, Survey, Sur
 pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
+pub use workload::{Workload, evaluations};
 
 /// The error of a run with a non-finite state: the timestep is too long for the method, or the forces are too large.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,8 +10,8 @@ use glam::DVec3;
 
 use super::{Bounds, Frame};
 use crate::dynamics::{
-    BodyId, BodySnapshot, Buoyancy, Cloud, ConstantForce, Coulomb, Course, Drag, Field, FormulaForce,
-    Gravitation, J2, LennardJones, Lorentz, Method, Obstacle, Particle, RigidBody, Scenery, Shape,
+    BodyId, BodySnapshot, Buoyancy, Cloud, ConstantForce, Coulomb, Drag, Field, FormulaForce, Gravitation,
+    J2, LennardJones, Lorentz, Method, Obstacle, Particle, RecordedMotion, RigidBody, Scenery, Shape,
     UniformGravity, World, find,
 };
 use crate::scene::{Body, Emitter, Force, ForceKind, Scene};
@@ -147,7 +147,7 @@ impl Clouds {
     fn start(&mut self, frame: &Frame, bodies: &[BodySnapshot]) {
         let step = self.step();
         let Clouds { makers, method, interval, strides, .. } = &*self;
-        let course = |body: BodyId| find(bodies, body.index()).copied().map(Course::still);
+        let course = |body: BodyId| find(bodies, body.index()).copied().map(RecordedMotion::still);
         let scenery = self.scenery(&course);
         let cloud = |(maker, stride): (&Maker, &u64)| {
             let Maker { emitter: Emitter { source, carrier, radius, collides, .. }, fields } = maker;
@@ -170,9 +170,9 @@ impl Clouds {
         let course = |body: BodyId| {
             let (from, now) = (find(last, body.index()), find(bodies, body.index()));
             match (from.copied(), now.copied()) {
-                (Some(from), Some(now)) => Some(Course::new(begin, from, to, now)),
+                (Some(from), Some(now)) => Some(RecordedMotion::new(begin, from, to, now)),
                 // A body that is present at one end of the interval only rests there for the whole interval.
-                (Some(only), None) | (None, Some(only)) => Some(Course::still(only)),
+                (Some(only), None) | (None, Some(only)) => Some(RecordedMotion::still(only)),
                 (None, None) => None,
             }
         };
@@ -182,7 +182,7 @@ impl Clouds {
     }
 
     /// The obstacles with their motions in an interval between frames. `None` if no particles collide.
-    fn scenery(&self, course: &dyn Fn(BodyId) -> Option<Course>) -> Option<Scenery> {
+    fn scenery(&self, course: &dyn Fn(BodyId) -> Option<RecordedMotion>) -> Option<Scenery> {
         (!self.obstacles.is_empty()).then(|| Scenery::new(&self.obstacles, course))
     }
 

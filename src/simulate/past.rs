@@ -6,15 +6,15 @@
 mod corners;
 #[cfg(test)]
 mod tests;
-mod way;
+mod trail_path;
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-pub use way::{Passed, Way};
+pub use trail_path::{TrailPath, TrailPoint};
 
-use self::way::{cut, stride, thin};
+use self::trail_path::{cut, stride, thin};
 use super::simulation::Entry;
 use super::{Frame, Lagging, Moments};
 use crate::dynamics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
@@ -24,7 +24,7 @@ use crate::scene::{Scene, Showing, Trail};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
     /// The requested trails.
-    pub trails: Vec<Way>,
+    pub trails: Vec<TrailPath>,
     /// The requested ghosts, in order of time.
     pub ghosts: Vec<Arc<Ghost>>,
     /// The points that cameras with a lag look at.
@@ -46,11 +46,11 @@ pub struct Ghost {
 #[derive(Clone, Default)]
 pub(super) struct History {
     /// The bodies with trails or ghosts: the index of each, and the things shown with it.
-    asks: Arc<[(usize, Showing)]>,
+    requests: Arc<[(usize, Showing)]>,
     /// The mass of each body with trails or ghosts, kg. Infinite for a body that no force moves.
     masses: Arc<[f64]>,
     /// The points of each trail. The number is the frame of the point, or the next frame for a point between frames.
-    ways: Vec<Vec<(usize, Passed)>>,
+    paths: Vec<Vec<(usize, TrailPoint)>>,
     /// The state of each body with a trail in the last frame. `None` if the body was absent.
     last: Vec<Option<corners::At>>,
     /// The impacts since the last frame.
@@ -65,8 +65,8 @@ pub(super) struct History {
 impl History {
     /// Creates an empty history at the start of a run.
     pub(super) fn new(scene: &Scene) -> History {
-        let asks = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
-        let asks = asks.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
+        let requests = scene.bodies.iter().enumerate().map(|(number, body)| (number, &*body.showing));
+        let requests = requests.filter(|(_, showing)| showing.trail.is_some() || showing.ghosts.is_some());
         let as_drawn = |(number, showing): (usize, &Showing)| {
             let mut showing = showing.clone();
             if let Some(trail) = &mut showing.trail {
@@ -74,18 +74,18 @@ impl History {
             }
             (number, showing)
         };
-        let asks: Arc<[_]> = asks.map(as_drawn).collect();
+        let requests: Arc<[_]> = requests.map(as_drawn).collect();
         let mass = |(number, _): &(usize, Showing)| {
             let body = &scene.bodies[*number];
             if body.start.fixed || body.motion.is_some() { f64::INFINITY } else { body.start.mass }
         };
         History {
-            masses: asks.iter().map(mass).collect(),
-            last: vec![None; asks.len()],
+            masses: requests.iter().map(mass).collect(),
+            last: vec![None; requests.len()],
             impacts: Vec::new(),
-            ways: vec![Vec::new(); asks.len()],
-            is_away: vec![false; asks.len()],
-            asks,
+            paths: vec![Vec::new(); requests.len()],
+            is_away: vec![false; requests.len()],
+            requests,
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
             interval: 1.0 / scene.simulation.frame_rate,
@@ -94,13 +94,13 @@ impl History {
 
     /// True if the scene needs no trails, ghosts or delayed camera targets.
     pub(super) fn is_idle(&self) -> bool {
-        self.asks.is_empty() && self.lagging.is_empty()
+        self.requests.is_empty() && self.lagging.is_empty()
     }
 
     /// Stores the ghosts at a moment, and the impacts since the moment before.
     pub(super) fn note_moment(&mut self, entry: &Entry) {
         self.note_ghosts(&entry.snapshot);
-        if !self.asks.is_empty() {
+        if !self.requests.is_empty() {
             self.impacts.extend_from_slice(&entry.impacts);
         }
     }
@@ -109,7 +109,7 @@ impl History {
         // A ghost's time that differs from the moment's time only by rounding counts as equal.
         let slack = Moments::slack(1.0 / self.interval);
         let mut due: Vec<(f64, usize)> = Vec::new();
-        for (body, showing) in self.asks.iter() {
+        for (body, showing) in self.requests.iter() {
             let Some(ghosts) = showing.ghosts else { continue };
             let time = (moment.time / ghosts.every).round() * ghosts.every;
             if (time - moment.time).abs() <= slack {
@@ -122,7 +122,7 @@ impl History {
                 *id == body && showing.ghosts.is_some_and(|ghosts| ghosts.arrows) && showing.has_loads()
             };
             let touches = moment.contacts.iter().filter(|contact| contact.bodies.contains(&body)).copied();
-            if self.asks.iter().any(shows) { touches.collect() } else { Vec::new() }
+            if self.requests.iter().any(shows) { touches.collect() } else { Vec::new() }
         };
         let ghost = |(time, body): (f64, usize)| {
             Some(Arc::new(Ghost { time, body: *moment.body(body)?, contacts: contacts(body) }))
@@ -133,39 +133,40 @@ impl History {
     /// Updates the trails and delayed camera targets with a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
-        for number in 0..self.asks.len() {
-            let (body, showing) = &self.asks[number];
+        for number in 0..self.requests.len() {
+            let (body, showing) = &self.requests[number];
             let Some(trail) = showing.trail else { continue };
             let present = frame.body(*body);
             let corners = self.corners(number, frame, trail);
-            let (way, is_away) = (&mut self.ways[number], &mut self.is_away[number]);
+            let (trail_path, is_away) = (&mut self.paths[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
                 // A body may return at another place, so clear the trail from before its absence.
-                way.clear();
+                trail_path.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
             // The stride depends on the number of the present frame alone, so every reader keeps the same points.
             let stride = stride(trail, self.interval, frame.index);
             if let Some(duration) = trail.duration {
                 // The last point before the start of the trail is needed for interpolation.
-                let before = way.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
-                way.drain(..before.saturating_sub(1));
+                let before =
+                    trail_path.iter().take_while(|(_, point)| point.time <= frame.time - duration).count();
+                trail_path.drain(..before.saturating_sub(1));
             }
-            way.retain(|(index, point)| point.frame.is_none() || index % stride == 0);
-            way.extend(corners.into_iter().map(|point| (frame.index, point)));
+            trail_path.retain(|(index, point)| point.frame.is_none() || index % stride == 0);
+            trail_path.extend(corners.into_iter().map(|point| (frame.index, point)));
             if frame.index.is_multiple_of(stride) {
                 let Some(body) = present else { continue };
-                let point = Passed::of(frame.time, body, trail);
-                way.push((frame.index, Passed { frame: Some(frame.index), ..point }));
+                let point = TrailPoint::of(frame.time, body, trail);
+                trail_path.push((frame.index, TrailPoint { frame: Some(frame.index), ..point }));
             }
-            thin(way);
+            thin(trail_path);
         }
         self.impacts.clear();
     }
 
     /// Computes the points of a trail at the impacts since the last frame.
-    fn corners(&self, number: usize, moment: &Frame, trail: Trail) -> Vec<Passed> {
-        let id = self.asks[number].0;
+    fn corners(&self, number: usize, moment: &Frame, trail: Trail) -> Vec<TrailPoint> {
+        let id = self.requests[number].0;
         let (Some(before), Some(now)) = (&self.last[number], moment.body(id)) else { return Vec::new() };
         let impulse = |impact: &Impact| match impact.bodies {
             [first, _] if first == id => -impact.impulse,
@@ -178,17 +179,21 @@ impl History {
     /// The trails, ghosts and delayed camera targets of a moment at or after the last frame.
     pub(super) fn before(&self, moment: &Frame) -> Past {
         let mut trails = Vec::new();
-        for (number, ((body, showing), way)) in self.asks.iter().zip(&self.ways).enumerate() {
+        for (number, ((body, showing), trail_path)) in self.requests.iter().zip(&self.paths).enumerate() {
             let Some(trail) = showing.trail else { continue };
-            let mut points: Vec<Passed> = way.iter().map(|(_, point)| *point).collect();
+            let mut points: Vec<TrailPoint> = trail_path.iter().map(|(_, point)| *point).collect();
             points.extend(self.corners(number, moment, trail));
             if points.last().is_none_or(|last| last.time < moment.time) {
-                points.extend(moment.body(*body).map(|body| Passed::of(moment.time, body, trail)));
+                points.extend(moment.body(*body).map(|body| TrailPoint::of(moment.time, body, trail)));
             }
             if let Some(duration) = trail.duration {
                 cut(&mut points, moment.time - duration);
             }
-            trails.push(Way { body: *body, points, stride: stride(trail, self.interval, moment.index) });
+            trails.push(TrailPath {
+                body: *body,
+                points,
+                stride: stride(trail, self.interval, moment.index),
+            });
         }
         let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();
         let slack = Moments::slack(1.0 / self.interval);

@@ -14,9 +14,9 @@ use crossing::{Watched, free, planes};
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
-use super::asked::Asked;
 use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
+use super::requested_sizes::RequestedSizes;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
 use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, SimulateError, Span, world};
@@ -39,7 +39,7 @@ pub struct Survey {
     /// The first body whose initial velocity was changed by joints. `None` if the joints changed nothing.
     pub corrected: Option<Corrected>,
     /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders.
-    pub asked: Asked,
+    pub requested: RequestedSizes,
     /// The largest energy error, relative to the energy that `drift_scale` names. (The drift of a single
     /// [`Balance`](crate::dynamics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from rest.)
     pub drift: f64,
@@ -112,7 +112,7 @@ pub struct Surveyor<'a> {
     /// A selection of the particles, to estimate the space of all.
     clouds: Clouds,
     corrected: Option<Corrected>,
-    asked: Asked,
+    requested: RequestedSizes,
     /// The requested arrows of joints: the end where each begins, its quantity, and its scale if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
@@ -141,7 +141,7 @@ impl<'a> Surveyor<'a> {
             overlaps: Watch::new(scene),
             clouds: Clouds::thinned(scene, SOME_PARTICLES),
             corrected: None,
-            asked: Asked::new(scene),
+            requested: RequestedSizes::new(scene),
             joint_arrows: joint_arrows(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
             gaps: Gaps::new(scene),
@@ -165,7 +165,7 @@ impl<'a> Surveyor<'a> {
             self.corrected = Corrected::find(scene, frame);
         }
         let loads = super::loads(scene, frame);
-        self.asked.see(scene, frame, &loads);
+        self.requested.see(scene, frame, &loads);
         // The camera need not show a body behind a plane that it has passed through.
         let counts = |body: &&BodySnapshot| !self.crossed[body.id];
         let joints = self.joint_arrows.iter().filter_map(|(end, quantity, scale)| {
@@ -198,7 +198,17 @@ impl<'a> Surveyor<'a> {
     /// Returns the survey after the last frame.
     pub fn finish(self) -> Survey {
         let Surveyor {
-            scene, spans, planes, overlaps, clouds, corrected, asked, contacts, gaps, error, ..
+            scene,
+            spans,
+            planes,
+            overlaps,
+            clouds,
+            corrected,
+            requested,
+            contacts,
+            gaps,
+            error,
+            ..
         } = self;
         let interval = 1.0 / scene.simulation.frame_rate;
         // A scene without bodies still has particle steps.
@@ -210,7 +220,7 @@ impl<'a> Surveyor<'a> {
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
             overlap: overlaps.finish(),
             corrected,
-            asked,
+            requested,
             contacts: contacts.map(|contacts| contacts.rounded(error.largest_kinetic)),
             stretched: gaps.finish(scene),
             drift: error.drift(law),

@@ -15,7 +15,7 @@ pub struct Appearance {
     /// True if the material emits light of its own color.
     pub emissive: bool,
     /// The pattern of the material.
-    pub pattern: Motif,
+    pub pattern: SurfacePattern,
     /// The second color of the pattern: red, green, blue. `None` without a pattern.
     pub second: Option<[f64; 3]>,
 }
@@ -23,7 +23,7 @@ pub struct Appearance {
 /// A pattern that makes rotation visible. Lengths are relative to the radius of a ball with the volume of the body, except for the ground.
 /// The pattern has the center and axes of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Motif {
+pub enum SurfacePattern {
     /// No pattern: a single color.
     None,
     /// Cubes with an edge of 0.5 in alternating colors. The center of the body is a corner of eight cubes. The cube from 0 to 0.5 along
@@ -64,20 +64,30 @@ impl Appearance {
     fn new(color: [f64; 3], metallic: f64, roughness: f64) -> Appearance {
         let [red, green, blue] = color.map(|part| part.min(1.0));
         let color = [red, green, blue, 1.0];
-        Appearance { color, metallic, roughness, emissive: false, pattern: Motif::None, second: None }
+        Appearance {
+            color,
+            metallic,
+            roughness,
+            emissive: false,
+            pattern: SurfacePattern::None,
+            second: None,
+        }
     }
 
-    fn patterned(self, pattern: Motif, second: Color) -> Appearance {
+    fn patterned(self, pattern: SurfacePattern, second: Color) -> Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
     }
 
-    /// The colors of the pattern, in the order of [`Motif::split`]. Without a pattern, only the color of the material.
+    /// The colors of the pattern, in the order of [`SurfacePattern::split`]. Without a pattern, only the color of the material.
     #[must_use]
     pub fn colors(&self) -> Vec<[f64; 3]> {
         let [red, green, blue, _] = self.color;
         let first = match self.pattern {
-            Motif::BeachBall => BEACH_BALL.map(Color::linear).to_vec(),
-            Motif::None | Motif::Checkered | Motif::Striped | Motif::Ground => vec![[red, green, blue]],
+            SurfacePattern::BeachBall => BEACH_BALL.map(Color::linear).to_vec(),
+            SurfacePattern::None
+            | SurfacePattern::Checkered
+            | SurfacePattern::Striped
+            | SurfacePattern::Ground => vec![[red, green, blue]],
         };
         first.into_iter().chain(self.second).collect()
     }
@@ -86,11 +96,11 @@ impl Appearance {
     #[must_use]
     pub fn mean(&self) -> [f64; 4] {
         match (self.pattern, self.second) {
-            (Motif::Checkered | Motif::Striped | Motif::Ground, Some(second)) => {
+            (SurfacePattern::Checkered | SurfacePattern::Striped | SurfacePattern::Ground, Some(second)) => {
                 let mean = |i: usize| f64::midpoint(self.color[i], second[i]);
                 [mean(0), mean(1), mean(2), self.color[3]]
             }
-            (Motif::None | Motif::BeachBall, _) | (_, None) => self.color,
+            (SurfacePattern::None | SurfacePattern::BeachBall, _) | (_, None) => self.color,
         }
     }
 }
@@ -136,11 +146,10 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
     let tint = tint.linear();
     let look = Appearance::new(std::array::from_fn(|i| tone[i] * tint[i]), metallic, roughness);
     let look = match material.name {
-        "checkered" => look.patterned(Motif::Checkered, WHITE),
-        "striped" => look.patterned(Motif::Striped, WHITE),
-        "beach_ball" => {
-            Appearance::new(mean(&BEACH_BALL), metallic, roughness).patterned(Motif::BeachBall, WHITE)
-        }
+        "checkered" => look.patterned(SurfacePattern::Checkered, WHITE),
+        "striped" => look.patterned(SurfacePattern::Striped, WHITE),
+        "beach_ball" => Appearance::new(mean(&BEACH_BALL), metallic, roughness)
+            .patterned(SurfacePattern::BeachBall, WHITE),
         _ => look,
     };
     let [red, green, blue, _] = look.color;
@@ -160,7 +169,7 @@ fn mean(colors: &[Color; 6]) -> [f64; 3] {
 #[must_use]
 pub fn ground(preset: Preset) -> Appearance {
     let [light, dark] = tiles(preset);
-    Appearance::new(dark.linear(), 0.0, 0.9).patterned(Motif::Ground, light)
+    Appearance::new(dark.linear(), 0.0, 0.9).patterned(SurfacePattern::Ground, light)
 }
 
 /// The colors of the light and the dark tiles of the ground. They equal those in `templates/common.inc`.

@@ -1,16 +1,16 @@
 //! Converts shapes to triangles, and approximates materials, for renderers other than POV-Ray.
 //!
-//! A shape consists of [`pieces`]. Each piece is a [`Form`]: a base shape in a standard size, which is scaled when it is drawn. All balls
-//! of a scene therefore share the same [`Triangles`]. [`appearance`] approximates a material without POV-Ray's patterns and reflections.
+//! A shape consists of [`pieces`]. Each piece is a [`BaseShape`] in a standard size, which is scaled when it is drawn. All balls of a scene
+//! therefore share the same [`Triangles`]. [`appearance`] approximates a material without POV-Ray's patterns and reflections.
 
 mod angles;
 mod appearance;
-mod form;
+mod base_shape;
 mod helix;
 mod lathe;
 mod mesh;
-mod motif;
 pub(crate) mod normals;
+mod pattern;
 mod piece;
 mod straight;
 #[cfg(test)]
@@ -18,8 +18,8 @@ mod tests;
 
 use glam::DVec3;
 
-pub use appearance::{Appearance, BEACH_BALL, Motif, appearance, ground};
-pub use form::{Detail, Form};
+pub use appearance::{Appearance, BEACH_BALL, SurfacePattern, appearance, ground};
+pub use base_shape::{BaseShape, Detail};
 pub use piece::{Piece, pieces};
 
 /// A surface that consists of triangles.

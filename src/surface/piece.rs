@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::Form;
+use super::BaseShape;
 use crate::dynamics::{Shape, cone_base};
 use crate::scene::Color;
 
@@ -12,7 +12,7 @@ use crate::scene::Color;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The base shape.
-    pub form: Form,
+    pub form: BaseShape,
     /// The drawn length of one unit of the base shape along each of its axes, m.
     pub scale: DVec3,
     /// The position of the base shape's origin, m.
@@ -24,7 +24,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    fn new(form: Form, scale: DVec3) -> Piece {
+    fn new(form: BaseShape, scale: DVec3) -> Piece {
         Piece { form, scale, location: DVec3::ZERO, orientation: DQuat::IDENTITY, color: None }
     }
 }
@@ -35,26 +35,26 @@ impl Piece {
 pub fn pieces(shape: &Shape) -> Vec<Piece> {
     let even = |form, length| vec![Piece::new(form, DVec3::splat(length))];
     match *shape {
-        Shape::Sphere { radius } => even(Form::BALL, radius),
-        Shape::Box { size } => vec![Piece::new(Form::CUBE, size / 2.0)],
+        Shape::Sphere { radius } => even(BaseShape::BALL, radius),
+        Shape::Box { size } => vec![Piece::new(BaseShape::CUBE, size / 2.0)],
         Shape::RoundedBox { size, rounding } => {
             let longest = size.max_element() / 2.0;
-            let form = Form::rounded_box(size / 2.0 / longest, rounding / longest);
+            let form = BaseShape::rounded_box(size / 2.0 / longest, rounding / longest);
             even(form, longest)
         }
         Shape::Cylinder { radius, height } => {
-            vec![Piece::new(Form::CYLINDER, DVec3::new(radius, height / 2.0, radius))]
+            vec![Piece::new(BaseShape::CYLINDER, DVec3::new(radius, height / 2.0, radius))]
         }
         Shape::Capsule { radius, height } => {
             let straight = (height / 2.0 / radius - 1.0).max(0.0);
             // A capsule that is as long as wide, except for rounding, is a ball.
-            even(if straight < 1e-6 { Form::BALL } else { Form::capsule(straight) }, radius)
+            even(if straight < 1e-6 { BaseShape::BALL } else { BaseShape::capsule(straight) }, radius)
         }
         Shape::Cone { radius, top_radius, height } => vec![cone(radius, top_radius, height)],
-        Shape::Torus { radius, tube_radius } => even(Form::torus(tube_radius / radius), radius),
+        Shape::Torus { radius, tube_radius } => even(BaseShape::torus(tube_radius / radius), radius),
         Shape::Plane { normal } => {
             let orientation = DQuat::from_rotation_arc(DVec3::Y, normal);
-            vec![Piece { orientation, ..Piece::new(Form::PLANE, DVec3::ONE) }]
+            vec![Piece { orientation, ..Piece::new(BaseShape::PLANE, DVec3::ONE) }]
         }
         Shape::Axes { length } => axes(length),
         Shape::Compound(ref compound) => {
@@ -67,7 +67,7 @@ pub fn pieces(shape: &Shape) -> Vec<Piece> {
             });
             placed.collect()
         }
-        Shape::Mesh { ref mesh, scale } => even(Form::mesh(Arc::clone(mesh)), scale),
+        Shape::Mesh { ref mesh, scale } => even(BaseShape::mesh(Arc::clone(mesh)), scale),
     }
 }
 
@@ -76,9 +76,9 @@ fn cone(radius: f64, top_radius: f64, height: f64) -> Piece {
     let wide = radius.max(top_radius);
     let scale = DVec3::new(wide, height / 2.0, wide);
     if radius == top_radius {
-        return Piece::new(Form::CYLINDER, scale);
+        return Piece::new(BaseShape::CYLINDER, scale);
     }
-    Piece::new(Form::cone(radius / wide, top_radius / wide), scale)
+    Piece::new(BaseShape::cone(radius / wide, top_radius / wide), scale)
 }
 
 /// The colors of the ball at the center of an axes triad, and of its arms along x, y and z. They equal those in `templates/axes.inc`.
@@ -89,10 +89,10 @@ const AXES: [Color; 4] =
 fn axes(length: f64) -> Vec<Piece> {
     let [middle, arms @ ..] = AXES;
     let mut pieces =
-        vec![Piece { color: Some(middle), ..Piece::new(Form::BALL, DVec3::splat(0.055 * length)) }];
+        vec![Piece { color: Some(middle), ..Piece::new(BaseShape::BALL, DVec3::splat(0.055 * length)) }];
     for (axis, color) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(arms) {
         let orientation = DQuat::from_rotation_arc(DVec3::Y, axis);
-        let shaft = Piece::new(Form::CYLINDER, DVec3::new(0.03, 0.4, 0.03) * length);
+        let shaft = Piece::new(BaseShape::CYLINDER, DVec3::new(0.03, 0.4, 0.03) * length);
         pieces.push(Piece { location: axis * 0.4 * length, orientation, color: Some(color), ..shaft });
         let (radius, height) = (0.078 * length, 0.24 * length);
         let location = axis * (length - height - cone_base(radius, 0.0, height));

@@ -153,7 +153,7 @@ fn extents_are_those_of_the_shapes() {
 
 #[test]
 fn details_have_as_many_vertices_as_they_promise() {
-    let vertices = |detail| Form::BALL.triangles(detail).positions.len();
+    let vertices = |detail| BaseShape::BALL.triangles(detail).positions.len();
     assert_eq!([vertices(Detail::Fine), vertices(Detail::Coarse)], [48 * 23 + 2, 16 * 7 + 2]);
 }
 
@@ -163,9 +163,9 @@ fn bodies_of_one_kind_share_a_form() {
     let scaled = |shape: &Shape| assert_eq!(form(shape), form(&shape.scaled(2.0)));
     solids().iter().for_each(scaled);
     let (one, other) = (Arc::new(tetrahedron()), Arc::new(tetrahedron()));
-    assert_eq!(Form::mesh(Arc::clone(&one)), Form::mesh(Arc::clone(&one)));
-    assert_ne!(Form::mesh(one), Form::mesh(other), "each is where it is");
-    assert_ne!(Form::torus(0.5), Form::torus(0.25));
+    assert_eq!(BaseShape::mesh(Arc::clone(&one)), BaseShape::mesh(Arc::clone(&one)));
+    assert_ne!(BaseShape::mesh(one), BaseShape::mesh(other), "each is where it is");
+    assert_ne!(BaseShape::torus(0.5), BaseShape::torus(0.25));
 }
 
 #[test]

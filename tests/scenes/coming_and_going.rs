@@ -389,7 +389,7 @@ fn no_body_comes_outside_of_what_an_automatic_camera_frames() {
     for frame in run.frames().map(Result::unwrap) {
         let screen = run.emitter().plan().camera(&frame).screen();
         for body in &frame.bodies {
-            let spot = screen.spot(body.location).unwrap();
+            let spot = screen.project(body.location).unwrap();
             assert!(spot.x.abs() <= 1.0, "{} at {} s", body.id, frame.time);
         }
     }

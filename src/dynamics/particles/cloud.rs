@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::bounce::Bouncer;
 use super::stepper::{Grid, Stepper};
-use super::{Course, Field, ParticleSource, Scenery};
+use super::{Field, ParticleSource, RecordedMotion, Scenery};
 use crate::dynamics::contact::{Ball, Surface};
 use crate::dynamics::{BodyId, Method};
 
@@ -101,7 +101,7 @@ impl Cloud {
 
     /// Advances the cloud from its current time to time `to` (s), in steps of `step` seconds. The path of each particle begins exactly at
     /// its birth. `course` returns the motion of a body in this interval, or `None` if the body is absent.
-    pub fn advance(&mut self, to: f64, step: f64, course: &dyn Fn(BodyId) -> Option<Course>) {
+    pub fn advance(&mut self, to: f64, step: f64, course: &dyn Fn(BodyId) -> Option<RecordedMotion>) {
         self.advance_among(to, step, course, None);
     }
 
@@ -111,7 +111,7 @@ impl Cloud {
         &mut self,
         to: f64,
         step: f64,
-        course: &dyn Fn(BodyId) -> Option<Course>,
+        course: &dyn Fn(BodyId) -> Option<RecordedMotion>,
         scenery: Option<&Scenery>,
     ) {
         let grid = Grid { begin: self.time, end: to, step };
@@ -141,7 +141,7 @@ impl Cloud {
     fn give_birth(
         &mut self,
         grid: &Grid,
-        course: &dyn Fn(BodyId) -> Option<Course>,
+        course: &dyn Fn(BodyId) -> Option<RecordedMotion>,
         scenery: Option<&Scenery>,
     ) {
         let scenery = scenery.filter(|scenery| !scenery.is_empty());
@@ -150,16 +150,16 @@ impl Cloud {
             let number = self.next;
             self.next += self.stride;
             let dies = born + self.source.life(number, born);
-            let spot = match &carrier {
+            let state = match &carrier {
                 None => None,
-                Some(Some(course)) => Some(course.spot(born)),
+                Some(Some(course)) => Some(course.state(born)),
                 // An absent body emits no particles.
                 Some(None) => continue,
             };
             if dies <= grid.end {
                 continue;
             }
-            let (location, velocity) = self.source.begin(number, born, spot.as_ref());
+            let (location, velocity) = self.source.begin(number, born, state.as_ref());
             let mut particle = [Particle { number, location, velocity, born, dies }];
             match self.bouncer.as_mut().zip(scenery) {
                 None => self.single.advance(&mut particle, born, grid),

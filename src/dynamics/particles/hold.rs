@@ -42,7 +42,7 @@ impl Frame {
         let end = standing[1].velocity(carried);
         let velocity = back[0] * (leap.velocities[0] - begin);
         let against = leap.acceleration() - (end - begin) / leap.span();
-        let turning = back[0] * standing[0].spot.angular_velocity;
+        let turning = back[0] * standing[0].state.angular_velocity;
         let acceleration = 0.5 * (back[0] * against + back[1] * against) - 2.0 * turning.cross(velocity);
         Frame { standing, span: leap.span(), place, velocity, acceleration }
     }

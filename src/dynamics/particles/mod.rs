@@ -9,7 +9,7 @@
 //! | the birth times of particles | [`Births`] |
 //! | the region in which particles are born | [`Origin`] |
 //! | the initial values of particles | [`ParticleSource`] |
-//! | the motion of bodies that emit, attract or stop particles | [`Course`] |
+//! | the motion of bodies that emit, attract or stop particles | [`RecordedMotion`] |
 //! | the living particles and their motion | [`Cloud`] |
 //! | the bodies that stop particles | [`Scenery`] |
 //! | impacts, and lasting contact | `bounce.rs`, `hold.rs` |
@@ -17,10 +17,10 @@
 mod births;
 mod bounce;
 mod cloud;
-mod course;
 mod hold;
 mod obstacles;
 mod origin;
+mod recorded_motion;
 mod source;
 mod stepper;
 mod surface;
@@ -31,9 +31,9 @@ mod way;
 
 pub use births::Births;
 pub use cloud::{Cloud, Particle};
-pub use course::Course;
 pub use obstacles::{Obstacle, Scenery};
-pub use origin::{Origin, Spot};
+pub use origin::{BodyState, Origin};
+pub use recorded_motion::RecordedMotion;
 pub use source::{Draw, ParticleSource};
 pub use stepper::Field;
 pub use surface::has_surface;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::{Course, Spot};
+use super::{BodyState, RecordedMotion};
 use crate::dynamics::contact::{Ball, Pose, Solid, Surface, Tree};
 use crate::dynamics::{BodyId, BodySnapshot, Motion, Shape};
 
@@ -55,7 +55,7 @@ pub struct Scenery {
 #[derive(Debug)]
 struct Placed {
     obstacle: usize,
-    course: Course,
+    course: RecordedMotion,
     /// The pose of an obstacle at rest; `None` if the obstacle moves.
     still: Option<Pose>,
     /// Upper bounds for the acceleration of the centre of mass, m/s², and for the angular speed, rad/s.
@@ -74,7 +74,7 @@ pub(super) struct Target {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {
     pub(super) pose: Pose,
-    pub(super) spot: Spot,
+    pub(super) state: BodyState,
 }
 
 /// The distance between a particle and a part of an obstacle at one time, with bounds for its change.
@@ -97,7 +97,7 @@ pub(super) struct Near {
 impl Standing {
     /// Returns the velocity of a point that moves with the obstacle, m/s. `place` is the position of the point, world axes, m.
     pub(super) fn velocity(&self, place: DVec3) -> DVec3 {
-        self.spot.velocity + self.spot.angular_velocity.cross(place - self.spot.location)
+        self.state.velocity + self.state.angular_velocity.cross(place - self.state.location)
     }
 }
 
@@ -105,12 +105,12 @@ impl Scenery {
     /// Collects the obstacles that are present in an interval. `course` returns the motion of a body in the interval, or `None` if the
     /// body is absent.
     #[must_use]
-    pub fn new(obstacles: &Arc<[Obstacle]>, course: &dyn Fn(BodyId) -> Option<Course>) -> Scenery {
+    pub fn new(obstacles: &Arc<[Obstacle]>, course: &dyn Fn(BodyId) -> Option<RecordedMotion>) -> Scenery {
         let (mut placed, mut endless, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         for (number, obstacle) in obstacles.iter().enumerate() {
             let course = match obstacle.body {
-                Some(body) => course(body).map(Course::at_rest),
-                None => Some(Course::still(BodySnapshot {
+                Some(body) => course(body).map(RecordedMotion::at_rest),
+                None => Some(RecordedMotion::still(BodySnapshot {
                     location: obstacle.location,
                     orientation: DQuat::IDENTITY,
                     ..BodySnapshot::default()
@@ -205,11 +205,11 @@ impl Scenery {
             Some(pose) => {
                 let Pose { location, orientation } = pose;
                 let (velocity, angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-                Standing { pose, spot: Spot { location, orientation, velocity, angular_velocity } }
+                Standing { pose, state: BodyState { location, orientation, velocity, angular_velocity } }
             }
             None => {
-                let spot = course.spot(t);
-                Standing { pose: Pose { location: spot.location, orientation: spot.orientation }, spot }
+                let state = course.state(t);
+                Standing { pose: Pose { location: state.location, orientation: state.orientation }, state }
             }
         }
     }
@@ -242,8 +242,8 @@ impl Scenery {
         // A half-space has no finite bounding radius. Its points near the particle are about as far from its centre as the particle is.
         let reach = if reach.is_finite() { reach } else { 2.0 * (place - standing.pose.location).length() };
         let speed = placed.turning;
-        let coming = normal.dot(standing.spot.velocity) + speed * reach;
-        let bend = placed.bend + speed * speed * reach + 2.0 * speed * standing.spot.velocity.length();
+        let coming = normal.dot(standing.state.velocity) + speed * reach;
+        let bend = placed.bend + speed * speed * reach + 2.0 * speed * standing.state.velocity.length();
         Near { gap, normal, velocity: standing.velocity(place), coming, bend, is_hidden }
     }
 
@@ -273,10 +273,10 @@ impl Scenery {
 }
 
 impl Placed {
-    fn new(obstacle: usize, course: Course) -> Placed {
-        let spot = course.spot(0.0);
+    fn new(obstacle: usize, course: RecordedMotion) -> Placed {
+        let state = course.state(0.0);
         let still =
-            course.is_still().then_some(Pose { location: spot.location, orientation: spot.orientation });
+            course.is_still().then_some(Pose { location: state.location, orientation: state.orientation });
         let (bend, turning) = (course.largest_acceleration(), course.largest_turning());
         Placed { obstacle, course, still, bend, turning }
     }
@@ -291,7 +291,7 @@ impl Placed {
         if self.still.is_some() {
             return 0.0;
         }
-        let (span, speed) = (end - begin, self.course.spot(begin).velocity.length());
+        let (span, speed) = (end - begin, self.course.state(begin).velocity.length());
         span * (speed + 0.5 * span * self.bend + self.turning * solid.reach())
     }
 
@@ -309,7 +309,7 @@ impl Placed {
         if self.turning > 0.0 {
             return self.around(solid.reach_of(part));
         }
-        let orientation = self.course.spot(0.0).orientation;
+        let orientation = self.course.state(0.0).orientation;
         let [low, high] = solid.box_of(part, &Pose { location: DVec3::ZERO, orientation });
         let [from, to] = self.course.places();
         [from + low, to + high]

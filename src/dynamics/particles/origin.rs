@@ -36,7 +36,7 @@ pub enum Origin {
 
 /// The pose, the velocity and the angular velocity of a body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct BodyState {
     /// The location of the centre of mass, world axes, m.
     pub location: DVec3,
     /// The orientation of the body: the rotation from body axes to world axes.
@@ -47,7 +47,7 @@ pub struct Spot {
     pub angular_velocity: DVec3,
 }
 
-impl Spot {
+impl BodyState {
     /// Returns the position (m) and the velocity (m/s) of a point of the body, both in world axes. `at` is the point in body axes, from
     /// the centre of mass.
     #[must_use]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Births, Origin, Spot};
+use super::{Births, BodyState, Origin};
 use crate::random::Stream;
 
 /// A quantity that has its own, possibly random value for each particle.
@@ -61,16 +61,16 @@ impl ParticleSource {
     /// Returns the initial position (m) and velocity (m/s), world axes, of a particle that is born at time `t`, s. `carrier` is the pose
     /// and motion of the body that carries the source.
     #[must_use]
-    pub fn begin(&self, number: u64, t: f64, carrier: Option<&Spot>) -> (DVec3, DVec3) {
+    pub fn begin(&self, number: u64, t: f64, carrier: Option<&BodyState>) -> (DVec3, DVec3) {
         let mut random = self.branch(number, 1);
         let (place, normal) = self.origin.place(&mut random);
         let middle = self.direction.unwrap_or(normal);
         let direction = within_cone(middle, self.spread, &mut random);
         let speed = self.speed.draw(t, &mut self.branch(number, 2));
         match carrier {
-            Some(spot) => {
-                let (location, velocity) = spot.point(place);
-                (location, velocity + speed * (spot.orientation * direction))
+            Some(state) => {
+                let (location, velocity) = state.point(place);
+                (location, velocity + speed * (state.orientation * direction))
             }
             None => (place, speed * direction),
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::way::Leap;
-use super::{Course, Particle};
+use super::{Particle, RecordedMotion};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
 
@@ -115,7 +115,7 @@ impl Stepper {
     }
 
     /// Sets the motion of the bodies that cause forces. An absent body causes no force.
-    pub(super) fn follow(&mut self, course: &dyn Fn(BodyId) -> Option<Course>) {
+    pub(super) fn follow(&mut self, course: &dyn Fn(BodyId) -> Option<RecordedMotion>) {
         for (place, &body) in self.sources.iter().enumerate() {
             let number = self.lanes + place;
             let course = course(body);

@@ -52,9 +52,13 @@ fn three_suns() -> Field {
     })
 }
 
-fn still(body: BodyId) -> Option<Course> {
+fn still(body: BodyId) -> Option<RecordedMotion> {
     let x = [-3.0, 0.5, 4.0][body.index()];
-    Some(Course::still(BodySnapshot { id: body.index(), location: DVec3::X * x, ..BodySnapshot::default() }))
+    Some(RecordedMotion::still(BodySnapshot {
+        id: body.index(),
+        location: DVec3::X * x,
+        ..BodySnapshot::default()
+    }))
 }
 
 /// Creates a cloud of particles, and advances it from frame to frame.
@@ -294,16 +298,16 @@ fn what_a_wheel_throws_has_the_speed_of_its_rim() {
         angular_velocity: 500.0 * DVec3::Z,
         ..BodySnapshot::default()
     };
-    let course = Course::new(1.0, turned(1.0), 1.0 + FRAME, turned(1.0 + FRAME));
+    let course = RecordedMotion::new(1.0, turned(1.0), 1.0 + FRAME, turned(1.0 + FRAME));
     for t in [1.0, 1.001, 1.0173, 1.04] {
-        let (place, velocity) = course.spot(t).point(DVec3::X);
+        let (place, velocity) = course.state(t).point(DVec3::X);
         let (sin, cos) = libm::sincos(500.0 * t);
         assert!(place.abs_diff_eq(DVec3::new(cos, sin, 0.0), 1e-11), "{t}");
         assert!(velocity.abs_diff_eq(500.0 * DVec3::new(-sin, cos, 0.0), 1e-8), "{t}");
     }
     let still = source(Births::rate(1.0, 0.0, 0.0), 1.0);
     let moving = ParticleSource { origin: Origin::Point(DVec3::X), speed: Arc::new(0.0), ..still };
-    let (_, velocity) = moving.begin(0, 1.01, Some(&course.spot(1.01)));
+    let (_, velocity) = moving.begin(0, 1.01, Some(&course.state(1.01)));
     assert!((velocity.length() - 500.0).abs() < 1e-8);
 }
 
@@ -316,7 +320,7 @@ fn a_course_is_exact_under_a_constant_force() {
         orientation: DQuat::IDENTITY,
         ..BodySnapshot::default()
     };
-    let course = Course::new(0.2, at(0.2), 0.3, at(0.3));
+    let course = RecordedMotion::new(0.2, at(0.2), 0.3, at(0.3));
     for t in [0.2, 0.23, 0.3] {
         let given = course.at(t);
         assert!(given.location.abs_diff_eq(at(t).location, 1e-14));

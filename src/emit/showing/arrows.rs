@@ -3,14 +3,14 @@
 use super::super::{sdl::Style, text};
 use super::Names;
 use super::color;
-use crate::picture::{Arrow, Axes, Bearer, Plan};
+use crate::picture::{Arrow, ArrowOwner, Axes, Plan};
 use crate::simulate::{Frame, Ghost};
 
 /// Appends the arrows and axes of all bodies and joints. The arrows and axes of one body are written one after another.
 pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, names: Names<'_>, style: Style) {
     let mut arrows = plan.arrows_in_front(frame).into_iter().peekable();
     for its in plan.axes(frame) {
-        let is_before = |arrow: &Arrow| matches!(arrow.bearer, Bearer::Body(body) if body <= its.body);
+        let is_before = |arrow: &Arrow| matches!(arrow.owner, ArrowOwner::Body(body) if body <= its.body);
         while let Some(before) = arrows.next_if(is_before) {
             arrow(out, &before, names, style);
         }
@@ -51,9 +51,9 @@ fn arrow(out: &mut String, arrow: &Arrow, names: Names<'_>, style: Style) {
     style.point(out, arrow.to);
     out.push_str(", ");
     style.length(out, arrow.radius);
-    let name = match arrow.bearer {
-        Bearer::Body(body) => &*names.bodies[body],
-        Bearer::Joint { joint, .. } => &names.joints[joint],
+    let name = match arrow.owner {
+        ArrowOwner::Body(body) => &*names.bodies[body],
+        ArrowOwner::Joint { joint, .. } => &names.joints[joint],
     };
     let (color, name) = (color(arrow.color, style), text::comment(name));
     out.push_str(&format!(", {color}) // {name}, {}\n", arrow.quantity.name()));

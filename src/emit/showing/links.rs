@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::{sdl::Style, text};
 use super::color;
-use crate::picture::{Link, LinkForm, Plan};
+use crate::picture::{Link, LinkShape, Plan};
 use crate::simulate::Frame;
 
 /// Appends the SDL text of the springs and joints that a frame shows.
@@ -17,19 +17,19 @@ fn link(out: &mut String, link: &Link<'_>, style: Style) {
     // A spring or joint that is too thin for POV-Ray is left out. A warning of the run tells about those that are too thin in all frames.
     let is_seen = |radius: f64| style.can_tell(DVec3::ZERO, DVec3::X * radius);
     match &link.form {
-        LinkForm::Pin { at, radius } => {
+        LinkShape::Pin { at, radius } => {
             out.push_str("sphere { ");
             style.point(out, *at);
             out.push_str(", ");
             style.length(out, *radius);
             out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}, its end\n"));
         }
-        LinkForm::Rod { ends: [from, to], radius } if is_seen(*radius) && style.can_tell(*from, *to) => {
+        LinkShape::Rod { ends: [from, to], radius } if is_seen(*radius) && style.can_tell(*from, *to) => {
             out.push_str("cylinder { ");
             bar(out, [*from, *to], *radius, style);
             out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}\n"));
         }
-        LinkForm::Coil { ends: [from, to], radius, wire, turns }
+        LinkShape::Coil { ends: [from, to], radius, wire, turns }
             if is_seen(*radius) && style.can_tell(*from, *to) =>
         {
             out.push_str("Coil(");
@@ -38,10 +38,10 @@ fn link(out: &mut String, link: &Link<'_>, style: Style) {
             style.length(out, *wire);
             out.push_str(&format!(", {turns}, {color}) // {name}\n"));
         }
-        LinkForm::Rope { points, radius } if is_seen(*radius) => {
+        LinkShape::Rope { points, radius } if is_seen(*radius) => {
             rope(out, points, *radius, &color, &name, style);
         }
-        LinkForm::Rod { .. } | LinkForm::Coil { .. } | LinkForm::Rope { .. } => {}
+        LinkShape::Rod { .. } | LinkShape::Coil { .. } | LinkShape::Rope { .. } => {}
     }
 }
 

@@ -13,7 +13,7 @@ use super::meshes::Meshes;
 use super::motion::{NodeMotion, NodePose, SampledMotion};
 use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
-use crate::surface::{Detail, Form, Piece, pieces};
+use crate::surface::{BaseShape, Detail, Piece, pieces};
 
 /// The number of pieces of bodies above which each piece gets fewer triangles.
 const MANY: usize = 200;
@@ -78,7 +78,7 @@ impl DocumentBuilder<'_> {
         let ball = body.shape.radius_of_ball();
         for mut piece in pieces {
             let mut pattern = ball;
-            if piece.form == Form::PLANE {
+            if piece.form == BaseShape::PLANE {
                 self.spread(&mut piece, way);
                 let checkered =
                     body.material.is_some_and(|m| self.scene.materials[m].look == Look::Checkered);
@@ -121,7 +121,7 @@ impl DocumentBuilder<'_> {
         let ground = self.sight.stage.ground?;
         let scale = DVec3::splat(self.half_of_ground());
         let (location, orientation) = (self.sight.stage.center.with_y(ground.height), DQuat::IDENTITY);
-        let piece = Piece { form: Form::PLANE, scale, location, orientation, color: None };
+        let piece = Piece { form: BaseShape::PLANE, scale, location, orientation, color: None };
         let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(ground.tile));
         let name = "ground".to_owned();
         let place = NodePose { location, orientation };

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use super::document::{Accessor, Attributes, BufferView, FLOAT, UNSIGNED_INT};
-use crate::surface::{Detail, Form, Motif, Triangles};
+use crate::surface::{BaseShape, Detail, SurfacePattern, Triangles};
 
 /// The indices of the glTF buffer views, in the order in which the document lists them.
 const VERTICES: u32 = 0;
@@ -27,7 +27,7 @@ pub(super) struct Geometry {
     pub(super) indices: Vec<u32>,
     /// The accessors of each base shape, `None` for a shape without triangles. The map is never iterated, so its random order does not
     /// matter.
-    known: HashMap<Form, Option<Known>>,
+    known: HashMap<BaseShape, Option<Known>>,
 }
 
 impl Geometry {
@@ -36,7 +36,7 @@ impl Geometry {
     }
 
     /// Returns the accessors of a base shape. Adds the shape if it is new.
-    pub(super) fn form(&mut self, form: &Form, accessors: &mut Vec<Accessor>) -> Option<Known> {
+    pub(super) fn form(&mut self, form: &BaseShape, accessors: &mut Vec<Accessor>) -> Option<Known> {
         if let Some(known) = self.known.get(form) {
             return *known;
         }
@@ -49,12 +49,12 @@ impl Geometry {
     /// color. `to_pattern` is the transform from the shape to the pattern.
     pub(super) fn split(
         &mut self,
-        form: &Form,
-        motif: Motif,
+        form: &BaseShape,
+        pattern: SurfacePattern,
         to_pattern: DAffine3,
         accessors: &mut Vec<Accessor>,
     ) -> Option<Vec<Option<Known>>> {
-        let parts = motif.split(&form.triangles(self.detail), to_pattern)?;
+        let parts = pattern.split(&form.triangles(self.detail), to_pattern)?;
         Some(parts.into_iter().map(|part| self.add(part, accessors)).collect())
     }
 

@@ -6,10 +6,10 @@ use glam::{DQuat, DVec3};
 
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
-use crate::picture::{LinkForm, LinkKind, Plan};
+use crate::picture::{LinkKind, LinkShape, Plan};
 use crate::scene::Color;
 use crate::simulate::{Recorded, Selection};
-use crate::surface::Form;
+use crate::surface::BaseShape;
 
 /// The number of straight pieces of a rope.
 const PIECES: usize = 24;
@@ -17,7 +17,7 @@ const PIECES: usize = 24;
 /// The node of a part of a spring or a joint: its name, base shape and color.
 pub(super) struct LinkNode {
     pub(super) name: String,
-    pub(super) form: Form,
+    pub(super) form: BaseShape,
     pub(super) color: Color,
 }
 
@@ -33,10 +33,10 @@ pub(super) fn nodes(
     let mut counts = Vec::new();
     for link in plan.planned_links() {
         let (form, count) = match link.kind {
-            LinkKind::Pin => (Form::BALL, 1),
-            LinkKind::Coil { turns, wire } => (Form::coil(turns, wire), 1),
-            LinkKind::Rod => (Form::CYLINDER, 1),
-            LinkKind::Rope => (Form::CYLINDER, PIECES),
+            LinkKind::Pin => (BaseShape::BALL, 1),
+            LinkKind::Coil { turns, wire } => (BaseShape::coil(turns, wire), 1),
+            LinkKind::Rod => (BaseShape::CYLINDER, 1),
+            LinkKind::Rope => (BaseShape::CYLINDER, PIECES),
         };
         let node = || LinkNode { name: format!("link {}", link.name), form: form.clone(), color: link.color };
         nodes.extend((0..count).map(|_| node()));
@@ -93,19 +93,19 @@ impl Placed {
 
 /// Sets the poses and sizes of a part's nodes in a frame. Without a `form`, the part is not drawn: its nodes keep their locations and get
 /// the size 0.
-fn place(nodes: &mut [Placed], form: Option<LinkForm>) {
+fn place(nodes: &mut [Placed], form: Option<LinkShape>) {
     nodes.iter_mut().for_each(|node| node.size = DVec3::ZERO);
     let [first, ..] = nodes else { return };
     match form {
         None => {}
-        Some(LinkForm::Pin { at, radius }) => {
+        Some(LinkShape::Pin { at, radius }) => {
             first.pose.location = at;
             first.size = DVec3::splat(radius);
         }
-        Some(LinkForm::Coil { ends, radius, .. } | LinkForm::Rod { ends, radius }) => {
+        Some(LinkShape::Coil { ends, radius, .. } | LinkShape::Rod { ends, radius }) => {
             first.stretch(ends, radius);
         }
-        Some(LinkForm::Rope { points, radius }) => {
+        Some(LinkShape::Rope { points, radius }) => {
             for (node, ends) in nodes.iter_mut().zip(chain(&points)) {
                 node.stretch(ends, radius);
             }

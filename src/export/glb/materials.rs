@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::document::{Material, Shading};
 use crate::scene::{Color, Finish, Look, Scene};
-use crate::surface::{Appearance, Motif, appearance, ground};
+use crate::surface::{Appearance, SurfacePattern, appearance, ground};
 
 /// The key of a glTF material: what it colors, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -58,7 +58,7 @@ fn material(paint: Paint, scene: &Scene) -> Material {
     let (mut name, mut look) = look(paint.what, scene);
     if let Some((number, [red, green, blue])) = paint.color.and_then(|i| Some((i, *look.colors().get(i)?))) {
         name = format!("{name}, color {}", number + 1);
-        look = Appearance { color: [red, green, blue, look.color[3]], pattern: Motif::None, ..look };
+        look = Appearance { color: [red, green, blue, look.color[3]], pattern: SurfacePattern::None, ..look };
     }
     shaded(name, &look, paint.both_sides)
 }

@@ -8,13 +8,13 @@ use super::document::{Accessor, Mesh, Primitive};
 use super::geometry::{Geometry, Known};
 use super::materials::{self, Paint, Paints, What};
 use crate::scene::Scene;
-use crate::surface::{Detail, Form, Motif, Piece};
+use crate::surface::{BaseShape, Detail, Piece, SurfacePattern};
 
 /// The glTF meshes of a document, with their materials and triangles.
 pub(super) struct Meshes {
     pub(super) meshes: Vec<Mesh>,
     /// The index of each mesh in `meshes`. The map is never iterated, so its random order does not matter.
-    known: HashMap<(Form, Paint, Option<Cut>), u32>,
+    known: HashMap<(BaseShape, Paint, Option<Cut>), u32>,
     pub(super) paints: Paints,
     pub(super) accessors: Vec<Accessor>,
     pub(super) geometry: Geometry,
@@ -46,7 +46,7 @@ impl Meshes {
         let what = piece.color.map_or(material, What::from);
         let paint = Paint { what, both_sides: !piece.form.is_closed(), color: None };
         let (name, look) = materials::look(what, scene);
-        let cut = size.filter(|_| look.pattern != Motif::None).map(|size| cut(piece, size));
+        let cut = size.filter(|_| look.pattern != SurfacePattern::None).map(|size| cut(piece, size));
         let key = (piece.form.clone(), paint, cut);
         if let Some(&number) = self.known.get(&key) {
             return Some(number);
@@ -85,7 +85,7 @@ impl Meshes {
 #[allow(clippy::cast_possible_truncation, reason = "bodies of one kind shall be cut alike, but for rounding")]
 fn cut(piece: &Piece, size: f64) -> Cut {
     let scale = piece.scale / size;
-    let place = if piece.form == Form::PLANE {
+    let place = if piece.form == BaseShape::PLANE {
         let middle = piece.orientation.conjugate() * piece.location / size;
         DAffine3::from_translation(DVec3::new(middle.x, 0.0, middle.z)) * DAffine3::from_scale(scale)
     } else {

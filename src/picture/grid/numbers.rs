@@ -141,11 +141,11 @@ impl Ruled {
     }
 
     fn at(&self, number: &Number, point: DVec3, beside: Beside, screen: &Screen) -> Option<Placed> {
-        let spot = screen.spot(point)?;
+        let point = screen.project(point)?;
         let height = self.height;
         let (x, y, align) = match beside {
-            Beside::Below => (spot.x, spot.y - height, 0.5),
-            Beside::Left | Beside::LeftOnGround => (spot.x - 0.4 * height, spot.y - 0.3 * height, 1.0),
+            Beside::Below => (point.x, point.y - height, 0.5),
+            Beside::Left | Beside::LeftOnGround => (point.x - 0.4 * height, point.y - 0.3 * height, 1.0),
         };
         Some(self.aligned(number.line, number.says.clone(), (x, y), align))
     }

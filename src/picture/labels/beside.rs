@@ -1,7 +1,7 @@
 //! Places labels beside bodies, where there is room.
 
 use super::super::room::{Rectangle, Room};
-use super::super::screen::{Screen, Spot};
+use super::super::screen::{Screen, ScreenPoint};
 use super::super::text::{MARGIN, Text, Vertical};
 use super::said::Moment;
 use super::{LINE, Labels, Planned};
@@ -11,18 +11,18 @@ use crate::scene::Side;
 impl Labels {
     /// The position of a body or ghost in the picture, and the rectangle that it covers. `None` if it is behind the camera. The rectangle
     /// of a plane is empty.
-    pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(Spot, Rectangle)> {
+    pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(ScreenPoint, Rectangle)> {
         let shape = self.bodies[at.id].drawn();
-        let spot = screen.spot(at.location)?;
-        let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0) * spot.metre;
+        let point = screen.project(at.location)?;
+        let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0) * point.scale;
         let (up, right) = (screen.up(), screen.right());
         let area = Rectangle {
-            left: spot.x - reach(-right),
-            right: spot.x + reach(right),
-            bottom: spot.y - reach(-up),
-            top: spot.y + reach(up),
+            left: point.x - reach(-right),
+            right: point.x + reach(right),
+            bottom: point.y - reach(-up),
+            top: point.y + reach(up),
         };
-        Some((spot, area))
+        Some((point, area))
     }
 
     /// Places a label beside a body or ghost. `None` if the body is outside the picture. The label stays inside the picture. It moves to
@@ -35,16 +35,16 @@ impl Labels {
         screen: &Screen,
         (room, crowd): (&mut Room, &Room),
     ) -> Option<Text<'a>> {
-        let (spot, area) = self.seen(at, screen)?;
+        let (point, area) = self.seen(at, screen)?;
         if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
             return None;
         }
         let height = planned.height;
         let at_side = |side: Side, farther: f64| match side {
-            Side::Above => (spot.x, area.top + 0.3 * height + farther, 0.5),
-            Side::Below => (spot.x, area.bottom - 0.9 * height - farther, 0.5),
-            Side::Left => (area.left - 0.35 * height - farther, spot.y - 0.3 * height, 1.0),
-            Side::Right => (area.right + 0.35 * height + farther, spot.y - 0.3 * height, 0.0),
+            Side::Above => (point.x, area.top + 0.3 * height + farther, 0.5),
+            Side::Below => (point.x, area.bottom - 0.9 * height - farther, 0.5),
+            Side::Left => (area.left - 0.35 * height - farther, point.y - 0.3 * height, 1.0),
+            Side::Right => (area.right + 0.35 * height + farther, point.y - 0.3 * height, 0.0),
         };
         let said = self.said(&planned.label, moment);
         let candidate = |side: Side, lines: f64| {

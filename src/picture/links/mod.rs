@@ -21,7 +21,7 @@ pub struct Link<'a> {
     /// The name of the force or joint in the scene.
     pub name: &'a str,
     /// The shape of the part, with its position and size.
-    pub form: LinkForm,
+    pub form: LinkShape,
     /// The color of the part.
     pub color: Color,
 }
@@ -57,7 +57,7 @@ pub enum LinkKind {
 
 /// The shape of a spring's or joint's part. Lengths and positions are in meters.
 #[derive(Clone, Debug, PartialEq)]
-pub enum LinkForm {
+pub enum LinkShape {
     /// A ball: the pin of a joint, or the end of a spring, rod or rope at a fixed point.
     Pin {
         /// The center of the ball.
@@ -96,9 +96,9 @@ impl Link<'_> {
     /// The line segments along the part's middle, m. For a coil, the segment of its axis; for a pin, none.
     pub(super) fn lines(&self) -> impl Iterator<Item = [DVec3; 2]> {
         let points: &[DVec3] = match &self.form {
-            LinkForm::Pin { .. } => &[],
-            LinkForm::Coil { ends, .. } | LinkForm::Rod { ends, .. } => ends,
-            LinkForm::Rope { points, .. } => points,
+            LinkShape::Pin { .. } => &[],
+            LinkShape::Coil { ends, .. } | LinkShape::Rod { ends, .. } => ends,
+            LinkShape::Rope { points, .. } => points,
         };
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
@@ -106,10 +106,10 @@ impl Link<'_> {
     /// The radius of the part around its middle line, m. For a coil, this includes the wire.
     pub(super) fn reach(&self) -> f64 {
         match self.form {
-            LinkForm::Coil { radius, wire, .. } => radius + wire,
-            LinkForm::Pin { radius, .. } | LinkForm::Rod { radius, .. } | LinkForm::Rope { radius, .. } => {
-                radius
-            }
+            LinkShape::Coil { radius, wire, .. } => radius + wire,
+            LinkShape::Pin { radius, .. }
+            | LinkShape::Rod { radius, .. }
+            | LinkShape::Rope { radius, .. } => radius,
         }
     }
 }
@@ -148,13 +148,13 @@ pub(super) struct SpringSize {
 struct Part {
     name: String,
     between: [Anchor; 2],
-    form: Form,
+    form: PlannedShape,
     color: Color,
 }
 
 /// The shape of a part, relative to the bodies that it is fastened to. Lengths are in meters.
 #[derive(Clone, Copy, Debug)]
-enum Form {
+enum PlannedShape {
     /// A ball at a point.
     Pin { at: Anchor, radius: f64 },
     /// A coil between the two ends of the spring.
@@ -174,7 +174,7 @@ enum Form {
 
 impl Links {
     pub(super) fn new(scene: &Scene, survey: &Survey) -> Links {
-        let parts = plan::parts(scene, &survey.asked);
+        let parts = plan::parts(scene, &survey.requested);
         let bodies = if parts.is_empty() { &[] } else { scene.bodies.as_slice() };
         let shapes = bodies.iter().map(Body::drawn).collect();
         let scales = bodies.iter().map(|body| body.look.scale).collect();
@@ -209,10 +209,12 @@ impl Links {
         self.parts.iter().map(|part| PlannedLink {
             name: &part.name,
             kind: match part.form {
-                Form::Pin { .. } => LinkKind::Pin,
-                Form::Coil { turns, .. } => LinkKind::Coil { turns, wire: WIRE },
-                Form::Rod { .. } | Form::Bar { .. } | Form::Wheel { .. } => LinkKind::Rod,
-                Form::Rope { .. } | Form::OverWheels { .. } => LinkKind::Rope,
+                PlannedShape::Pin { .. } => LinkKind::Pin,
+                PlannedShape::Coil { turns, .. } => LinkKind::Coil { turns, wire: WIRE },
+                PlannedShape::Rod { .. } | PlannedShape::Bar { .. } | PlannedShape::Wheel { .. } => {
+                    LinkKind::Rod
+                }
+                PlannedShape::Rope { .. } | PlannedShape::OverWheels { .. } => LinkKind::Rope,
             },
             color: part.color,
         })
@@ -231,28 +233,30 @@ impl Links {
             return None;
         }
         let form = match part.form {
-            Form::Pin { at, radius } => LinkForm::Pin { at: self.place(at, frame), radius },
-            Form::Coil { radius, turns } => {
+            PlannedShape::Pin { at, radius } => LinkShape::Pin { at: self.place(at, frame), radius },
+            PlannedShape::Coil { radius, turns } => {
                 let ends = self.span(part.between, frame, room_for(radius))?;
-                LinkForm::Coil { ends, radius, wire: WIRE * radius, turns }
+                LinkShape::Coil { ends, radius, wire: WIRE * radius, turns }
             }
-            Form::Rod { between, radius } => LinkForm::Rod { ends: self.span(between, frame, 0.0)?, radius },
-            Form::Bar { at, along, reach, radius } => {
+            PlannedShape::Rod { between, radius } => {
+                LinkShape::Rod { ends: self.span(between, frame, 0.0)?, radius }
+            }
+            PlannedShape::Bar { at, along, reach, radius } => {
                 let middle = self.place(at, frame);
                 let along = turn(at, frame) * along;
-                LinkForm::Rod { ends: reach.map(|way| middle + way * along), radius }
+                LinkShape::Rod { ends: reach.map(|way| middle + way * along), radius }
             }
-            Form::Rope { between, length, radius } => {
+            PlannedShape::Rope { between, length, radius } => {
                 let points = hanging(between.map(|end| self.place(end, frame)), length, self.down);
-                LinkForm::Rope { points, radius }
+                LinkShape::Rope { points, radius }
             }
-            Form::OverWheels { pulley, wheel, radius } => {
+            PlannedShape::OverWheels { pulley, wheel, radius } => {
                 let course = self.course(&pulley, wheel, frame);
-                LinkForm::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
+                LinkShape::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
             }
-            Form::Wheel { pulley, number, wheel, half_width } => {
+            PlannedShape::Wheel { pulley, number, wheel, half_width } => {
                 let Turn { centre, axis, .. } = *self.course(&pulley, wheel, frame).turns.get(number)?;
-                LinkForm::Rod {
+                LinkShape::Rod {
                     ends: [-half_width, half_width].map(|way| centre + way * axis),
                     radius: wheel,
                 }

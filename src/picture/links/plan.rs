@@ -2,10 +2,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Form, Part, SpringSize, room_for};
+use super::{Part, PlannedShape, SpringSize, room_for};
 use crate::dynamics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
-use crate::simulate::{Asked, AskedSlider, surface};
+use crate::simulate::{RequestedSizes, RequestedSlider, surface};
 
 /// The default color of springs and joints.
 const STEEL: Color = Color([0.62, 0.64, 0.67]);
@@ -13,7 +13,7 @@ const STEEL: Color = Color([0.62, 0.64, 0.67]);
 const HEMP: Color = Color([0.76, 0.64, 0.45]);
 
 /// Plans the parts of all drawn springs and joints.
-pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
+pub(super) fn parts(scene: &Scene, sizes: &RequestedSizes) -> Vec<Part> {
     let mut parts = Vec::new();
     for force in &scene.forces {
         let ForceKind::Spring { links, look: Some(look) } = &force.kind else { continue };
@@ -21,7 +21,7 @@ pub(super) fn parts(scene: &Scene, asked: &Asked) -> Vec<Part> {
     }
     for (number, its) in scene.joints.iter().enumerate() {
         let Some(look) = its.look else { continue };
-        let travel = asked.sliders.iter().find(|slider| slider.joint == number);
+        let travel = sizes.sliders.iter().find(|slider| slider.joint == number);
         joint(scene, its, look, travel, &mut parts);
     }
     parts
@@ -46,13 +46,13 @@ fn spring(scene: &Scene, name: &str, link: &Spring, look: &SpringLook, parts: &m
     let (radius, free) = spring_size(scene, link, look);
     let between = link.between;
     let color = look.color.unwrap_or(STEEL);
-    let part = |form: Form| Part { name: name.to_owned(), between, form, color };
+    let part = |form: PlannedShape| Part { name: name.to_owned(), between, form, color };
     let (knob, form) = match look.line {
         SpringLine::Coil { turns } => {
             let turns = turns.unwrap_or_else(|| usual_turns(free / (1.5 * radius)));
-            (0.6 * radius, Form::Coil { radius, turns })
+            (0.6 * radius, PlannedShape::Coil { radius, turns })
         }
-        SpringLine::Straight => (1.6 * radius, Form::Rod { between, radius }),
+        SpringLine::Straight => (1.6 * radius, PlannedShape::Rod { between, radius }),
     };
     parts.extend(knobs(between, knob).map(part));
     parts.push(part(form));
@@ -99,13 +99,19 @@ fn usual_turns(usual: f64) -> u32 {
 }
 
 /// Adds the parts of a joint. `travel` is the distance that a slider covers in the run.
-fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSlider>, parts: &mut Vec<Part>) {
+fn joint(
+    scene: &Scene,
+    joint: &Joint,
+    look: JointLook,
+    travel: Option<&RequestedSlider>,
+    parts: &mut Vec<Part>,
+) {
     let between = joint.kind.between();
     let is_rope = matches!(joint.kind, JointKind::Rope(_) | JointKind::Pulley(_));
     let color = look.color.unwrap_or(if is_rope { HEMP } else { STEEL });
-    let mut add = |form: Form| {
+    let mut add = |form: PlannedShape| {
         // The wheels of a pulley have another color than its rope.
-        let color = if matches!(form, Form::Wheel { .. }) { STEEL } else { color };
+        let color = if matches!(form, PlannedShape::Wheel { .. }) { STEEL } else { color };
         parts.push(Part { name: joint.name.clone(), between, form, color });
     };
     match &joint.kind {
@@ -113,22 +119,22 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
             let [from, to] = between.map(|end| start(scene, end));
             let radius = look.radius.unwrap_or_else(|| rod_radius(scene, between, from.distance(to)));
             knobs(between, 1.6 * radius).for_each(&mut add);
-            add(Form::Rod { between, radius });
+            add(PlannedShape::Rod { between, radius });
         }
         JointKind::Ball(_) | JointKind::Fixed(_) => {
             arms(scene, between, look).for_each(&mut add);
             let radius = look.radius.unwrap_or_else(|| 0.56 * thinnest(scene, between));
-            add(Form::Pin { at: between[0], radius });
+            add(PlannedShape::Pin { at: between[0], radius });
         }
         JointKind::Hinge(hinge) => {
-            let arms: Vec<Form> = arms(scene, between, look).collect();
+            let arms: Vec<PlannedShape> = arms(scene, between, look).collect();
             arms.iter().copied().for_each(&mut add);
             add(axle(scene, hinge, look, &arms));
         }
         JointKind::Rope(Rope { length, .. }) => {
             let radius = look.radius.unwrap_or_else(|| rope_radius(scene, between, *length));
             knobs(between, 1.6 * radius).for_each(&mut add);
-            add(Form::Rope { between, length: *length, radius });
+            add(PlannedShape::Rope { between, length: *length, radius });
         }
         JointKind::Pulley(pulley) => {
             let radius = look.radius.unwrap_or_else(|| rope_radius(scene, between, pulley.length));
@@ -136,9 +142,9 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
             let wheel = if apart > 0.0 { (6.0 * radius).min(0.4 * apart) } else { 6.0 * radius };
             knobs(between, 1.6 * radius).for_each(&mut add);
             for number in 0..2 {
-                add(Form::Wheel { pulley: *pulley, number, wheel, half_width: 1.5 * radius });
+                add(PlannedShape::Wheel { pulley: *pulley, number, wheel, half_width: 1.5 * radius });
             }
-            add(Form::OverWheels { pulley: *pulley, wheel, radius });
+            add(PlannedShape::OverWheels { pulley: *pulley, wheel, radius });
         }
         // The wheels of a gear are drawn as bodies.
         JointKind::Gear(_) => {}
@@ -147,8 +153,8 @@ fn joint(scene: &Scene, joint: &Joint, look: JointLook, travel: Option<&AskedSli
 }
 
 /// Adds a ball at each end that is a fixed point.
-fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = Form> {
-    between.into_iter().filter(|end| end.body().is_none()).map(move |at| Form::Pin { at, radius })
+fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = PlannedShape> {
+    between.into_iter().filter(|end| end.body().is_none()).map(move |at| PlannedShape::Pin { at, radius })
 }
 
 /// Half the thickness of the thinner of the bodies at two ends, m.
@@ -169,12 +175,12 @@ fn rope_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
 }
 
 /// Rods from the centers of bodies to the point of a joint, for each body that does not contain this point.
-fn arms(scene: &Scene, between: [Anchor; 2], look: JointLook) -> impl Iterator<Item = Form> {
+fn arms(scene: &Scene, between: [Anchor; 2], look: JointLook) -> impl Iterator<Item = PlannedShape> {
     between.into_iter().filter_map(move |end| arm(scene, end, between, look))
 }
 
 /// A rod from the center of a body to a point. `None` if the point is inside the body's shape.
-fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Option<Form> {
+fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Option<PlannedShape> {
     let Anchor::Body { id, at } = end else { return None };
     let drawn = scene.bodies[id.index()].drawn();
     // A plane has no center from which a rod could start.
@@ -184,13 +190,13 @@ fn arm(scene: &Scene, end: Anchor, between: [Anchor; 2], look: JointLook) -> Opt
     let is_outside = length > 1.02 * surface(&drawn, DQuat::IDENTITY, at.normalize_or_zero());
     let usual = || rod_radius(scene, between, length);
     let radius = look.radius.map_or_else(usual, |radius| 0.6 * radius);
-    is_outside.then_some(Form::Rod { between: [Anchor::centre(id), end], radius })
+    is_outside.then_some(PlannedShape::Rod { between: [Anchor::centre(id), end], radius })
 }
 
 /// The axle of a hinge. It is thicker than the rods to the bodies, and a little longer than the bodies are thick.
-fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
+fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[PlannedShape]) -> PlannedShape {
     let thickest = arms.iter().fold(0.0_f64, |most, arm| match arm {
-        Form::Rod { radius, .. } => most.max(*radius),
+        PlannedShape::Rod { radius, .. } => most.max(*radius),
         _ => most,
     });
     let usual = || (0.35 * thinnest(scene, hinge.between)).max(1.5 * thickest);
@@ -205,7 +211,7 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[Form]) -> Form {
         ways.into_iter().flatten().reduce(f64::max)
     });
     let half = through.reduce(f64::min).unwrap_or(0.0).min(10.0 * radius) + 2.0 * radius;
-    Form::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
+    PlannedShape::Bar { at: hinge.between[0], along: hinge.axis(), reach: [-half, half], radius }
 }
 
 /// The rail of a slider. It extends over the limits of the slider or, without limits, over its travel in the run. It is fastened to a
@@ -214,8 +220,8 @@ fn rail(
     scene: &Scene,
     slider: &Slider,
     look: JointLook,
-    travel: Option<&AskedSlider>,
-) -> impl Iterator<Item = Form> {
+    travel: Option<&RequestedSlider>,
+) -> impl Iterator<Item = PlannedShape> {
     let [first, second] = slider.between;
     let is_still = |end: Anchor| end.body().is_none_or(|id| scene.bodies[id.index()].start.fixed);
     let is_turned = is_still(second) && !is_still(first);
@@ -241,7 +247,7 @@ fn rail(
     };
     let reach = [least + foot - beyond, most + foot + beyond];
     let radius = look.radius.unwrap_or_else(|| rod_radius(scene, slider.between, reach[1] - reach[0]));
-    arm.into_iter().chain([Form::Bar { at: base, along, reach, radius }])
+    arm.into_iter().chain([PlannedShape::Bar { at: base, along, reach, radius }])
 }
 
 /// The initial position of an anchor, m.

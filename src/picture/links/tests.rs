@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::LinkForm;
+use super::LinkShape;
 use crate::picture::Plan;
 use crate::scene::Scene;
 use crate::simulate::{Frames, survey};
 
 /// The shapes of all springs and joints in a frame of a scene.
-fn forms(text: &str, frame: usize) -> Vec<LinkForm> {
+fn forms(text: &str, frame: usize) -> Vec<LinkShape> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
     let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
     let frame = Frames::new(&scene).nth(frame).unwrap().unwrap();
@@ -27,14 +27,14 @@ fn a_spring_is_a_coil_a_straight_line_or_nothing() {
              between = ['ball', [0, 0, 0]]\n{keys}"
         )
     };
-    let [LinkForm::Pin { at, radius: knob }, LinkForm::Coil { radius, .. }] =
+    let [LinkShape::Pin { at, radius: knob }, LinkShape::Coil { radius, .. }] =
         forms(&scene("line = 'coil'"), 0)[..]
     else {
         panic!("a coil, and its end")
     };
     assert!(at == DVec3::ZERO && (knob - 0.6 * radius).abs() < 1e-12);
     let straight = forms(&scene("line = 'straight'\ncoil = { radius = 0.02, color = 'red' }"), 0);
-    let [LinkForm::Pin { .. }, LinkForm::Rod { ends: [from, to], radius: 0.02 }] = straight[..] else {
+    let [LinkShape::Pin { .. }, LinkShape::Rod { ends: [from, to], radius: 0.02 }] = straight[..] else {
         panic!("{straight:?}")
     };
     assert!(near(from, 4.0 - 0.95 * 0.5, 0.0, 0.0) && near(to, 0.0, 0.0, 0.0), "{from} {to}");
@@ -47,7 +47,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     let bar = "[body.bar]\nshape.box.size = [0.2, 1, 0.1]\nlocation = [0, -0.4, 0]\n[joint.pivot.hinge]\n
                between = [[0, 0, 0], 'bar']\naxis = [0, 0, 2]";
     let found = forms(bar, 0);
-    let [LinkForm::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
+    let [LinkShape::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
     assert!((radius - 0.35 * 0.05).abs() < 1e-12, "{radius}");
     // The axle extends by half the thickness of the bar plus twice its own radius.
     let half = 0.05 + 2.0 * radius;
@@ -56,7 +56,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     let bob = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [0, -2, 0]\n[joint.pivot.hinge]\n
                between = [[0, 0, 0], 'bob']\naxis = [0, 0, 1]";
     let found = forms(bob, 0);
-    let [LinkForm::Rod { ends: [from, to], radius: arm }, LinkForm::Rod { radius: axle, .. }] = found[..]
+    let [LinkShape::Rod { ends: [from, to], radius: arm }, LinkShape::Rod { radius: axle, .. }] = found[..]
     else {
         panic!("{found:?}")
     };
@@ -77,7 +77,7 @@ fn a_rail_is_as_long_as_the_way_of_what_slides() {
     for between in ["[[0, 0, 0], 'cart']", "['cart', [0, 0, 0]]"] {
         for frame in [0, 25] {
             let found = forms(&scene(between), frame);
-            let [LinkForm::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
+            let [LinkShape::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
             let [left, right] = if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] };
             assert!(
                 near(left, 1.0 - 1.3 * 0.2, 0.0, 0.0) && near(right, 2.0 + 1.3 * 0.2, 0.0, 0.0),

@@ -1,7 +1,7 @@
 //! Moves arrows in front of the planes, springs and joints that would hide them.
 
 use super::Plan;
-use crate::picture::arrows::{Arrow, Bearer};
+use crate::picture::arrows::{Arrow, ArrowOwner};
 use crate::picture::in_front::lift_from_link;
 use crate::simulate::{Frame, Ghost};
 
@@ -13,9 +13,9 @@ impl Plan {
             let camera = self.eye.at(frame);
             for arrow in &mut arrows {
                 self.planes.lift(arrow, &camera);
-                let body = match arrow.bearer {
-                    Bearer::Body(body) => Some(body),
-                    Bearer::Joint { body, .. } => body,
+                let body = match arrow.owner {
+                    ArrowOwner::Body(body) => Some(body),
+                    ArrowOwner::Joint { body, .. } => body,
                 };
                 for link in body.into_iter().flat_map(|body| self.links.of_body(body, frame)) {
                     lift_from_link(arrow, &link, &camera);

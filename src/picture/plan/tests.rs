@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::picture::Bearer;
+use crate::picture::ArrowOwner;
 use crate::simulate::{Frames, survey};
 
 fn plan(keys: &str) -> (Plan, Frame) {
@@ -33,7 +33,7 @@ fn lengths_are_metres_whatever_the_unit_of_scripts_is() {
     let (plan, frame) = plan(keys);
     let ball = frame.bodies[0];
     let [arrow] = plan.arrows(&frame)[..] else { panic!("one is asked for") };
-    assert_eq!((arrow.bearer, arrow.quantity), (Bearer::Body(0), Quantity::Velocity));
+    assert_eq!((arrow.owner, arrow.quantity), (ArrowOwner::Body(0), Quantity::Velocity));
     assert!((arrow.from.distance(ball.location) - 0.1).abs() < 1e-9);
     assert!((arrow.to - arrow.from).abs_diff_eq(0.2 * ball.velocity, 1e-12));
     let [axes] = plan.axes(&frame)[..] else { panic!("they are asked for") };
@@ -90,6 +90,6 @@ fn a_camera_that_follows_looks_at_its_body() {
     let (plan, frame) = plan("[camera]\nfollow = { body = 'ball' }\n[label.now]\ntext = 'x'");
     assert!(plan.camera_moves());
     assert_eq!(plan.camera(&frame).look_at(), frame.bodies[0].location);
-    let spot = plan.screen(&frame).unwrap().spot(frame.bodies[0].location).unwrap();
+    let spot = plan.screen(&frame).unwrap().project(frame.bodies[0].location).unwrap();
     assert!(spot.x.abs() < 1e-12 && spot.y.abs() < 1e-12);
 }

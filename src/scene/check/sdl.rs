@@ -11,7 +11,7 @@ use super::{Context, asset, braces};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::grammar::Kind;
-use crate::scene::sdl::{FileKind, Refusal, Where, Why, files, refusals};
+use crate::scene::sdl::{FileKind, Refusal, RefusalReason, Where, files, refusals};
 use crate::scene::source::{Node, Table, Value, file};
 
 /// The maximum size of an asset that is read as SDL, in bytes.
@@ -144,14 +144,16 @@ fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
     };
     let unbalanced = |message: String| Diagnostic::error(Code::UnbalancedSdl, message).at(at, "");
     match &refusal.why {
-        Why::Word(word) => untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST),
-        Why::Macro(name) => {
+        RefusalReason::Word(word) => {
+            untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST)
+        }
+        RefusalReason::Macro(name) => {
             untrusted(format!("the SDL reaches for files: the macro `{name}` writes one"), "").help(TRUST)
         }
-        Why::WritingInclude(name) => {
+        RefusalReason::WritingInclude(name) => {
             untrusted(format!("the SDL reaches for files: the macros of `{name}` write them"), "").help(TRUST)
         }
-        Why::Computed(word) => {
+        RefusalReason::Computed(word) => {
             let message = format!("the name of the file that `{word}` reads is computed");
             let example = match word.as_str() {
                 "include" => "#include \"parts.inc\"",
@@ -162,25 +164,29 @@ fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
                 format!("write it between quotes, directly where it belongs: `{example}`; or say `--trust`");
             untrusted(message, "needs a plain string").help(help)
         }
-        Why::Unlisted(name) => {
+        RefusalReason::Unlisted(name) => {
             let name = name.escape_debug();
             let message = format!("`{name}` is neither an asset of the scene nor a file of POV-Ray's");
             let help = "list it in `povray.assets`, by its path from the scene's folder";
             untrusted(message, "").help(format!("{help}; or, {TRUST}"))
         }
-        Why::InnerInclude => {
+        RefusalReason::InnerInclude => {
             let message = "`#include` cannot stand in a macro, a body or a material";
             let help = "move it to `sdl` or `include` of [povray]";
             untrusted(message.to_owned(), "").help(format!("{help}; or, {TRUST}"))
         }
-        Why::Hash => untrusted("this `#` has no directive directly behind it".to_owned(), "").help(TRUST),
-        Why::NoHash(word) => untrusted(format!("the directive `{word}` needs a `#` before it"), "")
+        RefusalReason::Hash => {
+            untrusted("this `#` has no directive directly behind it".to_owned(), "").help(TRUST)
+        }
+        RefusalReason::NoHash(word) => untrusted(format!("the directive `{word}` needs a `#` before it"), "")
             .help(format!("write `#{word}`")),
-        Why::Open(what) => unbalanced(match *what {
+        RefusalReason::Open(what) => unbalanced(match *what {
             "comment" | "string" => format!("the SDL opens a {what} that it does not close"),
             directive => format!("this `#{directive}` has no `#end` in the same text"),
         }),
-        Why::Stray(word) => unbalanced(format!("this `#{word}` belongs to no directive in the same text")),
-        Why::Nul => untrusted("the SDL contains a NUL character".to_owned(), ""),
+        RefusalReason::Stray(word) => {
+            unbalanced(format!("this `#{word}` belongs to no directive in the same text"))
+        }
+        RefusalReason::Nul => untrusted("the SDL contains a NUL character".to_owned(), ""),
     }
 }

@@ -34,12 +34,12 @@ pub struct Refusal {
     /// The byte range of the refused part in the text.
     pub range: Range<usize>,
     /// The reason why the part is refused.
-    pub why: Why,
+    pub why: RefusalReason,
 }
 
 /// The reason why a part of SDL is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Why {
+pub enum RefusalReason {
     /// This word opens, reads or writes files.
     Word(String),
     /// The named macro, from one of POV-Ray's include files, writes files.
@@ -79,25 +79,25 @@ pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (V
         filter.token(token, &range, before, &tokens);
         if filter.refusals.len() >= MAX_REFUSALS {
             if let Some(at) = nul.filter(|&at| at < range.start) {
-                filter.refuse(at..at + 1, Why::Nul);
+                filter.refuse(at..at + 1, RefusalReason::Nul);
             }
             return (first(filter.refusals), filter.includes);
         }
         (before, end) = (Some(token), range);
     }
     if let Some(at) = nul {
-        filter.refuse(at..at + 1, Why::Nul);
+        filter.refuse(at..at + 1, RefusalReason::Nul);
     }
     if before == Some(Token::Symbol('#')) {
-        filter.refuse(end, Why::Hash);
+        filter.refuse(end, RefusalReason::Hash);
     }
     match tokens.unclosed() {
-        Some(Unclosed::Comment(range)) => filter.refuse(range.clone(), Why::Open("comment")),
-        Some(Unclosed::Text(range)) => filter.refuse(range.clone(), Why::Open("string")),
+        Some(Unclosed::Comment(range)) => filter.refuse(range.clone(), RefusalReason::Open("comment")),
+        Some(Unclosed::Text(range)) => filter.refuse(range.clone(), RefusalReason::Open("string")),
         None => {}
     }
     for (word, range) in std::mem::take(&mut filter.open).into_iter().take(MAX_REFUSALS) {
-        filter.refuse(range, Why::Open(word));
+        filter.refuse(range, RefusalReason::Open(word));
     }
     (first(filter.refusals), filter.includes)
 }
@@ -126,7 +126,7 @@ const OPENING: [&str; 7] = ["for", "if", "ifdef", "ifndef", "macro", "switch", "
 const INNER: [&str; 5] = ["break", "case", "else", "elseif", "range"];
 
 impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
-    fn refuse(&mut self, range: Range<usize>, why: Why) {
+    fn refuse(&mut self, range: Range<usize>, why: RefusalReason) {
         self.refusals.push(Refusal { range, why });
     }
 
@@ -140,22 +140,22 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
         let behind_hash = before == Some(Token::Symbol('#'));
         let Token::Word(word) = token else {
             if behind_hash {
-                self.refuse(range.clone(), Why::Hash);
+                self.refuse(range.clone(), RefusalReason::Hash);
             }
             return;
         };
         let is = |words: &[&str]| words.binary_search(&word).is_ok();
         if is(&REFUSED) {
-            return self.refuse(range.clone(), Why::Word(word.to_owned()));
+            return self.refuse(range.clone(), RefusalReason::Word(word.to_owned()));
         }
         if WRITING_MACROS.contains(&word) {
-            return self.refuse(range.clone(), Why::Macro(word.to_owned()));
+            return self.refuse(range.clone(), RefusalReason::Macro(word.to_owned()));
         }
         match (behind_hash, is(&DIRECTIVES)) {
             (true, true) => self.directive(word, range),
-            (true, false) => return self.refuse(range.clone(), Why::Hash),
+            (true, false) => return self.refuse(range.clone(), RefusalReason::Hash),
             (false, true) if !is(&OTHERS) => {
-                return self.refuse(range.clone(), Why::NoHash(word.to_owned()));
+                return self.refuse(range.clone(), RefusalReason::NoHash(word.to_owned()));
             }
             (false, _) => {}
         }
@@ -171,27 +171,27 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
         } else if word == "end" {
             match self.open.pop() {
                 Some((opening, _)) => self.macros -= usize::from(opening == "macro"),
-                None => self.refuse(range.clone(), Why::Stray(word.to_owned())),
+                None => self.refuse(range.clone(), RefusalReason::Stray(word.to_owned())),
             }
         } else if INNER.contains(&word) && self.open.is_empty() {
-            self.refuse(range.clone(), Why::Stray(word.to_owned()));
+            self.refuse(range.clone(), RefusalReason::Stray(word.to_owned()));
         } else if word == "include" && (self.place == Where::Inside || self.macros > 0) {
-            self.refuse(range.clone(), Why::InnerInclude);
+            self.refuse(range.clone(), RefusalReason::InnerInclude);
         }
     }
 
     fn file(&mut self, word: &str, name: FileName<'a>) {
         let why = match name.literal {
-            None => Why::Computed(word.to_owned()),
+            None => RefusalReason::Computed(word.to_owned()),
             Some(literal) if (self.is_asset)(literal) => {
                 if name.kind == FileKind::Include {
                     self.includes.push(literal);
                 }
                 return;
             }
-            Some(literal) if is_writing(literal) => Why::WritingInclude(literal.to_owned()),
+            Some(literal) if is_writing(literal) => RefusalReason::WritingInclude(literal.to_owned()),
             Some(literal) if is_standard(literal) => return,
-            Some(literal) => Why::Unlisted(literal.to_owned()),
+            Some(literal) => RefusalReason::Unlisted(literal.to_owned()),
         };
         self.refuse(name.range, why);
     }
@@ -202,34 +202,34 @@ mod tests {
     use super::super::words::{FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, reserved_words};
     use super::*;
 
-    fn first(text: &str) -> Option<Why> {
+    fn first(text: &str) -> Option<RefusalReason> {
         let is_asset = |name: &str| ["wood.png", "parts.inc"].contains(&name);
         refusals(text, Where::Top, is_asset).0.into_iter().next().map(|refusal| refusal.why)
     }
 
     #[test]
     fn what_touches_files_is_refused() {
-        let word = |word: &str| Why::Word(word.to_owned());
-        let unlisted = |name: &str| Why::Unlisted(name.to_owned());
-        let computed = |word: &str| Why::Computed(word.to_owned());
+        let word = |word: &str| RefusalReason::Word(word.to_owned());
+        let unlisted = |name: &str| RefusalReason::Unlisted(name.to_owned());
+        let computed = |word: &str| RefusalReason::Computed(word.to_owned());
         for (text, why) in [
             ("#fopen F \"x\" write", word("fopen")),
             ("#write(F, 1)", word("write")),
             ("#\n\tread (F, A)", word("read")),
             ("photons { save_file \"/x\" }", word("save_file")),
             ("photons { load_file \"wood.png\" }", word("load_file")),
-            ("include \"evil.inc\"", Why::NoHash("include".to_owned())),
-            ("1einclude \"evil.inc\"", Why::NoHash("include".to_owned())),
-            ("// a\rinclude \"evil.inc\"", Why::NoHash("include".to_owned())),
+            ("include \"evil.inc\"", RefusalReason::NoHash("include".to_owned())),
+            ("1einclude \"evil.inc\"", RefusalReason::NoHash("include".to_owned())),
+            ("// a\rinclude \"evil.inc\"", RefusalReason::NoHash("include".to_owned())),
             ("#include \"evil.inc\"", unlisted("evil.inc")),
             ("#  /* /* */ */ include // a\n \"/etc/passwd\"", unlisted("/etc/passwd")),
-            ("#macro A() # #end A() include \"x\"", Why::Hash),
+            ("#macro A() # #end A() include \"x\"", RefusalReason::Hash),
             ("#macro A() \"x\" #end #include A()", computed("include")),
-            ("#macro A() #include \"parts.inc\" #end", Why::InnerInclude),
+            ("#macro A() #include \"parts.inc\" #end", RefusalReason::InnerInclude),
             ("#include concat(\"a\", \"b\")", computed("include")),
             ("#include", computed("include")),
-            ("#include \"meshmaker.inc\"", Why::WritingInclude("meshmaker.inc".to_owned())),
-            ("#include \"makegrass\"", Why::WritingInclude("makegrass".to_owned())),
+            ("#include \"meshmaker.inc\"", RefusalReason::WritingInclude("meshmaker.inc".to_owned())),
+            ("#include \"makegrass\"", RefusalReason::WritingInclude("makegrass".to_owned())),
             ("pigment { image_map { png \"/abs/path\" } }", unlisted("/abs/path")),
             ("pigment { image_map { \"../x.png\" } }", unlisted("../x.png")),
             ("pigment { image_map { png Name } }", computed("png")),
@@ -242,20 +242,20 @@ mod tests {
             ("Text_Width(Font, \"a\", 1, 0)", computed("Text_Width")),
             ("Text_Width(\"/etc/passwd\", \"a\", 1, 0)", unlisted("/etc/passwd")),
             ("#if (file_exists(\"/etc/passwd\")) #end", unlisted("/etc/passwd")),
-            ("Parse_String(\"x\")", Why::Macro("Parse_String".to_owned())),
-            ("HF_Square(f, 0, 0, 1, 1, \"x\", 0, 1)", Why::Macro("HF_Square".to_owned())),
-            ("sphere { } # ", Why::Hash),
-            ("# // x", Why::Hash),
-            ("# sphere { }", Why::Hash),
-            ("# /* x", Why::Hash),
-            ("a /* x", Why::Open("comment")),
-            ("a \" x", Why::Open("string")),
-            ("#if (1)", Why::Open("if")),
-            ("#macro A() #if (1) #end", Why::Open("macro")),
-            ("#if (1) #end #end", Why::Stray("end".to_owned())),
-            ("#else", Why::Stray("else".to_owned())),
-            ("end", Why::NoHash("end".to_owned())),
-            ("a\0b", Why::Nul),
+            ("Parse_String(\"x\")", RefusalReason::Macro("Parse_String".to_owned())),
+            ("HF_Square(f, 0, 0, 1, 1, \"x\", 0, 1)", RefusalReason::Macro("HF_Square".to_owned())),
+            ("sphere { } # ", RefusalReason::Hash),
+            ("# // x", RefusalReason::Hash),
+            ("# sphere { }", RefusalReason::Hash),
+            ("# /* x", RefusalReason::Hash),
+            ("a /* x", RefusalReason::Open("comment")),
+            ("a \" x", RefusalReason::Open("string")),
+            ("#if (1)", RefusalReason::Open("if")),
+            ("#macro A() #if (1) #end", RefusalReason::Open("macro")),
+            ("#if (1) #end #end", RefusalReason::Stray("end".to_owned())),
+            ("#else", RefusalReason::Stray("else".to_owned())),
+            ("end", RefusalReason::NoHash("end".to_owned())),
+            ("a\0b", RefusalReason::Nul),
         ] {
             assert_eq!(first(text), Some(why), "{text:?}");
         }
@@ -288,7 +288,7 @@ mod tests {
     #[test]
     fn an_include_belongs_to_the_top() {
         let (refused, _) = refusals("#include \"colors.inc\"", Where::Inside, |_| false);
-        assert_eq!(refused[0].why, Why::InnerInclude);
+        assert_eq!(refused[0].why, RefusalReason::InnerInclude);
         let (refused, includes) = refusals("#include \"a\" #include \"b\"", Where::Top, |name| name == "b");
         assert_eq!((refused.len(), includes), (1, vec!["b"]));
     }
@@ -296,7 +296,7 @@ mod tests {
     #[test]
     fn a_refusal_has_a_place_and_there_are_not_too_many() {
         let (refused, _) = refusals("é { fopen } ", Where::Top, |_| false);
-        assert_eq!(refused, [Refusal { range: 5..10, why: Why::Word("fopen".to_owned()) }]);
+        assert_eq!(refused, [Refusal { range: 5..10, why: RefusalReason::Word("fopen".to_owned()) }]);
         assert_eq!(refusals(&"fopen ".repeat(100), Where::Top, |_| false).0.len(), MAX_REFUSALS);
     }
 

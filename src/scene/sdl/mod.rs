@@ -11,7 +11,7 @@ mod tokens;
 mod words;
 
 pub use self::files::{FileKind, FileName, files};
-pub use self::filter::{Refusal, Where, Why, refusals};
+pub use self::filter::{Refusal, RefusalReason, Where, refusals};
 pub use self::reference::reference;
 pub use self::standard::WRITING_MACROS;
 pub(crate) use self::standard::{INCLUDES, WRITING_INCLUDES};

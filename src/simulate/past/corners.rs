@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::way::Passed;
+use super::trail_path::TrailPoint;
 use crate::dynamics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
@@ -23,7 +23,7 @@ pub(super) fn between(
     impacts: &[Impact],
     impulse: impl Fn(&Impact) -> DVec3,
     (mass, trail): (f64, Trail),
-) -> Vec<Passed> {
+) -> Vec<TrailPoint> {
     let mut hits: Vec<(f64, DVec3)> = Vec::new();
     for impact in impacts {
         let jump = impulse(impact) / mass;
@@ -48,7 +48,7 @@ pub(super) fn between(
             // Each of the two paths is most accurate near the moment it starts from, so interpolate between them.
             let part = (forth.time - before.0) / (after.0 - before.0);
             let location = forth.location.lerp(back.location, part);
-            let point = |velocity| Passed { time: forth.time, location, velocity, frame: None };
+            let point = |velocity| TrailPoint { time: forth.time, location, velocity, frame: None };
             [point(forth.velocity), point(back.velocity)]
         })
         .collect()

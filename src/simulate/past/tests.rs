@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::{Frame, Frames};
-use super::way::MOST_POINTS;
+use super::trail_path::MOST_POINTS;
 use crate::scene::Scene;
 
 fn scene(keys: &str) -> Scene {

@@ -8,7 +8,7 @@ use crate::support::{jabuka, root, shorter, stderr, stdout};
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::dynamics::Shape;
-use jabuka::picture::{Lamp, LinkForm, LinkKind, Plan};
+use jabuka::picture::{Lamp, LinkKind, LinkShape, Plan};
 use jabuka::scene::{Options, Override};
 use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
@@ -156,14 +156,14 @@ fn assert_same_picture(name: &str, seen: &Seen, scene: &Scene, frames: &[Frame])
             }
             for body in &frame.bodies {
                 let Some([x, y]) = spots.get(body.id) else { continue };
-                let Some(spot) = placed.screen().spot(body.location) else { continue };
+                let Some(spot) = placed.screen().project(body.location) else { continue };
                 let (of_x, of_y) = (spot.x, spot.y * aspect);
                 if of_x.abs().max(of_y.abs()) > 1.5 {
                     continue;
                 }
                 // The model stores locations as `f32`.
                 let far = body.location.length().max(placed.location().length());
-                let most = 1e-5 + 2e-7 * far * spot.metre * aspect;
+                let most = 1e-5 + 2e-7 * far * spot.scale * aspect;
                 let off = (of_x - x).abs().max((of_y - y).abs());
                 assert!(off < most, "{name}, {known} at {} s: {spot:?}, seen at {x} {y}", frame.time);
                 let depth =
@@ -522,23 +522,23 @@ fn springs_and_joints_are_where_the_picture_has_them() {
             let size = its[0].sizes[2 * i];
             match link.map(|link| link.form) {
                 None => assert_eq!(size, 0.0, "{} in {i}", planned.name),
-                Some(LinkForm::Pin { at, radius }) => {
+                Some(LinkShape::Pin { at, radius }) => {
                     assert!(near(&its[0].poses[i], at) && (size - radius).abs() < 1e-6);
                 }
                 Some(
-                    LinkForm::Coil { ends: [a, b], radius, .. } | LinkForm::Rod { ends: [a, b], radius },
+                    LinkShape::Coil { ends: [a, b], radius, .. } | LinkShape::Rod { ends: [a, b], radius },
                 ) => {
                     let pose = &its[0].poses[i];
                     assert!(near(pose, a.midpoint(b)) && (size - radius).abs() < 1e-6, "{}", planned.name);
                     assert!(axis(pose).cross((b - a).normalize()).length() < 1e-5, "{} in {i}", planned.name);
                 }
-                Some(LinkForm::Rope { points, .. }) if points.len() == 25 => {
+                Some(LinkShape::Rope { points, .. }) if points.len() == 25 => {
                     let places = points.windows(2).map(|pair| pair[0].midpoint(pair[1]));
                     for (node, place) in its.iter().zip(places) {
                         assert!(near(&node.poses[i], place), "{} in {i}", planned.name);
                     }
                 }
-                Some(LinkForm::Rope { .. }) => {}
+                Some(LinkShape::Rope { .. }) => {}
             }
             compared += 1;
         }

@@ -13,7 +13,7 @@ use crate::dynamics::Mesh;
 /// Two base shapes are equal, also as keys of a map, if their names and their numbers agree bit for bit. Two meshes are equal only if they
 /// are the same object in memory.
 #[derive(Clone, Debug)]
-pub struct Form(Kind);
+pub struct BaseShape(Kind);
 
 #[derive(Clone, Debug)]
 enum Kind {
@@ -43,66 +43,71 @@ impl Detail {
     }
 }
 
-impl Form {
+impl BaseShape {
     /// A ball of radius 1.
-    pub const BALL: Form = Form::made("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
+    pub const BALL: BaseShape = BaseShape::made("ball", [0.0; 4], |_, sides| lathe::capsule(0.0, sides));
     /// A cube from -1 to 1 along all axes.
-    pub const CUBE: Form = Form::made("cube", [0.0; 4], |_, _| straight::cube());
+    pub const CUBE: BaseShape = BaseShape::made("cube", [0.0; 4], |_, _| straight::cube());
     /// A cylinder of radius 1 from y = -1 to 1.
-    pub const CYLINDER: Form = Form::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
+    pub const CYLINDER: BaseShape =
+        BaseShape::made("cylinder", [0.0; 4], |_, sides| lathe::cone(1.0, 1.0, sides));
     /// A square from -1 to 1 along x and z, visible from above. The renderer chooses its drawn size.
-    pub const PLANE: Form = Form::made("plane", [0.0; 4], |_, _| straight::plane());
+    pub const PLANE: BaseShape = BaseShape::made("plane", [0.0; 4], |_, _| straight::plane());
 
     /// Creates a base shape from a name and numbers, which together identify it. `make` computes the triangles from the numbers and from
     /// the number of sides of a circle.
     #[must_use]
-    pub const fn made(name: &'static str, numbers: [f64; 4], make: fn([f64; 4], u32) -> Triangles) -> Form {
-        Form(Kind::Made { name, numbers, make })
+    pub const fn made(
+        name: &'static str,
+        numbers: [f64; 4],
+        make: fn([f64; 4], u32) -> Triangles,
+    ) -> BaseShape {
+        BaseShape(Kind::Made { name, numbers, make })
     }
 
     /// A cone or frustum of height 2, centered at its center of mass, with its lower and upper radius. The larger radius must be 1.
     #[must_use]
-    pub fn cone(bottom: f64, top: f64) -> Form {
-        Form::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
+    pub fn cone(bottom: f64, top: f64) -> BaseShape {
+        BaseShape::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
             lathe::cone(bottom, top, sides)
         })
     }
 
     /// A capsule: a cylinder of radius 1 with a hemisphere on either end, from y = -1 - `straight` to 1 + `straight`.
     #[must_use]
-    pub fn capsule(straight: f64) -> Form {
-        Form::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
+    pub fn capsule(straight: f64) -> BaseShape {
+        BaseShape::made("capsule", [straight, 0.0, 0.0, 0.0], |[straight, ..], sides| {
             lathe::capsule(straight, sides)
         })
     }
 
     /// A torus around y with a major radius of 1. The radius of its tube is `tube`, at most 1.
     #[must_use]
-    pub fn torus(tube: f64) -> Form {
-        Form::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
+    pub fn torus(tube: f64) -> BaseShape {
+        BaseShape::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
     }
 
     /// A box with rounded edges, centered at the origin. `half` is half of its edge lengths, of which the longest must be 1; `rounding` is
     /// the radius of its edges.
     #[must_use]
-    pub fn rounded_box(half: DVec3, rounding: f64) -> Form {
-        Form::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
+    pub fn rounded_box(half: DVec3, rounding: f64) -> BaseShape {
+        BaseShape::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {
             straight::rounded_box(DVec3::new(x, y, z), rounding, sides)
         })
     }
 
     /// The coil of a spring around y, from y = -1 to 1, with a radius of 1. `wire` is the radius of its wire.
     #[must_use]
-    pub fn coil(turns: u32, wire: f64) -> Form {
-        Form::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
+    pub fn coil(turns: u32, wire: f64) -> BaseShape {
+        BaseShape::made("coil", [f64::from(turns), wire, 0.0, 0.0], |[turns, wire, ..], sides| {
             helix::coil(turns, wire, sides)
         })
     }
 
     /// Creates a base shape from a mesh, in the units of the mesh.
     #[must_use]
-    pub fn mesh(mesh: Arc<Mesh>) -> Form {
-        Form(Kind::Mesh(mesh))
+    pub fn mesh(mesh: Arc<Mesh>) -> BaseShape {
+        BaseShape(Kind::Mesh(mesh))
     }
 
     /// Computes the triangles of the base shape. Those of a mesh are the same for all resolutions.
@@ -118,7 +123,7 @@ impl Form {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         match &self.0 {
-            Kind::Made { .. } => *self != Form::PLANE,
+            Kind::Made { .. } => *self != BaseShape::PLANE,
             Kind::Mesh(mesh) => mesh.flaw().is_none(),
         }
     }
@@ -142,15 +147,15 @@ impl Form {
     }
 }
 
-impl PartialEq for Form {
-    fn eq(&self, other: &Form) -> bool {
+impl PartialEq for BaseShape {
+    fn eq(&self, other: &BaseShape) -> bool {
         self.key() == other.key()
     }
 }
 
-impl Eq for Form {}
+impl Eq for BaseShape {}
 
-impl Hash for Form {
+impl Hash for BaseShape {
     fn hash<H: Hasher>(&self, state: &mut H) {
         self.key().hash(state);
     }

@@ -11,18 +11,18 @@ pub(super) const MOST_POINTS: usize = 512;
 
 /// The path of a point of a body, up to the present time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct TrailPath {
     /// The index of the body.
     pub body: usize,
     /// The points of the path by increasing time. The last one is the present position, if the body is present.
-    pub points: Vec<Passed>,
+    pub points: Vec<TrailPoint>,
     /// The number of frames between two stored points.
     pub stride: usize,
 }
 
 /// A point of the path of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Passed {
+pub struct TrailPoint {
     /// The time at which the body passed the point, s.
     pub time: f64,
     /// The position of the point in world axes, m.
@@ -34,10 +34,10 @@ pub struct Passed {
     pub frame: Option<usize>,
 }
 
-impl Passed {
+impl TrailPoint {
     /// Interpolates the position (m) between this point and the next at a time (s), by a cubic that matches locations and velocities at
     /// both points. The result is exact under a constant force.
-    pub fn towards(&self, next: &Passed, time: f64) -> DVec3 {
+    pub fn towards(&self, next: &TrailPoint, time: f64) -> DVec3 {
         let span = next.time - self.time;
         if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
             // A body that reverses between two points is slow or had an impact, so a straight line is as good as any curve.
@@ -52,21 +52,21 @@ impl Passed {
             + (s3 - s2) * span * next.velocity
     }
 
-    pub(super) fn of(time: f64, body: &BodySnapshot, trail: Trail) -> Passed {
+    pub(super) fn of(time: f64, body: &BodySnapshot, trail: Trail) -> TrailPoint {
         let (location, velocity) = body.point(trail.at);
-        Passed { time, location, velocity, frame: None }
+        TrailPoint { time, location, velocity, frame: None }
     }
 }
 
 /// Removes the part of a path before a time (s). The path then starts at exactly that time, which may lie between two points.
-pub(super) fn cut(points: &mut Vec<Passed>, from: f64) {
+pub(super) fn cut(points: &mut Vec<TrailPoint>, from: f64) {
     let before = points.iter().take_while(|point| point.time <= from).count();
     let Some(last) = before.checked_sub(1) else { return };
     if let Some(&next) = points.get(before) {
         let point = points[last];
         let part = (from - point.time) / (next.time - point.time);
         let velocity = point.velocity.lerp(next.velocity, part);
-        points[last] = Passed { time: from, location: point.towards(&next, from), velocity, frame: None };
+        points[last] = TrailPoint { time: from, location: point.towards(&next, from), velocity, frame: None };
     }
     points.drain(..last);
 }
@@ -88,12 +88,12 @@ pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
 }
 
 /// Removes the impacts between two stored points if there are more than [`corners::MOST`].
-pub(super) fn thin(way: &mut Vec<(usize, Passed)>) {
-    let mut kept = Vec::with_capacity(way.len());
-    for run in way.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {
+pub(super) fn thin(path: &mut Vec<(usize, TrailPoint)>) {
+    let mut kept = Vec::with_capacity(path.len());
+    for run in path.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {
         if run[0].1.frame.is_some() || run.len() <= 2 * corners::MOST {
             kept.extend_from_slice(run);
         }
     }
-    *way = kept;
+    *path = kept;
 }

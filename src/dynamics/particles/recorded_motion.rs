@@ -2,13 +2,13 @@
 
 use glam::{DQuat, DVec3};
 
-use super::Spot;
+use super::BodyState;
 use crate::dynamics::{BodySnapshot, Kinematics, Motion};
 
 /// The interpolated motion of a body from one time to a later time. The location is a cubic polynomial that matches the locations and
 /// velocities at both times. The rotation starts with the first angular velocity, and ends at the second orientation.
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct RecordedMotion {
     begin: f64,
     end: f64,
     from: BodySnapshot,
@@ -17,37 +17,37 @@ pub struct Course {
     rest: DVec3,
 }
 
-impl Course {
+impl RecordedMotion {
     /// Creates the motion from time `begin` to time `end` (s), with the body's snapshots at these times.
     #[must_use]
-    pub fn new(begin: f64, from: BodySnapshot, end: f64, to: BodySnapshot) -> Course {
+    pub fn new(begin: f64, from: BodySnapshot, end: f64, to: BodySnapshot) -> RecordedMotion {
         let turned = DQuat::from_scaled_axis(from.angular_velocity * (end - begin)) * from.orientation;
         let mut rest = to.orientation * turned.conjugate();
         if rest.w < 0.0 {
             rest = -rest;
         }
-        Course { begin, end, from, to, rest: rest.to_scaled_axis() }
+        RecordedMotion { begin, end, from, to, rest: rest.to_scaled_axis() }
     }
 
     /// Creates the motion of a body whose location and orientation stay those of `body`. Its velocities may differ from zero, and emitted
     /// particles inherit these velocities.
     #[must_use]
-    pub fn still(body: BodySnapshot) -> Course {
-        Course { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
+    pub fn still(body: BodySnapshot) -> RecordedMotion {
+        RecordedMotion { begin: 0.0, end: 0.0, from: body, to: body, rest: DVec3::ZERO }
     }
 
     /// Sets the velocities to zero if both times are equal. Returns other motions unchanged.
-    pub(super) fn at_rest(self) -> Course {
+    pub(super) fn at_rest(self) -> RecordedMotion {
         if self.end > self.begin {
             return self;
         }
         let (velocity, angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-        Course::still(BodySnapshot { velocity, angular_velocity, ..self.from })
+        RecordedMotion::still(BodySnapshot { velocity, angular_velocity, ..self.from })
     }
 
     /// Returns whether the body neither moves nor rotates between the two times.
     pub(super) fn is_still(&self) -> bool {
-        let Course { from, to, rest, .. } = self;
+        let RecordedMotion { from, to, rest, .. } = self;
         let speeds = [from.velocity, to.velocity, from.angular_velocity, to.angular_velocity, *rest];
         from.location == to.location && speeds == [DVec3::ZERO; 5]
     }
@@ -73,7 +73,7 @@ impl Course {
 
     /// Returns a box around the path of the centre of mass, as its lowest and its highest corner, m.
     pub(super) fn places(&self) -> [DVec3; 2] {
-        let Course { begin, end, from, to, .. } = self;
+        let RecordedMotion { begin, end, from, to, .. } = self;
         let (span, way) = (end - begin, to.location - from.location);
         // The Hermite polynomials that multiply the velocities are at most 4/27.
         let aside = (span * from.velocity - way).abs() + (span * to.velocity - way).abs();
@@ -83,15 +83,15 @@ impl Course {
 
     /// Returns the pose, the velocity and the angular velocity of the body at time `t`, s.
     #[must_use]
-    pub fn spot(&self, t: f64) -> Spot {
+    pub fn state(&self, t: f64) -> BodyState {
         let Kinematics { location, velocity, orientation, angular_velocity, .. } = self.at(t);
-        Spot { location, velocity, orientation, angular_velocity }
+        BodyState { location, velocity, orientation, angular_velocity }
     }
 }
 
-impl Motion for Course {
+impl Motion for RecordedMotion {
     fn at(&self, t: f64) -> Kinematics {
-        let Course { begin, end, from, to, rest } = self;
+        let RecordedMotion { begin, end, from, to, rest } = self;
         let span = end - begin;
         if span <= 0.0 {
             return Kinematics {

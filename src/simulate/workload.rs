@@ -13,7 +13,7 @@ const SCRIPT: u64 = 100;
 /// The expected number of pair interactions in each frame of a run. It equals the count of an [`Effort`](crate::dynamics::Effort) if all
 /// bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Labour {
+pub struct Workload {
     first: u64,
     each: u64,
     frames: usize,
@@ -21,19 +21,19 @@ pub struct Labour {
     script: u64,
 }
 
-impl Labour {
+impl Workload {
     /// Computes the expected number of pair interactions in each frame of a scene.
-    pub fn of(scene: &Scene) -> Labour {
+    pub fn of(scene: &Scene) -> Workload {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
         // The number of steps of an adaptive method is not known in advance.
         if pairs == 0 || scene.simulation.method.ahead.is_some() {
-            return Labour::default();
+            return Workload::default();
         }
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
         let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
         // Each frame evaluates its potential energy and its forces. The first frame needs one more evaluation, for the start of the run.
-        Labour {
+        Workload {
             first: pairs.saturating_mul(3),
             each: pairs.saturating_mul(evaluations.saturating_add(2)),
             frames: scene.simulation.frames(),
@@ -106,18 +106,18 @@ mod tests {
                 method.name
             );
             let scene = Scene::parse(&text).unwrap();
-            let (labour, effort) = (Labour::of(&scene), Effort::default());
+            let (workload, effort) = (Workload::of(&scene), Effort::default());
             let mut before = 0;
             for (index, frame) in Frames::watched(&scene, &effort).enumerate() {
                 frame.unwrap();
                 let counted = effort.done() - before;
                 // The first step of a run may need one more evaluation.
-                let planned = labour.of_frame(index);
+                let planned = workload.of_frame(index);
                 assert!(counted.abs_diff(planned) <= pairs, "{} {index}: {counted} {planned}", method.name);
                 before = effort.done();
             }
             assert!(before > 10 * pairs);
         }
-        assert!(Labour::of(&Scene::parse("[body.b]\nshape.sphere.radius = 1").unwrap()).is_empty());
+        assert!(Workload::of(&Scene::parse("[body.b]\nshape.sphere.radius = 1").unwrap()).is_empty());
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_3;
 
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::{Motif, Triangles};
+use super::{SurfacePattern, Triangles};
 
 /// The edge length of a cube in the checkered pattern.
 const CUBE: f64 = 0.5;
@@ -31,7 +31,7 @@ struct Border {
     distance: f64,
 }
 
-impl Motif {
+impl SurfacePattern {
     /// Cuts triangles along the borders of the pattern. Returns one set of triangles for each of [`colors`](super::Appearance::colors).
     /// `to_pattern` maps positions of the triangles to the coordinates of the pattern. `None` without a pattern, or if the pattern is too
     /// fine to be visible.
@@ -72,11 +72,13 @@ impl Motif {
             (axis, first + from * step, step, count.max(0.0))
         };
         let families = match self {
-            Motif::None => return None,
-            Motif::Checkered => [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CUBE)).to_vec(),
-            Motif::Striped => vec![counts(DVec3::Y, BAND / 2.0, BAND)],
-            Motif::Ground => [DVec3::X, DVec3::Z].map(|axis| counts(axis, 0.0, 1.0)).to_vec(),
-            Motif::BeachBall => {
+            SurfacePattern::None => return None,
+            SurfacePattern::Checkered => {
+                [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| counts(axis, 0.0, CUBE)).to_vec()
+            }
+            SurfacePattern::Striped => vec![counts(DVec3::Y, BAND / 2.0, BAND)],
+            SurfacePattern::Ground => [DVec3::X, DVec3::Z].map(|axis| counts(axis, 0.0, 1.0)).to_vec(),
+            SurfacePattern::BeachBall => {
                 let side = |i: u8| {
                     let (sine, cosine) = libm::sincos(FRAC_PI_3 * f64::from(i));
                     Border { normal: DVec3::new(sine, 0.0, cosine), distance: 0.0 }
@@ -99,12 +101,12 @@ impl Motif {
     fn color_at(self, at: DVec3) -> usize {
         let second_where = |even: f64| usize::from(even.rem_euclid(2.0) < 0.5);
         match self {
-            Motif::None => 0,
-            Motif::Checkered => second_where((at / CUBE).floor().element_sum()),
-            Motif::Striped => second_where((at.y / BAND + 0.5).floor()),
-            Motif::Ground => second_where(at.x.floor() + at.z.floor()),
-            Motif::BeachBall if at.y.abs() > POLE => 6,
-            Motif::BeachBall => {
+            SurfacePattern::None => 0,
+            SurfacePattern::Checkered => second_where((at / CUBE).floor().element_sum()),
+            SurfacePattern::Striped => second_where((at.y / BAND + 0.5).floor()),
+            SurfacePattern::Ground => second_where(at.x.floor() + at.z.floor()),
+            SurfacePattern::BeachBall if at.y.abs() > POLE => 6,
+            SurfacePattern::BeachBall => {
                 let sector = (libm::atan2(-at.z, at.x) / FRAC_PI_3).floor();
                 sector.rem_euclid(6.0) as usize % 6
             }
@@ -186,7 +188,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::{Detail, Form};
+    use crate::surface::{BaseShape, Detail};
 
     fn area(triangles: &Triangles) -> f64 {
         let at = |i: u32| Vec3::from_array(triangles.positions[i as usize]).as_dvec3();
@@ -194,24 +196,29 @@ mod tests {
         corners.map(|c| (at(c[1]) - at(c[0])).cross(at(c[2]) - at(c[0])).length() / 2.0).sum()
     }
 
-    fn parts(form: &Form, motif: Motif) -> (f64, Vec<f64>) {
+    fn parts(form: &BaseShape, pattern: SurfacePattern) -> (f64, Vec<f64>) {
         let triangles = form.triangles(Detail::Fine);
-        let parts = motif.split(&triangles, DAffine3::IDENTITY).unwrap();
+        let parts = pattern.split(&triangles, DAffine3::IDENTITY).unwrap();
         (area(&triangles), parts.iter().map(area).collect())
     }
 
     #[test]
     fn parts_make_up_the_whole() {
-        for form in [Form::BALL, Form::CUBE, Form::CYLINDER, Form::torus(0.3)] {
-            for motif in [Motif::Checkered, Motif::Striped, Motif::BeachBall, Motif::Ground] {
-                let (whole, parts) = parts(&form, motif);
+        for form in [BaseShape::BALL, BaseShape::CUBE, BaseShape::CYLINDER, BaseShape::torus(0.3)] {
+            for pattern in [
+                SurfacePattern::Checkered,
+                SurfacePattern::Striped,
+                SurfacePattern::BeachBall,
+                SurfacePattern::Ground,
+            ] {
+                let (whole, parts) = parts(&form, pattern);
                 assert!(
                     (parts.iter().sum::<f64>() / whole - 1.0).abs() < 1e-6,
-                    "{form:?} {motif:?}: {parts:?}"
+                    "{form:?} {pattern:?}: {parts:?}"
                 );
                 // The torus is too flat to reach the poles of the beach ball pattern.
                 let seen = parts.iter().filter(|part| **part > 0.0).count();
-                assert!(seen >= parts.len() - 1 && seen >= 2, "{form:?} {motif:?}: {parts:?}");
+                assert!(seen >= parts.len() - 1 && seen >= 2, "{form:?} {pattern:?}: {parts:?}");
             }
         }
     }
@@ -219,7 +226,7 @@ mod tests {
     /// On a ball, the area of a zone is proportional to its height (Archimedes), so the areas of all bands follow from their heights.
     #[test]
     fn bands_have_the_heights_that_the_scripts_give_them() {
-        let (whole, parts) = parts(&Form::BALL, Motif::Striped);
+        let (whole, parts) = parts(&BaseShape::BALL, SurfacePattern::Striped);
         // The second color covers five bands of full height: one at the equator, and two on each side from 0.33 to 0.55 and from 0.77 to
         // 0.99.
         assert!((parts[1] / whole - 5.0 * 0.22 / 2.0).abs() < 2e-3, "{}", parts[1] / whole);
@@ -227,27 +234,27 @@ mod tests {
 
     #[test]
     fn a_beach_ball_has_six_equal_sectors_and_two_poles() {
-        let (whole, parts) = parts(&Form::BALL, Motif::BeachBall);
+        let (whole, parts) = parts(&BaseShape::BALL, SurfacePattern::BeachBall);
         assert!((parts[6] / whole - (1.0 - POLE)).abs() < 2e-3, "{parts:?}");
         assert!(parts[..6].iter().all(|part| (part / parts[0] - 1.0).abs() < 1e-3), "{parts:?}");
-        let first = Motif::BeachBall.color_at(DVec3::new(0.9, 0.0, -0.1));
-        let last = Motif::BeachBall.color_at(DVec3::new(0.9, 0.0, 0.1));
+        let first = SurfacePattern::BeachBall.color_at(DVec3::new(0.9, 0.0, -0.1));
+        let last = SurfacePattern::BeachBall.color_at(DVec3::new(0.9, 0.0, 0.1));
         assert_eq!((first, last), (0, 5));
     }
 
     #[test]
     fn a_cube_of_the_checkered_pattern_is_where_the_scripts_have_it() {
-        assert_eq!(Motif::Checkered.color_at(DVec3::splat(0.25)), 1);
-        assert_eq!(Motif::Checkered.color_at(DVec3::new(-0.25, 0.25, 0.25)), 0);
-        let (whole, parts) = parts(&Form::CUBE, Motif::Checkered);
+        assert_eq!(SurfacePattern::Checkered.color_at(DVec3::splat(0.25)), 1);
+        assert_eq!(SurfacePattern::Checkered.color_at(DVec3::new(-0.25, 0.25, 0.25)), 0);
+        let (whole, parts) = parts(&BaseShape::CUBE, SurfacePattern::Checkered);
         assert!((parts[0] / whole - 0.5).abs() < 1e-9);
     }
 
     #[test]
     fn what_is_too_fine_to_be_seen_is_left_whole() {
-        let triangles = Form::PLANE.triangles(Detail::Fine);
+        let triangles = BaseShape::PLANE.triangles(Detail::Fine);
         let fine = DAffine3::from_scale(DVec3::splat(1e9));
-        assert!(Motif::Ground.split(&triangles, fine).is_none());
-        assert!(Motif::None.split(&triangles, DAffine3::IDENTITY).is_none());
+        assert!(SurfacePattern::Ground.split(&triangles, fine).is_none());
+        assert!(SurfacePattern::None.split(&triangles, DAffine3::IDENTITY).is_none());
     }
 }

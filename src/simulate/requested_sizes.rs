@@ -10,24 +10,24 @@ use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct RequestedSizes {
     /// The requested arrows for motion and force, in the order of bodies, then of [`Quantity::OF_BODIES`].
-    pub arrows: Vec<AskedArrow>,
+    pub arrows: Vec<RequestedArrow>,
     /// The requested arrows for weight and contact forces, in the order of bodies, then of [`Quantity::OF_LOADS`].
-    pub loads: Vec<AskedArrow>,
+    pub loads: Vec<RequestedArrow>,
     /// The requested trails, in the order of bodies.
-    pub trails: Vec<AskedTrail>,
+    pub trails: Vec<RequestedTrail>,
     /// The requested ghosts, in the order of bodies.
-    pub ghosts: Vec<AskedGhosts>,
+    pub ghosts: Vec<RequestedGhosts>,
     /// The drawn springs, in the order of the forces and their links.
-    pub springs: Vec<AskedSpring>,
+    pub springs: Vec<RequestedSpring>,
     /// The drawn sliders, in the order of the joints.
-    pub sliders: Vec<AskedSlider>,
+    pub sliders: Vec<RequestedSlider>,
 }
 
 /// A requested arrow of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedArrow {
+pub struct RequestedArrow {
     /// The index of the body.
     pub body: usize,
     /// The quantity that the arrow shows.
@@ -40,18 +40,18 @@ pub struct AskedArrow {
 
 /// A requested trail of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedTrail {
+pub struct RequestedTrail {
     /// The index of the body.
     pub body: usize,
     /// The first point of the trail, m. `None` until the body is present.
     begin: Option<DVec3>,
     /// The largest distance between the body and the first point of its trail, m.
-    pub way: f64,
+    pub largest_distance: f64,
 }
 
 /// The requested ghosts of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedGhosts {
+pub struct RequestedGhosts {
     /// The index of the body.
     pub body: usize,
     every: f64,
@@ -60,28 +60,28 @@ pub struct AskedGhosts {
     /// The pose of the first ghost: its location (m) and orientation. `None` before the time of the first ghost.
     stands: Option<(DVec3, DQuat)>,
     /// The largest distance between the body and its first ghost, m. `None` if there is no ghost.
-    pub way: Option<f64>,
+    pub largest_distance: Option<f64>,
     /// The largest rotation of the body relative to its first ghost, as the cosine of half the angle.
     pub turn: f64,
 }
 
 /// A drawn spring.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AskedSpring {
+pub struct RequestedSpring {
     /// The name of the force that the spring belongs to.
     pub force: String,
     /// The two ends of the spring.
     ends: [End; 2],
     /// The largest gap between the surfaces at the two ends of the spring, m. Negative if these surfaces overlap in all frames.
-    pub room: f64,
+    pub largest_gap: f64,
 }
 
 /// A slider whose rail is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AskedSlider {
+pub struct RequestedSlider {
     /// The index of the joint.
     pub joint: usize,
-    way: Coordinate,
+    coordinate: Coordinate,
     /// The smallest distance from the first end of the slider to the second end, along the axis, m. Negative if the second end is behind.
     pub least: f64,
     /// The largest distance from the first end of the slider to the second end, along the axis, m.
@@ -100,9 +100,9 @@ enum End {
     },
 }
 
-impl Asked {
+impl RequestedSizes {
     /// Lists the things that a scene requests, with their sizes before the first frame.
-    pub(super) fn new(scene: &Scene) -> Asked {
+    pub(super) fn new(scene: &Scene) -> RequestedSizes {
         let end = |anchor: Anchor| match anchor {
             Anchor::Point(point) => End::Point(point),
             Anchor::Body { id, at } => {
@@ -111,43 +111,54 @@ impl Asked {
                 End::Body { number: id.index(), at: at * body.look.scale, shape }
             }
         };
-        let mut asked = Asked::default();
+        let mut sizes = RequestedSizes::default();
         for (number, body) in scene.bodies.iter().enumerate() {
             for (quantity, arrow) in Quantity::OF_BODIES.into_iter().zip(body.showing.arrows) {
-                let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
-                asked.arrows.extend(arrow);
+                let arrow =
+                    arrow.map(|_| RequestedArrow { body: number, quantity, longest: 0.0, lost: None });
+                sizes.arrows.extend(arrow);
             }
             for (quantity, arrow) in Quantity::OF_LOADS.into_iter().zip(body.showing.loads) {
-                let arrow = arrow.map(|_| AskedArrow { body: number, quantity, longest: 0.0, lost: None });
-                asked.loads.extend(arrow);
+                let arrow =
+                    arrow.map(|_| RequestedArrow { body: number, quantity, longest: 0.0, lost: None });
+                sizes.loads.extend(arrow);
             }
-            let trail = body.showing.trail.map(|_| AskedTrail { body: number, begin: None, way: 0.0 });
-            asked.trails.extend(trail);
-            asked.ghosts.extend(body.showing.ghosts.map(|ghosts| AskedGhosts {
+            let trail = body.showing.trail.map(|_| RequestedTrail {
+                body: number,
+                begin: None,
+                largest_distance: 0.0,
+            });
+            sizes.trails.extend(trail);
+            sizes.ghosts.extend(body.showing.ghosts.map(|ghosts| RequestedGhosts {
                 body: number,
                 every: ghosts.every,
                 first: None,
                 stands: None,
-                way: None,
+                largest_distance: None,
                 turn: 1.0,
             }));
         }
         for force in &scene.forces {
             let ForceKind::Spring { links, look: Some(_) } = &force.kind else { continue };
-            asked.springs.extend(links.iter().map(|link| AskedSpring {
+            sizes.springs.extend(links.iter().map(|link| RequestedSpring {
                 force: force.name.clone(),
                 ends: link.between.map(end),
-                room: f64::NEG_INFINITY,
+                largest_gap: f64::NEG_INFINITY,
             }));
         }
         for (number, joint) in scene.joints.iter().enumerate() {
             let JointKind::Slider(slider) = &joint.kind else { continue };
             if joint.look.is_some() {
                 let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
-                asked.sliders.push(AskedSlider { joint: number, way: slider.coordinate(), least, most });
+                sizes.sliders.push(RequestedSlider {
+                    joint: number,
+                    coordinate: slider.coordinate(),
+                    least,
+                    most,
+                });
             }
         }
-        asked
+        sizes
     }
 
     /// Updates the sizes with the next frame of the run and the weights and contact forces in this frame.
@@ -165,7 +176,7 @@ impl Asked {
             let at = scene.bodies[trail.body].showing.trail.map_or(DVec3::ZERO, |trail| trail.at);
             let (place, _) = body.point(at * scene.bodies[trail.body].look.scale);
             let begin = *trail.begin.get_or_insert(place);
-            trail.way = trail.way.max(begin.distance(place));
+            trail.largest_distance = trail.largest_distance.max(begin.distance(place));
         }
         for ghosts in &mut self.ghosts {
             if let Some(body) = frame.body(ghosts.body) {
@@ -176,13 +187,13 @@ impl Asked {
             let [Some(from), Some(to)] = spring.ends.each_ref().map(|end| end.place(frame)) else { continue };
             let along = (to - from).normalize_or_zero();
             let inside = spring.ends[0].depth(frame, along) + spring.ends[1].depth(frame, -along);
-            spring.room = spring.room.max(from.distance(to) - inside);
+            spring.largest_gap = spring.largest_gap.max(from.distance(to) - inside);
         }
         self.sliders.iter_mut().for_each(|slider| slider.see(frame));
     }
 }
 
-impl AskedGhosts {
+impl RequestedGhosts {
     fn see(&mut self, body: &BodySnapshot, time: f64, slack: f64) {
         let every = self.every;
         let first = *self.first.get_or_insert_with(|| ((time - slack) / every).ceil() * every);
@@ -190,12 +201,13 @@ impl AskedGhosts {
             return;
         }
         let (location, turn) = *self.stands.get_or_insert((body.location, body.orientation));
-        self.way = Some(self.way.unwrap_or(0.0).max(location.distance(body.location)));
+        self.largest_distance =
+            Some(self.largest_distance.unwrap_or(0.0).max(location.distance(body.location)));
         self.turn = self.turn.min(turn.dot(body.orientation).abs());
     }
 }
 
-impl AskedArrow {
+impl RequestedArrow {
     fn see(&mut self, body: &Body, frame: &BodySnapshot, time: f64) {
         let vector = shown(self.quantity, body, frame);
         let scale =
@@ -209,16 +221,16 @@ impl AskedArrow {
     }
 }
 
-impl AskedSlider {
+impl RequestedSlider {
     fn see(&mut self, frame: &Frame) {
         let pose = |end: Anchor| match end.body() {
             Some(id) => frame.body(id.index()).map(|body| (body.location, body.orientation)),
             None => Some((DVec3::ZERO, DQuat::IDENTITY)),
         };
-        let [first, second] = self.way.between;
+        let [first, second] = self.coordinate.between;
         let (Some(one), Some(other)) = (pose(first), pose(second)) else { return };
         let apart = second.place(|_| other) - first.place(|_| one);
-        let along = apart.dot(one.1 * self.way.axis);
+        let along = apart.dot(one.1 * self.coordinate.axis);
         self.least = self.least.min(along);
         self.most = self.most.max(along);
     }
@@ -253,22 +265,22 @@ mod tests {
     use crate::simulate::survey;
 
     #[test]
-    fn the_longest_vectors_ways_and_rooms_of_a_run_are_kept() {
+    fn the_longest_vectors_distances_and_gaps_of_a_run_are_kept() {
         let text = "simulation = { duration = 2, gravity = [0, -10, 0] }
             [body.ball]\nshape.sphere.radius = 0.5\nlocation = [3, 0, 0]\nvelocity = [0, 5, 0]\ntrail = true
             arrows.velocity = true
             [body.wall]\nshape.box.size = [1, 9, 9]\nfixed = true
             [force.s.spring]\nbetween = ['wall', 'ball', [9, 0, 0]]\nstiffness = 0";
-        let asked = survey(&Scene::parse(text).unwrap(), |_| {}).unwrap().asked;
-        let [velocity] = asked.arrows[..] else { panic!("one is asked for") };
+        let sizes = survey(&Scene::parse(text).unwrap(), |_| {}).unwrap().requested;
+        let [velocity] = sizes.arrows[..] else { panic!("one is asked for") };
         // The velocity changes from 5 m/s upward to 15 m/s downward.
         assert!((velocity.longest - 15.0).abs() < 1e-9 && velocity.lost.is_none(), "{velocity:?}");
         // The ball returns to its start, then falls to 10 m below. The method's error is at most v·dt.
-        assert!((asked.trails[0].way - 10.0).abs() < 0.1, "{:?}", asked.trails);
+        assert!((sizes.trails[0].largest_distance - 10.0).abs() < 0.1, "{:?}", sizes.trails);
         // At the end, the ball is 10 m below its start: √(3² + 10²) m from the center of the wall. The wall covers 0.5/3 of this distance,
         // and the ball 0.5 m.
         let far = libm::hypot(3.0, 10.0);
-        let [wall, _] = &asked.springs[..] else { panic!("a chain of two") };
-        assert!((wall.room - (far * 2.5 / 3.0 - 0.5)).abs() < 0.1, "{wall:?}");
+        let [wall, _] = &sizes.springs[..] else { panic!("a chain of two") };
+        assert!((wall.largest_gap - (far * 2.5 / 3.0 - 0.5)).abs() < 0.1, "{wall:?}");
     }
 }
