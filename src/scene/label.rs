@@ -194,15 +194,15 @@ pub enum BodyMeasure {
     /// A component of the body's velocity, m/s. The number is the axis: 0 for x, 1 for y, 2 for z.
     Velocity(usize),
     /// The magnitude of the body's acceleration, m/s².
-    Accelerating,
+    AccelerationMagnitude,
     /// A component of the body's acceleration, m/s². The number is the axis: 0 for x, 1 for y, 2 for z.
     Acceleration(usize),
     /// The magnitude of the net force on the body, N.
-    Pull,
+    ForceMagnitude,
     /// A component of the net force on the body, N. The number is the axis: 0 for x, 1 for y, 2 for z.
     Force(usize),
     /// The magnitude of the body's angular velocity, rad/s.
-    Spin,
+    AngularSpeed,
     /// The mass of the body, kg.
     Mass,
     /// The magnitude of the body's momentum, kg·m/s.
@@ -223,15 +223,15 @@ impl BodyMeasure {
         ("vx", BodyMeasure::Velocity(0), "its velocity, m/s"),
         ("vy", BodyMeasure::Velocity(1), "its velocity, m/s"),
         ("vz", BodyMeasure::Velocity(2), "its velocity, m/s"),
-        ("acceleration", BodyMeasure::Accelerating, "the size of its acceleration, m/s²"),
+        ("acceleration", BodyMeasure::AccelerationMagnitude, "the size of its acceleration, m/s²"),
         ("ax", BodyMeasure::Acceleration(0), "its acceleration, m/s²"),
         ("ay", BodyMeasure::Acceleration(1), "its acceleration, m/s²"),
         ("az", BodyMeasure::Acceleration(2), "its acceleration, m/s²"),
-        ("force", BodyMeasure::Pull, "the size of the sum of the forces on it, N"),
+        ("force", BodyMeasure::ForceMagnitude, "the size of the sum of the forces on it, N"),
         ("fx", BodyMeasure::Force(0), "the sum of the forces on it, N"),
         ("fy", BodyMeasure::Force(1), "the sum of the forces on it, N"),
         ("fz", BodyMeasure::Force(2), "the sum of the forces on it, N"),
-        ("spin", BodyMeasure::Spin, "the size of its angular velocity, rad/s"),
+        ("spin", BodyMeasure::AngularSpeed, "the size of its angular velocity, rad/s"),
         ("mass", BodyMeasure::Mass, "its mass, kg"),
         ("momentum", BodyMeasure::Momentum, "the size of its momentum, kg·m/s"),
         ("kinetic", BodyMeasure::Kinetic, "its kinetic energy, of translation and rotation, J"),
