@@ -11,16 +11,16 @@ const PIECES: u32 = 10;
 const FARTHEST: f64 = 3.0;
 
 /// The path of a rope from one end over one or two wheels to the other end.
-pub(super) struct Course {
+pub(super) struct RopePath {
     ends: [DVec3; 2],
     /// The corners of the rope, as if the wheels had no size, m.
     over: [DVec3; 2],
     /// The arcs around the wheels.
-    pub(super) turns: Vec<Turn>,
+    pub(super) turns: Vec<WheelArc>,
 }
 
 /// The arc of a rope around a wheel.
-pub(super) struct Turn {
+pub(super) struct WheelArc {
     /// The center of the wheel, m.
     pub(super) centre: DVec3,
     /// The axis of the wheel, a unit vector.
@@ -29,16 +29,16 @@ pub(super) struct Turn {
     points: Vec<DVec3>,
 }
 
-impl Course {
+impl RopePath {
     /// Computes the path from the first point over two corners to the last point, m, with wheels of the given radius. Coinciding corners
     /// share one wheel.
-    pub(super) fn new([from, first, second, to]: [DVec3; 4], radius: f64) -> Course {
+    pub(super) fn new([from, first, second, to]: [DVec3; 4], radius: f64) -> RopePath {
         let turns = if first.distance(second) > 1e-9 * first.distance(from) {
-            vec![Turn::new(from, first, second, radius), Turn::new(first, second, to, radius)]
+            vec![WheelArc::new(from, first, second, radius), WheelArc::new(first, second, to, radius)]
         } else {
-            vec![Turn::new(from, first, to, radius)]
+            vec![WheelArc::new(from, first, to, radius)]
         };
-        Course { ends: [from, to], over: [first, second], turns }
+        RopePath { ends: [from, to], over: [first, second], turns }
     }
 
     /// The points of the rope, m. Half of the slack hangs in each outer part. The last part counts `ratio` times in `length`, as in a
@@ -64,9 +64,9 @@ impl Course {
     }
 }
 
-impl Turn {
+impl WheelArc {
     /// Places a wheel into the corner of a rope from `from` over `corner` to `to`, so that it touches both parts of the rope.
-    fn new(from: DVec3, corner: DVec3, to: DVec3, radius: f64) -> Turn {
+    fn new(from: DVec3, corner: DVec3, to: DVec3, radius: f64) -> WheelArc {
         let back = (from - corner).normalize_or(DVec3::NEG_Y);
         let on = (to - corner).normalize_or(DVec3::NEG_Y);
         let across = |way: DVec3| way.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
@@ -101,7 +101,7 @@ impl Turn {
             // An end of the rope is inside the wheel.
             _ => vec![corner],
         };
-        Turn { centre, axis, points }
+        WheelArc { centre, axis, points }
     }
 }
 
@@ -113,7 +113,7 @@ mod tests {
     fn a_rope_goes_straight_to_its_wheels_and_around_them() {
         // The rope goes up, across and down again. The wheels are inside its corners.
         let corners = [[-1.0, 0.0], [-1.0, 2.0], [1.0, 2.0], [1.0, -3.0]];
-        let course = Course::new(corners.map(|[x, y]| DVec3::new(x, y, 0.0)), 0.1);
+        let course = RopePath::new(corners.map(|[x, y]| DVec3::new(x, y, 0.0)), 0.1);
         let centres: Vec<DVec3> = course.turns.iter().map(|turn| turn.centre).collect();
         assert!(centres[0].abs_diff_eq(DVec3::new(-0.9, 1.9, 0.0), 1e-12), "{centres:?}");
         assert!(centres[1].abs_diff_eq(DVec3::new(0.9, 1.9, 0.0), 1e-12), "{centres:?}");
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn what_there_is_too_much_of_a_rope_hangs() {
         let corners = [[-1.0, 0.0], [0.0, 2.0], [0.0, 2.0], [1.0, 0.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
-        let course = Course::new(corners, 0.1);
+        let course = RopePath::new(corners, 0.1);
         assert_eq!(course.turns.len(), 1);
         let length = |slack: f64| {
             let points = course.points(2.0 * 5.0_f64.sqrt() + slack, 1.0, Some(DVec3::NEG_Y));

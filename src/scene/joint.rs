@@ -117,14 +117,14 @@ impl JointKind {
 
 /// A joint coordinate that the scene prescribes as a function of time.
 #[derive(Clone, Debug)]
-pub struct Course {
+pub struct PrescribedCoordinate {
     /// The number or formula of the time, in the scene's unit.
     pub value: Timed,
     /// The factor that converts the scene's unit to SI units, such as π/180 for degrees.
     pub unit: f64,
 }
 
-impl Target for Course {
+impl Target for PrescribedCoordinate {
     fn at(&self, t: f64) -> [f64; 3] {
         [self.value.at(t), self.value.rate(t), self.value.curvature(t)].map(|value| self.unit * value)
     }

@@ -41,7 +41,7 @@ pub use contact::{Collider, ContactLaw};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};
-pub use joint::{Course, Joint, JointKind, JointLook};
+pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{
     BodyMeasure, Corner, Format, Grid, GridPlane, JointMeasure, Label, LabelPlace, Measure, Piece,
     RunMeasure, ScaleBar, Side,

@@ -7,7 +7,7 @@ mod plan;
 use glam::{DQuat, DVec3};
 
 use super::catenary::hanging;
-use super::pulley::{Course, Turn};
+use super::pulley::{RopePath, WheelArc};
 use crate::dynamics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, Scene};
 use crate::simulate::{Frame, Survey, surface};
@@ -255,7 +255,7 @@ impl Links {
                 LinkShape::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
             }
             PlannedShape::Wheel { pulley, number, wheel, half_width } => {
-                let Turn { centre, axis, .. } = *self.course(&pulley, wheel, frame).turns.get(number)?;
+                let WheelArc { centre, axis, .. } = *self.course(&pulley, wheel, frame).turns.get(number)?;
                 LinkShape::Rod {
                     ends: [-half_width, half_width].map(|way| centre + way * axis),
                     radius: wheel,
@@ -266,10 +266,10 @@ impl Links {
     }
 
     /// The path of a pulley's rope over wheels with the given radius, m.
-    fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> Course {
+    fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> RopePath {
         let [from, to] = pulley.between.map(|end| self.place(end, frame));
         let [first, second] = pulley.over.map(|end| self.place(end, frame));
-        Course::new([from, first, second, to], wheel)
+        RopePath::new([from, first, second, to], wheel)
     }
 
     /// The drawn position of an anchor in the world, m. On a body that is drawn larger, the anchor is proportionally farther from the

@@ -8,7 +8,7 @@ use crate::dynamics::{Coordinate, Freedom, Motor, Servo};
 use crate::scene::check::motion;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
-use crate::scene::joint::Course;
+use crate::scene::joint::PrescribedCoordinate;
 
 /// The unit, symbol and keys for the coordinate of a joint: an angle for a hinge, a distance for a slider.
 struct Words {
@@ -37,7 +37,7 @@ impl Reader<'_, '_> {
         let Some(motor) = view.variant("motor") else { return (Freedom { limits, motor: None }, None) };
         if let Some(value) = motor.timed(words.value) {
             motion::finite(motor.raw(words.value), self.simulation, self.context);
-            let target = Arc::new(Course { value, unit: words.unit });
+            let target = Arc::new(PrescribedCoordinate { value, unit: words.unit });
             let servo = motor.number("stiffness").map(|stiffness| Servo {
                 coordinate,
                 target: target.clone(),
@@ -119,7 +119,7 @@ impl Reader<'_, '_> {
 
     /// Reports a motor without a stiffness whose target is not 0 at time 0. The joint would have to jump, because its coordinate starts at
     /// 0.
-    fn begins_at_zero(&mut self, motor: &View<'_>, target: &Course, words: &Words) {
+    fn begins_at_zero(&mut self, motor: &View<'_>, target: &PrescribedCoordinate, words: &Words) {
         let value = target.value.at(0.0);
         if value.abs() * words.unit > 1e-9 {
             let message = format!("the motor of the joint `{}` would have to jump at the start", self.name);
