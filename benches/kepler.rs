@@ -86,5 +86,5 @@ fn begin(method: &'static Method, tolerance: f64, turn: DQuat) -> (DVec3, Box<dy
         opening_angle: None,
     });
     let end = ORBITS * std::f64::consts::TAU;
-    (at, method.ahead.unwrap()(world, Accuracy { tolerance, end }))
+    (at, method.take_over.unwrap()(world, Accuracy { tolerance, end }))
 }

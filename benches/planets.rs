@@ -79,5 +79,5 @@ fn begin(method: &'static Method, tolerance: f64) -> Box<dyn Dynamics> {
     }
     let bodies = (0..bodies.len()).map(BodyId::new).collect();
     world.add_force(Gravitation { bodies, against: None, constant, softening: 0.0, opening_angle: None });
-    method.ahead.unwrap()(world, Accuracy { tolerance, end: YEARS })
+    method.take_over.unwrap()(world, Accuracy { tolerance, end: YEARS })
 }

@@ -81,7 +81,7 @@ static POSITION_VERLET: Method = Method {
     adaptive: false,
     summary: "second order, symplectic, one evaluation of forces in the middle of a step",
     create: || Box::new(PositionVerlet::default()),
-    ahead: None,
+    take_over: None,
 };
 
 #[derive(Clone, Default)]

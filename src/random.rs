@@ -25,11 +25,11 @@ impl Stream {
     /// Returns one of 2⁶⁴ independent streams for the same path. Each starts from its beginning, regardless of the numbers drawn from
     /// `self` so far.
     #[must_use]
-    pub fn branch(&self, number: u64) -> Stream {
-        let mut branch = self.0.clone();
-        branch.set_stream(number);
-        branch.set_word_pos(0);
-        Stream(branch)
+    pub fn substream(&self, number: u64) -> Stream {
+        let mut substream = self.0.clone();
+        substream.set_stream(number);
+        substream.set_word_pos(0);
+        Stream(substream)
     }
 
     /// Draws a uniformly distributed number from 0 to 1, excluding 1.
@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn branches_do_not_depend_on_what_was_drawn_before() {
         let mut stream = Stream::new(0, "a");
-        let first = |stream: &Stream, number| stream.branch(number).uniform();
+        let first = |stream: &Stream, number| stream.substream(number).uniform();
         let before = [0, 1, 2].map(|number| first(&stream, number));
         stream.uniform();
         assert_eq!([0, 1, 2].map(|number| first(&stream, number)), before);

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 use std::{env, fs, io};
 
-use crate::dynamics::Effort;
+use crate::dynamics::PairCounter;
 use crate::scene::Scene;
 use crate::simulate::{Counts, Frame, Moments, Recorded, Recorder, Recording, SimulateError};
 
@@ -138,7 +138,7 @@ impl Cache {
         &self,
         scene: &'a Scene,
         moments: Moments,
-        effort: &Effort,
+        effort: &PairCounter,
         seen: impl FnMut(&Frame),
     ) -> Result<Recorded<'a>, SimulateError> {
         let recorded = self.run_to_breakdown(scene, moments, effort, seen)?;
@@ -155,7 +155,7 @@ impl Cache {
         &self,
         scene: &'a Scene,
         moments: Moments,
-        effort: &Effort,
+        effort: &PairCounter,
         mut seen: impl FnMut(&Frame),
     ) -> Result<Recorded<'a>, SimulateError> {
         if let Some(recording) = self.find(scene, &moments) {
@@ -197,7 +197,7 @@ impl Cache {
         &self,
         scene: &'a Scene,
         moments: &Moments,
-        effort: &Effort,
+        effort: &PairCounter,
         seen: &mut dyn FnMut(&Frame),
     ) -> Option<(Spill, Recorder<'a>)> {
         let folder = self.folder.clone().filter(|_| digest::is_worth_keeping(scene))?;
@@ -302,7 +302,7 @@ impl Cache {
 /// # Errors
 /// If a value of the run becomes non-finite, or the disk has no space for the recording.
 pub fn simulate(scene: &Scene) -> Result<Recorded<'_>, SimulateError> {
-    Cache::none().run(scene, Moments::of(scene), &Effort::default(), |_| {})
+    Cache::none().run(scene, Moments::of(scene), &PairCounter::default(), |_| {})
 }
 
 /// A file in the cache folder, with its size in bytes and the time of its last use.

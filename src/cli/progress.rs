@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use jabuka::Scene;
-use jabuka::dynamics::Effort;
+use jabuka::dynamics::PairCounter;
 use jabuka::output::OutputError;
 use jabuka::simulate::Workload;
 
@@ -27,7 +27,7 @@ pub(super) struct Progress(Arc<Shared>);
 struct Shared {
     bar: ProgressBar,
     start: Instant,
-    effort: Effort,
+    pair_counter: PairCounter,
     workload: Workload,
     steps: Mutex<Steps>,
 }
@@ -74,8 +74,8 @@ impl Progress {
         bar.set_message(what);
         bar.enable_steady_tick(LOOK);
         let steps = Mutex::new(Steps { shown: true, ..Steps::default() });
-        let (effort, workload) = (Effort::default(), Workload::default());
-        Progress(Arc::new(Shared { bar, start: Instant::now(), effort, workload, steps }))
+        let (pair_counter, workload) = (PairCounter::default(), Workload::default());
+        Progress(Arc::new(Shared { bar, start: Instant::now(), pair_counter, workload, steps }))
     }
 
     fn with(length: u64, workload: Workload, template: &str) -> Progress {
@@ -85,8 +85,8 @@ impl Progress {
         }
         let steps = Mutex::new(Steps { shown: !std::io::stderr().is_terminal(), ..Steps::default() });
         let is_watched = !steps.lock().unwrap_or_else(PoisonError::into_inner).shown;
-        let effort = Effort::default();
-        let shared = Arc::new(Shared { bar, start: Instant::now(), effort, workload, steps });
+        let pair_counter = PairCounter::default();
+        let shared = Arc::new(Shared { bar, start: Instant::now(), pair_counter, workload, steps });
         if is_watched {
             let weak = Arc::downgrade(&shared);
             std::thread::spawn(move || look(&weak));
@@ -95,8 +95,8 @@ impl Progress {
     }
 
     /// Returns the counter of computed interactions. The simulation increments it, and the bar shows its progress.
-    pub(super) fn effort(&self) -> &Effort {
-        &self.0.effort
+    pub(super) fn pair_counter(&self) -> &PairCounter {
+        &self.0.pair_counter
     }
 
     /// Shows the name of the current phase beside the bar.
@@ -115,7 +115,7 @@ impl Progress {
         let mut steps = shared.steps.lock().unwrap_or_else(PoisonError::into_inner);
         steps.position = steps.position.saturating_add(weight(shared.workload, steps.done));
         steps.done += 1;
-        steps.before = shared.effort.done();
+        steps.before = shared.pair_counter.done();
         shared.show(&mut steps);
     }
 
@@ -137,7 +137,7 @@ impl Shared {
     fn show(&self, steps: &mut Steps) {
         // Within a step, the bar stops one unit before the step's end. Only [`Progress::step`] completes a step.
         let most = weight(self.workload, steps.done).saturating_sub(1);
-        let within = self.effort.done().saturating_sub(steps.before).min(most);
+        let within = self.pair_counter.done().saturating_sub(steps.before).min(most);
         self.bar.set_position(steps.position.saturating_add(within));
         if !steps.shown && self.start.elapsed() > LATE {
             steps.shown = true;
@@ -186,7 +186,7 @@ mod tests {
             shared.bar.position()
         };
         assert_eq!(position(), 0);
-        let mut frames = jabuka::simulate::Frames::watched(&scene, progress.effort());
+        let mut frames = jabuka::simulate::Frames::watched(&scene, progress.pair_counter());
         frames.next();
         let first = position();
         assert!(first > 0, "a frame is computed, and no step is done");

@@ -118,7 +118,7 @@ pub(super) fn simulated<'a>(
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
-    let recorded = cache.run(scene, moments, progress.effort(), |_| progress.step())?;
+    let recorded = cache.run(scene, moments, progress.pair_counter(), |_| progress.step())?;
     say_resumed(&recorded, progress);
     Ok(recorded)
 }
@@ -131,7 +131,7 @@ pub(super) fn simulated_to_breakdown<'a>(
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
     let recorded =
-        cache.run_to_breakdown(scene, Moments::of(scene), progress.effort(), |_| progress.step())?;
+        cache.run_to_breakdown(scene, Moments::of(scene), progress.pair_counter(), |_| progress.step())?;
     say_resumed(&recorded, progress);
     Ok(recorded)
 }

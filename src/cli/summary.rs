@@ -59,7 +59,7 @@ pub(super) fn summary(
         particles = particles(scene),
         steps = if scene.simulation.method.adaptive {
             format!("as the tolerance of {} asks for", short(scene.simulation.tolerance))
-        } else if scene.simulation.method.ahead.is_some() {
+        } else if scene.simulation.method.take_over.is_some() {
             format!("{} s", short(scene.simulation.step))
         } else {
             format!("{} s, {} a frame", short(survey.timestep), survey.steps_per_frame)

@@ -20,7 +20,7 @@
 //! | many small bodies from a source | [`ParticleSource`], [`Cloud`] |
 //! | all of these together, with a clock | [`World`] |
 //! | many bodies in contact, at fixed steps | [`TimeStepping`] |
-//! | few bodies, by adaptive methods | [`Method::ahead`], its [`Accuracy`] |
+//! | few bodies, by adaptive methods | [`Method::take_over`], its [`Accuracy`] |
 //! | the interface for the rest of the program | [`Dynamics`] |
 //!
 //! # Tutorial
@@ -71,18 +71,18 @@
 //! assert_eq!(again.state(), world.state());
 //! ```
 
-mod ahead;
 mod anchor;
 mod body;
 mod constraint;
 mod contact;
-mod effort;
 mod energy;
 mod force;
+mod frame_independent;
 mod integrator;
 mod loads;
 mod model;
 mod motion;
+mod pair_counter;
 mod particles;
 mod presence;
 mod sets;
@@ -96,21 +96,21 @@ mod system;
 mod track;
 mod world;
 
-pub use ahead::Accuracy;
 pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
 pub use constraint::*;
-pub use contact::{ContactSnapshot, Contacts, Impact, Meeting, Surface};
-pub use effort::Effort;
+pub use contact::{ContactProperties, ContactSnapshot, Contacts, Impact, Surface};
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
-pub use integrator::{AHEAD, DenseOutput, Integrator, METHODS, Method, Step, TakeOver};
+pub use frame_independent::Accuracy;
+pub use integrator::{DenseOutput, FRAME_INDEPENDENT, Integrator, METHODS, Method, Step, TakeOver};
 pub use loads::Loads;
 pub use model::Model;
 pub use motion::{Kinematics, Motion};
+pub use pair_counter::PairCounter;
 pub use particles::*;
 pub use presence::Presence;
-pub use shape::{Compound, Flaw, Immersed, Mesh, Part, Placed, Shape, cone_base};
+pub use shape::{Compound, Flaw, Mesh, Part, Placed, Shape, Submerged, cone_base};
 pub(crate) use snapshot::find;
 pub use snapshot::{BodySnapshot, Breakdown, Snapshot};
 pub use softness::suitable_step;

@@ -12,7 +12,7 @@ use glam::{DQuat, DVec3};
 
 use self::away::Away;
 use self::sparse::Sparse;
-use super::{Breakdown, Constraint, Effort, Force, Gravitation, Motion, RigidBody, Shape, State};
+use super::{Breakdown, Constraint, Force, Gravitation, Motion, PairCounter, RigidBody, Shape, State};
 
 /// The constants of the equations of motion: masses, inertia and forces. With a [`State`], the model determines x' = v, v' = F/m, L' = τ
 /// and q' = ½ ω q, where ω = R I⁻¹ Rᵀ L.
@@ -40,7 +40,7 @@ pub struct Model {
     torqued: Vec<usize>,
     forces: Vec<Arc<dyn Force>>,
     constraints: Vec<Arc<dyn Constraint>>,
-    effort: Effort,
+    pair_counter: PairCounter,
     /// The indices of the bodies that are advanced at present; `None` if all are.
     focus: Option<Vec<usize>>,
 }
@@ -206,12 +206,12 @@ impl Model {
     }
 
     /// Returns the counter of computed pair interactions, for progress bars.
-    pub(super) fn effort(&self) -> &Effort {
-        &self.effort
+    pub(super) fn pair_counter(&self) -> &PairCounter {
+        &self.pair_counter
     }
 
-    pub(super) fn watch(&mut self, effort: Effort) {
-        self.effort = effort;
+    pub(super) fn watch(&mut self, pair_counter: PairCounter) {
+        self.pair_counter = pair_counter;
     }
 
     /// Reserves memory for this many more bodies.

@@ -46,7 +46,7 @@ impl Presence {
 
     /// Returns true if the body is present at some time from `start` to `end`, s.
     #[must_use]
-    pub fn meets(&self, start: f64, end: f64) -> bool {
+    pub fn overlaps(&self, start: f64, end: f64) -> bool {
         self.intervals().iter().any(|[from, to]| *from <= end && start <= *to)
     }
 
@@ -93,7 +93,7 @@ struct Event {
 
 /// The schedule of the births and deaths of all bodies in a run.
 #[derive(Clone, Default)]
-pub(super) struct Calendar {
+pub(super) struct PresenceSchedule {
     /// The births and deaths. They are in order of time if `is_sorted` is true.
     events: Vec<Event>,
     /// The number of events at the beginning of the list that have already happened.
@@ -114,7 +114,7 @@ pub(super) struct Leg<'a> {
     pub(super) later: &'a [f64],
 }
 
-impl Calendar {
+impl PresenceSchedule {
     /// Schedules the births and deaths of a body after time `t`, s. Returns true if the body is present at `t`.
     pub(super) fn note(&mut self, body: usize, presence: &Presence, t: f64) -> bool {
         self.events.drain(..std::mem::take(&mut self.over));
@@ -176,7 +176,7 @@ impl Calendar {
 
 /// Functions for the checkpoints of the engine for time-stepping.
 #[cfg(feature = "time-stepping")]
-impl Calendar {
+impl PresenceSchedule {
     /// Returns the number of births and deaths that have already happened.
     pub(super) fn over(&self) -> usize {
         self.over
@@ -204,8 +204,8 @@ mod tests {
         assert_eq!(presence.first_from(0.0), Some(0.5));
         assert_eq!(presence.first_from(0.7), Some(0.7));
         assert_eq!(presence.first_from(1.5), Some(2.0));
-        assert!(presence.meets(0.0, 0.5) && !presence.meets(1.2, 1.8) && presence.meets(1.2, 2.1));
-        assert!(Presence::ALWAYS.at(-1e9) && Presence::ALWAYS.meets(0.0, 0.0));
+        assert!(presence.overlaps(0.0, 0.5) && !presence.overlaps(1.2, 1.8) && presence.overlaps(1.2, 2.1));
+        assert!(Presence::ALWAYS.at(-1e9) && Presence::ALWAYS.overlaps(0.0, 0.0));
         assert_eq!(Presence::during(&[]).first_from(0.0), None);
     }
 
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn at_one_time_births_come_on_arrival_and_deaths_on_departure() {
-        let mut calendar = Calendar::default();
+        let mut calendar = PresenceSchedule::default();
         assert!(calendar.note(0, &Presence::during(&[[-1.0, 1.0]]), 0.0));
         assert!(!calendar.note(1, &Presence::during(&[[1.0, 1.0], [2.0, 3.0]]), 0.0));
         assert_eq!(calendar.next(), Some(1.0));

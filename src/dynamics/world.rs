@@ -19,11 +19,11 @@ use self::picture::{picture, push_crowd};
 use self::rest::Rest;
 use super::constraint::Solver;
 use super::contact::Collider;
-use super::presence::Calendar;
+use super::presence::PresenceSchedule;
 use super::{
-    Balance, BodyId, Breakdown, Constraint, ContactSnapshot, Contacts, Dynamics, Effort, EnergyLedger, Force,
-    Impact, Integrator, Loads, METHODS, Method, Model, Motion, Presence, RigidBody, Shape, Snapshot, State,
-    System,
+    Balance, BodyId, Breakdown, Constraint, ContactSnapshot, Contacts, Dynamics, EnergyLedger, Force, Impact,
+    Integrator, Loads, METHODS, Method, Model, Motion, PairCounter, Presence, RigidBody, Shape, Snapshot,
+    State, System,
 };
 
 /// The default longest time step of a world, s.
@@ -45,7 +45,7 @@ pub struct World {
     /// True if the state satisfies the constraints, because nothing has changed from outside since the last correction.
     is_settled: bool,
     ledger: EnergyLedger,
-    calendar: Calendar,
+    calendar: PresenceSchedule,
     /// The search for contacts between bodies; `None` if bodies do not collide.
     collider: Option<Collider>,
     /// The bodies held at rest, with their contacts.
@@ -75,7 +75,7 @@ pub(super) struct Parts {
     pub(super) model: Model,
     pub(super) state: State,
     pub(super) ledger: EnergyLedger,
-    pub(super) calendar: Calendar,
+    pub(super) calendar: PresenceSchedule,
 }
 
 impl World {
@@ -93,7 +93,7 @@ impl World {
             solver: Solver::default(),
             is_settled: true,
             ledger: EnergyLedger::new(),
-            calendar: Calendar::default(),
+            calendar: PresenceSchedule::default(),
             collider: None,
             rest: Rest::default(),
             crowd: Vec::new(),
@@ -311,9 +311,9 @@ impl World {
         self.ledger.measure(&self.model, self.time, &self.state)
     }
 
-    /// Counts the pair interactions in `effort` from now on.
-    pub fn watch(&mut self, effort: &Effort) {
-        self.model.watch(effort.clone());
+    /// Counts the pair interactions in `pair_counter` from now on.
+    pub fn watch(&mut self, pair_counter: &PairCounter) {
+        self.model.watch(pair_counter.clone());
     }
 
     /// Returns the number of bodies in the world.

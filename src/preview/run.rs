@@ -12,7 +12,7 @@ use super::panicked::caught;
 use super::swarms;
 use crate::cache::{Cache, Spill};
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::dynamics::Effort;
+use crate::dynamics::PairCounter;
 use crate::picture::Plan;
 use crate::simulate::{
     Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, Survey,
@@ -205,7 +205,7 @@ impl PreviewRun {
         let (begun, mut told) = (Instant::now(), Instant::now());
         let spill = self.cache.spill(scene, &self.moments);
         let mut recorder =
-            Recorder::new(scene, self.moments.clone(), &Effort::default(), Box::new(spill.clone()));
+            Recorder::new(scene, self.moments.clone(), &PairCounter::default(), Box::new(spill.clone()));
         self.show(Arc::clone(recorder.recording()));
         while recorder.advance().map_err(|error| error.report())?.is_some() {
             if self.cancelled.load(Ordering::Relaxed) {

@@ -24,7 +24,7 @@ impl Setting {
     pub(super) fn of(scene: &Scene) -> Setting {
         let interval = 1.0 / scene.simulation.frame_rate;
         let method = scene.simulation.method;
-        let steps = if method.ahead.is_some() { 1 } else { world(scene).steps_within(interval) };
+        let steps = if method.take_over.is_some() { 1 } else { world(scene).steps_within(interval) };
         Setting::new(method, steps, scene)
     }
 
@@ -42,7 +42,7 @@ impl Setting {
 
     /// Returns the timestep, s. `None` if the method is adaptive.
     pub(super) fn timestep(self, scene: &Scene) -> Option<f64> {
-        match (self.method.adaptive, self.method.ahead) {
+        match (self.method.adaptive, self.method.take_over) {
             (true, _) => None,
             (false, Some(_)) => Some(self.step / f64::from(self.steps)),
             (false, None) => Some(1.0 / scene.simulation.frame_rate / f64::from(self.steps)),
@@ -77,7 +77,7 @@ impl Setting {
     /// frame. `None` if the method is adaptive.
     pub(super) fn written(self, scene: &Scene) -> Option<f64> {
         let step = self.timestep(scene)?;
-        if self.method.ahead.is_some() {
+        if self.method.take_over.is_some() {
             return Some(step);
         }
         let interval = 1.0 / scene.simulation.frame_rate;
@@ -97,7 +97,7 @@ pub(super) fn refused(scene: &Scene, method: &Method) -> Option<&'static str> {
         None
     } else if simulation.contacts == Some(ContactLaw::TimeStepping) {
         Some("time stepping has a method of its own")
-    } else if method.ahead.is_some() && !scene.emitters.is_empty() {
+    } else if method.take_over.is_some() && !scene.emitters.is_empty() {
         Some("it moves no particles")
     } else if method.constraints {
         None

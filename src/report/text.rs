@@ -43,7 +43,7 @@ impl Assessment {
         }
         let step = digits(self.timestep.unwrap_or_default(), 4);
         match Method::by_name(self.integrator) {
-            Some(Method { ahead: Some(_), .. }) => format!("timestep {step} s"),
+            Some(Method { take_over: Some(_), .. }) => format!("timestep {step} s"),
             _ => format!("timestep {step} s, {} a frame", self.steps_per_frame),
         }
     }

@@ -71,7 +71,7 @@ pub(super) fn factor(order: f64) -> f64 {
 /// left out, since they would not be more accurate.
 fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untested>) {
     let own = scene.simulation.method;
-    let of_use = |method: &&&Method| method.order > 1 && !method.is_of_planets();
+    let of_use = |method: &&&Method| method.order > 1 && !method.is_planetary();
     let others = || Method::all().filter(|method| !std::ptr::eq(*method, own)).filter(|it| of_use(&it));
     let tried = std::iter::once(own).chain(others().filter(|method| refused(scene, method).is_none()));
     let untried = others().filter_map(|method| {

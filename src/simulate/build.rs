@@ -8,22 +8,22 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use crate::dynamics::{
-    Accuracy, BodyId, Contacts, Dynamics, Effort, RigidBody, Shape, UniformGravity, World,
+    Accuracy, BodyId, Contacts, Dynamics, PairCounter, RigidBody, Shape, UniformGravity, World,
 };
 #[cfg(feature = "time-stepping")]
 use crate::scene::ContactLaw;
 use crate::scene::{Body, Scene};
 
-/// Builds the dynamics of a scene: a world, an adaptive method that advances the world, or the time-stepping engine. `effort` counts the
-/// evaluated interactions between pairs of bodies.
-pub(super) fn dynamics(scene: &Scene, effort: &Effort) -> Box<dyn Dynamics> {
+/// Builds the dynamics of a scene: a world, an adaptive method that advances the world, or the time-stepping engine. `pair_counter` counts
+/// the evaluated interactions between pairs of bodies.
+pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
-        return Box::new(stepping::stepping(scene, effort));
+        return Box::new(stepping::stepping(scene, pair_counter));
     }
     let mut world = world(scene);
-    world.watch(effort);
-    match scene.simulation.method.ahead {
+    world.watch(pair_counter);
+    match scene.simulation.method.take_over {
         Some(ahead) if !is_given(scene) => {
             let accuracy = Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.end() };
             ahead(world, accuracy)

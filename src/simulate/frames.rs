@@ -8,7 +8,7 @@ use super::past::History;
 use super::recording::{Reader, Recording};
 use super::simulation::{Entry, Simulation};
 use super::{Frame, Moments, SimulateError};
-use crate::dynamics::Effort;
+use crate::dynamics::PairCounter;
 use crate::scene::Scene;
 
 /// An iterator over the frames of a run. Each frame is simulated or read on demand.
@@ -33,16 +33,16 @@ enum Source<'a> {
 impl<'a> Frames<'a> {
     /// Simulates the frames of a scene from its initial state, on demand.
     pub fn new(scene: &'a Scene) -> Frames<'a> {
-        Frames::watched(scene, &Effort::default())
+        Frames::watched(scene, &PairCounter::default())
     }
 
-    /// Simulates the frames of a scene like [`new`](Self::new). `effort` counts the evaluated interactions between pairs of bodies.
-    pub fn watched(scene: &'a Scene, effort: &Effort) -> Frames<'a> {
-        Frames::with(scene, Moments::of_ghosts(scene), effort)
+    /// Simulates the frames of a scene like [`new`](Self::new). `pair_counter` counts the evaluated interactions between pairs of bodies.
+    pub fn watched(scene: &'a Scene, pair_counter: &PairCounter) -> Frames<'a> {
+        Frames::with(scene, Moments::of_ghosts(scene), pair_counter)
     }
 
-    fn with(scene: &'a Scene, moments: Moments, effort: &Effort) -> Frames<'a> {
-        let simulation = Simulation::new(scene, moments, effort);
+    fn with(scene: &'a Scene, moments: Moments, pair_counter: &PairCounter) -> Frames<'a> {
+        let simulation = Simulation::new(scene, moments, pair_counter);
         let source = Source::Live(simulation, VecDeque::new());
         Frames::from(scene, source)
     }
@@ -65,7 +65,7 @@ impl<'a> Frames<'a> {
     pub fn at(scene: &Scene, time: f64) -> Result<Frame, SimulateError> {
         let time = within(scene, time);
         let moments = Moments::of_ghosts(scene).with(time);
-        Frames::with(scene, moments, &Effort::default()).moment(time)
+        Frames::with(scene, moments, &PairCounter::default()).moment(time)
     }
 
     /// Returns the first moment at a time (s) or later, with its trails, ghosts and particles.

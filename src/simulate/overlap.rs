@@ -136,7 +136,7 @@ impl<'a> Watch<'a> {
                 })
             })
         };
-        placed(i).any(|one| placed(j).any(|other| one.meets(&other)))
+        placed(i).any(|one| placed(j).any(|other| one.intersects(&other)))
     }
 
     /// The cost of an overlap test between two bodies.

@@ -9,7 +9,7 @@ use super::past::History;
 use super::recording::{Counts, MemoryStore, Recording, Store};
 use super::simulation::Simulation;
 use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, Surveyor};
-use crate::dynamics::{Dynamics, Effort, Impact};
+use crate::dynamics::{Dynamics, Impact, PairCounter};
 use crate::scene::Scene;
 
 /// A simulated run with its recording and its survey. Its moments can be read in any order, to draw, measure or export them.
@@ -33,7 +33,7 @@ impl<'a> Recorded<'a> {
     /// If the run becomes non-finite.
     pub fn new(scene: &'a Scene) -> Result<Recorded<'a>, SimulateError> {
         let store = Box::<MemoryStore>::default();
-        let mut recorder = Recorder::new(scene, Moments::of(scene), &Effort::default(), store);
+        let mut recorder = Recorder::new(scene, Moments::of(scene), &PairCounter::default(), store);
         while recorder.advance()?.is_some() {}
         recorder.finish()
     }
@@ -189,7 +189,7 @@ impl<'a> Recorded<'a> {
             return Err(SimulateError::Recording(message));
         }
         let store = Box::<MemoryStore>::default();
-        let mut recorder = Recorder::new(self.scene, moments, &Effort::default(), store);
+        let mut recorder = Recorder::new(self.scene, moments, &PairCounter::default(), store);
         while recorder.advance()?.is_some() {}
         let Recorder { recording, .. } = recorder;
         let moment = recording.moment_at(time);
@@ -243,9 +243,14 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Creates a recorder at the start of a run. `effort` counts the evaluated interactions between pairs of bodies.
-    pub fn new(scene: &'a Scene, moments: Moments, effort: &Effort, store: Box<dyn Store>) -> Recorder<'a> {
-        Recorder::of(scene, Simulation::new(scene, moments, effort), store)
+    /// Creates a recorder at the start of a run. `pair_counter` counts the evaluated interactions between pairs of bodies.
+    pub fn new(
+        scene: &'a Scene,
+        moments: Moments,
+        pair_counter: &PairCounter,
+        store: Box<dyn Store>,
+    ) -> Recorder<'a> {
+        Recorder::of(scene, Simulation::new(scene, moments, pair_counter), store)
     }
 
     fn of(scene: &'a Scene, simulation: Simulation<'a>, store: Box<dyn Store>) -> Recorder<'a> {
@@ -258,11 +263,11 @@ impl<'a> Recorder<'a> {
     pub fn resume(
         scene: &'a Scene,
         moments: Moments,
-        effort: &Effort,
+        pair_counter: &PairCounter,
         (checkpoint, store): (&Checkpoint, Box<dyn Store>),
         seen: &mut dyn FnMut(&Frame),
     ) -> Option<Recorder<'a>> {
-        let mut simulation = Simulation::new(scene, moments, effort);
+        let mut simulation = Simulation::new(scene, moments, pair_counter);
         if !simulation.resume(&checkpoint.simulation) {
             return None;
         }
@@ -287,10 +292,10 @@ impl<'a> Recorder<'a> {
     pub fn into(
         scene: &'a Scene,
         moments: Moments,
-        effort: &Effort,
+        pair_counter: &PairCounter,
         recording: Arc<Recording>,
     ) -> Recorder<'a> {
-        let simulation = Simulation::new(scene, moments, effort);
+        let simulation = Simulation::new(scene, moments, pair_counter);
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 

@@ -2,7 +2,7 @@
 
 use super::build::dynamics;
 use super::{ImpactCounts, Moments, SimulateError};
-use crate::dynamics::{Breakdown, Dynamics, Effort, Impact, Snapshot};
+use crate::dynamics::{Breakdown, Dynamics, Impact, PairCounter, Snapshot};
 use crate::scene::Scene;
 
 /// The state of a run at a frame, or at a requested time between frames.
@@ -30,9 +30,9 @@ pub(super) struct Simulation<'a> {
 }
 
 impl<'a> Simulation<'a> {
-    /// Creates a simulation at the start of its run. `effort` counts the evaluated interactions between pairs of bodies.
-    pub(super) fn new(scene: &'a Scene, moments: Moments, effort: &Effort) -> Simulation<'a> {
-        Simulation::of(scene, moments, dynamics(scene, effort))
+    /// Creates a simulation at the start of its run. `pair_counter` counts the evaluated interactions between pairs of bodies.
+    pub(super) fn new(scene: &'a Scene, moments: Moments, pair_counter: &PairCounter) -> Simulation<'a> {
+        Simulation::of(scene, moments, dynamics(scene, pair_counter))
     }
 
     /// Creates a simulation of the caller's own dynamics, which must be at time 0.

@@ -2,7 +2,7 @@
 
 use super::simulation::Simulation;
 use super::{Moments, SimulateError};
-use crate::dynamics::{Effort, Snapshot};
+use crate::dynamics::{PairCounter, Snapshot};
 use crate::scene::Scene;
 
 /// An iterator over the states of a run at its frames. The states equal those of [`Frames`](super::Frames), bit for bit.
@@ -13,7 +13,7 @@ pub struct Snapshots<'a> {
 impl<'a> Snapshots<'a> {
     /// Simulates the frames of a scene from its initial state, on demand.
     pub fn new(scene: &'a Scene) -> Snapshots<'a> {
-        Snapshots { simulation: Simulation::new(scene, Moments::none(scene), &Effort::default()) }
+        Snapshots { simulation: Simulation::new(scene, Moments::none(scene), &PairCounter::default()) }
     }
 
     /// The number of timesteps since the start of the run.

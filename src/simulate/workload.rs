@@ -10,8 +10,8 @@ use crate::scene::Scene;
 /// The number of pair interactions that take about as long as writing the script lines of one body.
 const SCRIPT: u64 = 100;
 
-/// The expected number of pair interactions in each frame of a run. It equals the count of an [`Effort`](crate::dynamics::Effort) if all
-/// bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
+/// The expected number of pair interactions in each frame of a run. It equals the count of a [`PairCounter`](crate::dynamics::PairCounter)
+/// if all bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Workload {
     first: u64,
@@ -27,7 +27,7 @@ impl Workload {
         let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
         // The number of steps of an adaptive method is not known in advance.
-        if pairs == 0 || scene.simulation.method.ahead.is_some() {
+        if pairs == 0 || scene.simulation.method.take_over.is_some() {
             return Workload::default();
         }
         let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
@@ -93,7 +93,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
 mod tests {
     use super::super::Frames;
     use super::*;
-    use crate::dynamics::{Effort, METHODS};
+    use crate::dynamics::{METHODS, PairCounter};
 
     #[test]
     fn what_is_planned_is_what_is_counted_and_it_is_counted_within_an_evaluation() {
@@ -106,15 +106,15 @@ mod tests {
                 method.name
             );
             let scene = Scene::parse(&text).unwrap();
-            let (workload, effort) = (Workload::of(&scene), Effort::default());
+            let (workload, pair_counter) = (Workload::of(&scene), PairCounter::default());
             let mut before = 0;
-            for (index, frame) in Frames::watched(&scene, &effort).enumerate() {
+            for (index, frame) in Frames::watched(&scene, &pair_counter).enumerate() {
                 frame.unwrap();
-                let counted = effort.done() - before;
+                let counted = pair_counter.done() - before;
                 // The first step of a run may need one more evaluation.
                 let planned = workload.of_frame(index);
                 assert!(counted.abs_diff(planned) <= pairs, "{} {index}: {counted} {planned}", method.name);
-                before = effort.done();
+                before = pair_counter.done();
             }
             assert!(before > 10 * pairs);
         }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use jabuka::Run;
 use jabuka::cache::Cache;
-use jabuka::dynamics::{DenseOutput, Effort, Integrator, METHODS, Method, State, Step, System};
+use jabuka::dynamics::{DenseOutput, Integrator, METHODS, Method, PairCounter, State, Step, System};
 use jabuka::output::{self, Folder};
 use jabuka::scene::Scene;
 use jabuka::simulate::{Moments, Recorded, Selection};
@@ -27,7 +27,7 @@ static COUNTED: Method = Method {
     adaptive: false,
     summary: "",
     create: || Box::new(Counted::new()),
-    ahead: None,
+    take_over: None,
 };
 
 struct Counted(Box<dyn Integrator>);
@@ -93,7 +93,7 @@ fn each_step_is_taken_once_and_the_second_time_none() {
     scene.simulation.method = &COUNTED;
     let folder = tempfile::tempdir().unwrap();
     let cache = Cache::new(folder.path().join("cache"), 1 << 30).keeping_all();
-    let run = || cache.run(&scene, Moments::of(&scene), &Effort::default(), |_| {}).unwrap();
+    let run = || cache.run(&scene, Moments::of(&scene), &PairCounter::default(), |_| {}).unwrap();
     write_all(run(), &folder.path().join("first"));
     // There are five intervals of 40 ms, and the shutter stays open for half an interval after the last frame.
     assert_eq!(STEPS.swap(0, Ordering::Relaxed), 60);
@@ -294,7 +294,7 @@ fn those_that_were_not_used_for_longest_go_first_and_all_can_be_cleared() {
         .map(|step| Scene::parse(&CLOUD.replace("step = 0.0005", &format!("step = {step}"))).unwrap())
         .into();
     let run = |cache: &Cache, scene: &Scene| {
-        cache.run(scene, Moments::of(scene), &Effort::default(), |_| {}).unwrap();
+        cache.run(scene, Moments::of(scene), &PairCounter::default(), |_| {}).unwrap();
     };
     let cache = Cache::new(kept.cache(), 1 << 30).keeping_all();
     run(&cache, &scenes[0]);

@@ -71,7 +71,7 @@ impl Solver {
         columns.clear();
         let has_joints = self.held.contains(&true);
         for row in 0..self.rows.len() {
-            if self.laws[row] == Law::Tie {
+            if self.laws[row] == Law::Equality {
                 columns.push(std::iter::empty(), 0.0);
             } else if has_joints {
                 self.push_held_column(row, &mut columns);

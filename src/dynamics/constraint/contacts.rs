@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::contact::Closed;
+use super::super::contact::LastingContact;
 use super::super::{BodyId, Breakdown, ContactSnapshot, Model, State};
 use super::Law;
-use super::friction::Grip;
+use super::friction::FrictionPair;
 use super::jacobian::{move_members, products};
 use super::modes::Mode;
 use super::solver::Solver;
@@ -20,14 +20,14 @@ impl Solver {
     }
 
     /// Returns the lasting contacts, which the solver treats as constraints.
-    pub(in crate::dynamics) fn contacts(&self) -> &[Arc<Closed>] {
+    pub(in crate::dynamics) fn contacts(&self) -> &[Arc<LastingContact>] {
         &self.contacts
     }
 
     /// Replaces the lasting contacts of the solver. Returns true if they differ from the previous ones; the modes of the constraint rows
     /// must then be [decided](Self::decide) again.
-    pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<Closed>>) -> bool {
-        let is_same = |(old, new): (&Arc<Closed>, &Arc<Closed>)| old.is(new);
+    pub(in crate::dynamics) fn take_contacts(&mut self, contacts: Vec<Arc<LastingContact>>) -> bool {
+        let is_same = |(old, new): (&Arc<LastingContact>, &Arc<LastingContact>)| old.is(new);
         let are_same =
             contacts.len() == self.contacts.len() && self.contacts.iter().zip(&contacts).all(is_same);
         if !are_same {
@@ -38,14 +38,14 @@ impl Solver {
     }
 
     /// Creates a solver for these contacts only, with the typical rates and accelerations and the counts of mode changes of this solver.
-    pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<Closed>>) -> Solver {
+    pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<LastingContact>>) -> Solver {
         let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
         let changes = self.changes.clone();
         Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
     }
 
     /// Returns true if the solver has exactly these contacts and the modes of their constraint rows are decided.
-    pub(in crate::dynamics) fn has(&self, contacts: &[Arc<Closed>]) -> bool {
+    pub(in crate::dynamics) fn has(&self, contacts: &[Arc<LastingContact>]) -> bool {
         self.structure.is_some()
             && self.contacts.len() == contacts.len()
             && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
@@ -105,14 +105,16 @@ impl Solver {
         self.begin(model, t, state);
         for (mode, law) in self.modes.iter_mut().zip(&self.laws) {
             *mode = match law {
-                Law::Stop => Mode::Held,
+                Law::Inequality => Mode::Held,
                 _ => Mode::first(law),
             };
         }
         let joints = model.constraints().len();
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             if place.constraint < joints {
-                for row in (place.row..place.row + place.rows).filter(|&row| self.laws[row] == Law::Stop) {
+                for row in
+                    (place.row..place.row + place.rows).filter(|&row| self.laws[row] == Law::Inequality)
+                {
                     self.modes[row] = if self.rows[row].violation < 0.0 { Mode::Held } else { Mode::Open };
                 }
             }
@@ -155,7 +157,7 @@ impl Solver {
     /// Reports a breakdown after a step if the step's equations of sliding friction had no solution, as in Painlevé's paradox.
     pub(in crate::dynamics) fn blame_friction(&mut self, model: &Model, time: f64) {
         let Some(structure) = self.structure.as_ref().filter(|_| self.is_unsolved) else { return };
-        let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
+        let slides = |grip: &&FrictionPair| self.modes[grip.row] == Mode::Slid;
         let Some(normal) = self.grips.iter().find(slides).map(|grip| grip.normal) else { return };
         if let Some(place) = structure.places.iter().find(|place| place.row == normal) {
             self.fail(self.broken(model, place.constraint, time, 0.0));
@@ -218,7 +220,7 @@ impl Solver {
         self.plan(model);
         self.measure(t, state);
         for (held, law) in self.held.iter_mut().zip(&self.laws) {
-            *held = *law == Law::Tie;
+            *held = *law == Law::Equality;
         }
         self.factorise(true);
     }

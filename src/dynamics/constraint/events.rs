@@ -2,7 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::Law;
-use super::friction::Grip;
+use super::friction::FrictionPair;
 use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
@@ -41,7 +41,7 @@ impl Solver {
             None => return (f64::INFINITY, 0),
         };
         self.seen = [size, 0.0];
-        let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Tie;
+        let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Equality;
         if self.modes.iter().zip(&self.laws).any(pulls) {
             self.factorise(false);
             self.is_ready = true;
@@ -56,15 +56,15 @@ impl Solver {
             if of > 0.0 { value / of / tolerated + 1.0 } else { 1.0 }
         };
         let margin = |i: usize| match (self.modes[i], self.laws[i]) {
-            (Mode::Open, Law::Stop) => part(self.rows[i].violation, self.rows[i].scale, PASSED),
+            (Mode::Open, Law::Inequality) => part(self.rows[i].violation, self.rows[i].scale, PASSED),
             (Mode::Pushed(sign), _) => part(-sign * rates[i], size, PASSED),
-            (Mode::Held, Law::Stop) => part(self.unknown[i] * self.weight(i), force, PULLED),
-            (Mode::Held, Law::Drive { limit }) => {
+            (Mode::Held, Law::Inequality) => part(self.unknown[i] * self.weight(i), force, PULLED),
+            (Mode::Held, Law::SpeedMotor { limit }) => {
                 part((limit - self.unknown[i].abs()) * self.weight(i), force, PULLED)
             }
             _ => f64::INFINITY,
         };
-        let of_grip = |grip: &Grip| match self.modes[grip.row] {
+        let of_grip = |grip: &FrictionPair| match self.modes[grip.row] {
             Mode::Held if grip.is_restless => f64::INFINITY,
             Mode::Held => {
                 let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();

@@ -45,11 +45,11 @@ impl Freedom {
     /// Returns the law of an equation of the limits or the motor. The limits come first.
     pub(super) fn law(&self, row: usize) -> Law {
         if self.limits.is_some() && row < 2 {
-            return Law::Stop;
+            return Law::Inequality;
         }
         match self.motor {
-            Some(Motor::Speed { limit, .. }) => Law::Drive { limit },
-            _ => Law::Tie,
+            Some(Motor::Speed { limit, .. }) => Law::SpeedMotor { limit },
+            _ => Law::Equality,
         }
     }
 

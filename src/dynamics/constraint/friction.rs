@@ -30,7 +30,7 @@ pub(super) const SLOW: f64 = 1e-9;
 
 /// The two friction rows of a contact, one per tangent, and their state. Rolling friction has a pair of its own.
 #[derive(Clone, Debug)]
-pub(super) struct Grip {
+pub(super) struct FrictionPair {
     /// The index of the first friction row. The second row follows it.
     pub(super) row: usize,
     /// The index of the normal row, whose multiplier bounds the friction.
@@ -60,16 +60,16 @@ pub(super) struct Grip {
     pub(super) strength: f64,
 }
 
-impl Grip {
+impl FrictionPair {
     /// Creates the pairs of friction rows for a layout of constraints. `laws` holds the law of each row.
-    pub(super) fn all(structure: &Structure, laws: &[Law]) -> Vec<Grip> {
+    pub(super) fn all(structure: &Structure, laws: &[Law]) -> Vec<FrictionPair> {
         let mut grips = Vec::new();
         for place in &structure.places {
             let mut row = place.row;
             while row < place.row + place.rows {
                 if let Law::Friction { coefficient } = laws[row] {
                     let (push, heading) = (DVec2::ZERO, DVec2::ZERO);
-                    grips.push(Grip {
+                    grips.push(FrictionPair {
                         row,
                         normal: place.row,
                         coefficient,
@@ -166,7 +166,7 @@ impl Solver {
     /// Sets the initial mode of a pair of friction rows: sticking if the slip velocity is zero, otherwise sliding, and open if the normal
     /// row does not hold.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
-        let Grip { row, normal, is_restless, is_caught, .. } = self.grips[grip];
+        let FrictionPair { row, normal, is_restless, is_caught, .. } = self.grips[grip];
         let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
@@ -197,12 +197,13 @@ impl Solver {
     /// grows without bound until the slip ends, as in an impact without restitution. Returns true if such a contact was found. Source: D.
     /// E. Stewart, SIAM Review 42 (2000) 3.
     pub(super) fn catch(&mut self, wrong: usize) -> bool {
-        let is_wrong = |grip: &&mut Grip| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
+        let is_wrong =
+            |grip: &&mut FrictionPair| (grip.normal == wrong || grip.row == wrong) && !grip.is_caught;
         let grip = self.grips.iter_mut().find(is_wrong);
         grip.map(|grip| grip.is_caught = true).is_some()
     }
 
-    fn grip_at(&self, row: usize) -> Option<&Grip> {
+    fn grip_at(&self, row: usize) -> Option<&FrictionPair> {
         let at = self.grips.binary_search_by_key(&row, |grip| grip.row).ok()?;
         Some(&self.grips[at])
     }
@@ -258,7 +259,7 @@ impl Solver {
     /// Computes the `strength` of each sliding pair: the largest change of slip velocities by its friction.
     pub(super) fn see_strength(&mut self) {
         for i in 0..self.grips.len() {
-            let Grip { row, normal, coefficient, .. } = self.grips[i];
+            let FrictionPair { row, normal, coefficient, .. } = self.grips[i];
             if self.modes[row] == Mode::Slid {
                 let grip = &mut self.grips[i];
                 grip.strength = coefficient * self.unknown[normal].max(0.0) * grip.stiffness;
@@ -272,7 +273,8 @@ impl Solver {
     pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
         let mut has_changed = false;
         for i in 0..self.grips.len() {
-            let Grip { row, normal, coefficient, push, is_beginning, is_restless, .. } = self.grips[i];
+            let FrictionPair { row, normal, coefficient, push, is_beginning, is_restless, .. } =
+                self.grips[i];
             let slips = self.modes[row] == Mode::Slid && !is_beginning;
             if slips || is_restless || self.modes[normal] != Mode::Held {
                 continue;

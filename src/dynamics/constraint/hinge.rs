@@ -63,7 +63,7 @@ impl Constraint for Hinge {
     }
 
     fn law(&self, row: usize) -> Law {
-        row.checked_sub(5).map_or(Law::Tie, |row| self.freedom.law(row))
+        row.checked_sub(5).map_or(Law::Equality, |row| self.freedom.law(row))
     }
 
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {

@@ -226,7 +226,7 @@ impl Solver {
                 }
             }
         }
-        debug_assert!(self.laws[row] == Law::Stop || matches!(self.laws[row], Law::Friction { .. }));
+        debug_assert!(self.laws[row] == Law::Inequality || matches!(self.laws[row], Law::Friction { .. }));
         let (weight, least) = (self.columns.weights()[row], self.least(row));
         Line { row, terms: first..terms.len(), weight, bias, goal, least }
     }

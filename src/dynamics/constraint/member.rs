@@ -27,7 +27,7 @@ pub struct Member {
 
 /// The constant properties of a constrained body: its mass and inertia.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nature {
+pub(super) struct BodyConstants {
     body: usize,
     inverse_mass: f64,
     /// The diagonal of the inverse inertia tensor I⁻¹ in the principal axes, 1/(kg m²).
@@ -37,10 +37,10 @@ pub(super) struct Nature {
     turned: Option<DQuat>,
 }
 
-impl Nature {
-    pub(super) fn of(body: usize, model: &Model) -> Nature {
+impl BodyConstants {
+    pub(super) fn of(body: usize, model: &Model) -> BodyConstants {
         let (axes, inverse_inertia) = (model.principal_axes(body), model.inverse_inertia()[body]);
-        Nature {
+        BodyConstants {
             body,
             inverse_mass: model.inverse_mass()[body],
             inverse_inertia,
@@ -52,7 +52,7 @@ impl Nature {
 
 impl Member {
     /// Creates a member with the mass and inertia of a body. Its position and velocity are not set yet.
-    pub(super) fn new(nature: &Nature) -> Member {
+    pub(super) fn new(nature: &BodyConstants) -> Member {
         let inverse_mass = nature.inverse_mass;
         let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
         let inverse_inertia = DMat3::from_diagonal(inverse_inertia);
@@ -61,7 +61,7 @@ impl Member {
 
     /// Returns body `i` with its position and velocity in a state.
     pub(super) fn of(i: usize, model: &Model, state: &State) -> Member {
-        let nature = Nature::of(i, model);
+        let nature = BodyConstants::of(i, model);
         let mut member = Member::new(&nature);
         member.follow(&nature, state);
         member
@@ -69,7 +69,7 @@ impl Member {
 
     /// Copies the position and velocity of the body from a state. Returns true if the position or orientation has changed.
     #[inline(always)]
-    pub(super) fn follow(&mut self, nature: &Nature, state: &State) -> bool {
+    pub(super) fn follow(&mut self, nature: &BodyConstants, state: &State) -> bool {
         let i = nature.body;
         let angular_momentum = state.angular_momentum[i];
         let orientation = match nature.turned {

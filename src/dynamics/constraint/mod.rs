@@ -18,6 +18,7 @@ mod gear;
 mod hinge;
 mod islands;
 mod jacobian;
+mod last_forces;
 mod member;
 mod modes;
 mod parts;
@@ -37,7 +38,6 @@ mod sliding;
 mod solver;
 mod structure;
 mod sweep;
-mod warm;
 
 pub use ball::Ball;
 pub use coordinate::Coordinate;
@@ -74,9 +74,9 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
     /// Returns the number of equations of the constraint.
     fn rows(&self) -> usize;
 
-    /// Returns the law of one equation, [`Law::Tie`] by default.
+    /// Returns the law of one equation, [`Law::Equality`] by default.
     fn law(&self, _row: usize) -> Law {
-        Law::Tie
+        Law::Equality
     }
 
     /// Writes all equations of the constraint at one moment. `members` holds the bodies in the order of [`bodies`](Self::bodies).
@@ -87,9 +87,9 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// An equality: c = 0, with a force of any size and sign.
-    Tie,
+    Equality,
     /// An inequality: c ≥ 0. Its force keeps c from becoming negative. It only pushes and never pulls.
-    Stop,
+    Inequality,
     /// Coulomb friction along two tangents, by two consecutive rows of this law. Their combined multiplier is at most `coefficient` times
     /// that of the constraint's first row. If this suffices, the contact sticks: c' = 0 in both rows. Otherwise it slides, and friction
     /// has this maximum.
@@ -98,7 +98,7 @@ pub enum Law {
         coefficient: f64,
     },
     /// A motor that keeps c' = 0, as far as a multiplier between −`limit` and `limit` allows.
-    Drive {
+    SpeedMotor {
         /// The largest multiplier of the motor, a force in N or a torque in N m. It is positive.
         limit: f64,
     },

@@ -38,8 +38,8 @@ impl Mode {
     /// Returns the initial mode of a constraint row with this law.
     pub(super) fn first(law: &Law) -> Mode {
         match law {
-            Law::Tie => Mode::Held,
-            Law::Stop | Law::Drive { .. } | Law::Friction { .. } => Mode::Open,
+            Law::Equality => Mode::Held,
+            Law::Inequality | Law::SpeedMotor { .. } | Law::Friction { .. } => Mode::Open,
         }
     }
 
@@ -49,8 +49,8 @@ impl Mode {
             // Friction is an equation for velocities, so its row has no error of position.
             (Law::Friction { .. }, _) => 0.0,
             (_, Mode::Held) => row.violation.abs(),
-            (Law::Stop, _) => (-row.violation).max(0.0),
-            (Law::Tie | Law::Drive { .. }, _) => 0.0,
+            (Law::Inequality, _) => (-row.violation).max(0.0),
+            (Law::Equality | Law::SpeedMotor { .. }, _) => 0.0,
         }
     }
 }
@@ -65,7 +65,7 @@ impl Solver {
         }
         // A violated stop (inequality c ≥ 0) corrects the positions only, not the velocities.
         for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
-            if *law == Law::Stop && row.violation < 0.0 {
+            if *law == Law::Inequality && row.violation < 0.0 {
                 *mode = Mode::Held;
             }
         }
@@ -93,7 +93,7 @@ impl Solver {
             .laws
             .iter()
             .zip(&self.rows)
-            .map(|(law, row)| *law == Law::Stop && row.violation <= TOUCHED * row.scale)
+            .map(|(law, row)| *law == Law::Inequality && row.violation <= TOUCHED * row.scale)
             .collect();
         let size = self.hit(model, state, &touched);
         // The impulses have changed the velocities.
@@ -113,11 +113,11 @@ impl Solver {
             let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
             let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
-                Law::Tie => (Mode::Held, false),
-                Law::Stop if touched[i] && is_still => (Mode::Held, true),
-                Law::Stop => (Mode::Open, false),
-                Law::Drive { .. } if is_still => (Mode::Held, true),
-                Law::Drive { .. } => (Mode::Pushed(-rates[i].signum()), false),
+                Law::Equality => (Mode::Held, false),
+                Law::Inequality if touched[i] && is_still => (Mode::Held, true),
+                Law::Inequality => (Mode::Open, false),
+                Law::SpeedMotor { .. } if is_still => (Mode::Held, true),
+                Law::SpeedMotor { .. } => (Mode::Pushed(-rates[i].signum()), false),
                 // The mode of the normal row decides first.
                 Law::Friction { .. } => (Mode::Open, false),
             };
@@ -283,11 +283,11 @@ impl Solver {
                 (_, Law::Friction { .. }) if one_by_one => self.grip_is_wrong(i, &accelerations),
                 (_, Law::Friction { .. }) => 0.0,
                 _ if !can_hold[i] => 0.0,
-                (Mode::Held, Law::Stop) => -self.unknown[i] * self.weight(i),
-                (Mode::Held, Law::Drive { limit }) => (self.unknown[i].abs() - limit) * self.weight(i),
+                (Mode::Held, Law::Inequality) => -self.unknown[i] * self.weight(i),
+                (Mode::Held, Law::SpeedMotor { limit }) => (self.unknown[i].abs() - limit) * self.weight(i),
                 (Mode::Open, _) => -accelerations[i],
                 (Mode::Pushed(sign), _) => sign * accelerations[i],
-                (Mode::Held, Law::Tie) | (Mode::Slid, _) => 0.0,
+                (Mode::Held, Law::Equality) | (Mode::Slid, _) => 0.0,
             };
             last = worst(n, round, SLIGHT * size, wrong);
             match last {
@@ -296,7 +296,7 @@ impl Solver {
                 Some(i) if matches!(self.laws[i], Law::Friction { .. }) => self.change_grip(i),
                 Some(i) => {
                     self.modes[i] = match (self.modes[i], self.laws[i]) {
-                        (Mode::Held, Law::Drive { .. }) => Mode::Pushed(self.unknown[i].signum()),
+                        (Mode::Held, Law::SpeedMotor { .. }) => Mode::Pushed(self.unknown[i].signum()),
                         (Mode::Held, _) => Mode::Open,
                         _ => Mode::Held,
                     };

@@ -19,7 +19,7 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
 
 /// The vector d from one end to the other, with its length and derivatives. With u = d / |d|, the second derivative of the length is u·d''
 /// + (|d'|² − (u·d')²) / |d|.
-pub(super) struct Way<'a> {
+pub(super) struct EndToEndVector<'a> {
     /// The distance |d| of the two ends, m.
     pub(super) length: f64,
     /// The part of |d|'' that does not depend on the accelerations of the bodies, m/s².
@@ -30,18 +30,21 @@ pub(super) struct Way<'a> {
     ends: &'a [End<'a>; 2],
 }
 
-impl<'a> Way<'a> {
+impl<'a> EndToEndVector<'a> {
     /// Computes the vector between two ends. `typical` is a typical distance of the ends, m. 1/|d| is bounded as if |d| were at least a
     /// thousandth of this distance.
     #[inline(always)]
-    pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> Way<'a> {
+    pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> EndToEndVector<'a> {
         let [a, b] = ends;
         let [from, to] = [a.location(), b.location()];
         let apart = to - from;
         let length = apart.length();
         let shortest = 1e-3 * typical;
-        let (u, inverse) =
-            if length > shortest { Way::along(apart, length) } else { Way::short(apart, length, shortest) };
+        let (u, inverse) = if length > shortest {
+            EndToEndVector::along(apart, length)
+        } else {
+            EndToEndVector::short(apart, length, shortest)
+        };
         let mut rate = b.member.velocity - a.member.velocity;
         let mut bias = 0.0;
         for (end, sign) in [(a, -1.0), (b, 1.0)] {
@@ -54,7 +57,7 @@ impl<'a> Way<'a> {
         let along = u.dot(rate);
         bias += (rate.length_squared() - along * along) * inverse;
         let scale = from.abs().max(to.abs()).max_element();
-        Way { length, bias, scale, u, ends }
+        EndToEndVector { length, bias, scale, u, ends }
     }
 
     /// Returns the unit vector u along the vector d between two ends, and 1/|d|.

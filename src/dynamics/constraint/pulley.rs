@@ -37,7 +37,7 @@ impl Constraint for Pulley {
     }
 
     fn law(&self, _: usize) -> Law {
-        Law::Stop
+        Law::Inequality
     }
 
     /// Writes c = ℓ − |d₁| − r |d₂| ≥ 0, where d₁ and d₂ are the vectors from the points to the ends of the rope, and r is the ratio. Two
@@ -46,8 +46,8 @@ impl Constraint for Pulley {
         let [a, b, c, d] = End::all(&self.anchors(), members);
         let [first, second] = [[a, b], [c, d]];
         let ways = [(&first, 1.0), (&second, self.ratio)];
-        let ways = ways.map(|(ends, factor)| (parts::Way::new(ends, self.length), factor));
-        let sum = |value: fn(&parts::Way<'_>) -> f64| -> f64 {
+        let ways = ways.map(|(ends, factor)| (parts::EndToEndVector::new(ends, self.length), factor));
+        let sum = |value: fn(&parts::EndToEndVector<'_>) -> f64| -> f64 {
             ways.iter().map(|(way, factor)| factor * value(way)).sum()
         };
         let scale = ways.iter().fold(self.length, |scale, (way, _)| scale.max(way.scale));

@@ -109,7 +109,7 @@ impl Solver {
         };
         for (value, (law, mode)) in unknown.iter_mut().zip(laws.iter().zip(modes)) {
             *value = match (law, mode) {
-                (Law::Drive { limit }, Mode::Pushed(sign)) => *sign * *limit,
+                (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => *sign * *limit,
                 _ => 0.0,
             };
         }

@@ -43,7 +43,7 @@ impl Solver {
             let mut on = vec![Reaction::default(); width];
             for row in place.row..place.row + place.rows {
                 let multiplier = match (self.laws[row], self.modes[row]) {
-                    (Law::Drive { limit }, Mode::Pushed(sign)) => sign * limit,
+                    (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => sign * limit,
                     _ => self.unknown[row],
                 };
                 let first = place.direction + (row - place.row) * width;

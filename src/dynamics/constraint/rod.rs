@@ -25,7 +25,7 @@ impl Constraint for Rod {
     /// Writes c = |d| − ℓ, where d is the vector from one end of the rod to the other, and ℓ its length.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
-        let way = parts::Way::new(&ends, self.length);
+        let way = parts::EndToEndVector::new(&ends, self.length);
         way.write_only(1.0, self.length, equations);
     }
 }

@@ -23,13 +23,13 @@ impl Constraint for Rope {
     }
 
     fn law(&self, _: usize) -> Law {
-        Law::Stop
+        Law::Inequality
     }
 
     /// Writes c = ℓ − |d| ≥ 0, where d is the vector from one end of the rope to the other, and ℓ its length.
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
-        let way = parts::Way::new(&ends, self.length);
+        let way = parts::EndToEndVector::new(&ends, self.length);
         way.write_only(-1.0, self.length, equations);
     }
 }

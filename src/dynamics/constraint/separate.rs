@@ -20,7 +20,7 @@ impl Solver {
         self.measure(t, state);
         let smallest = self.contacts.iter().map(|contact| contact.size).reduce(f64::min);
         let shallow = SHALLOW * smallest.unwrap_or(0.0);
-        let is_within = |(row, law): (&Row, &Law)| *law == Law::Stop && row.violation < -shallow;
+        let is_within = |(row, law): (&Row, &Law)| *law == Law::Inequality && row.violation < -shallow;
         self.rows.iter().zip(&self.laws).any(is_within)
     }
 

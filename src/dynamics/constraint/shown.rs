@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::contact::Closed;
+use super::super::contact::LastingContact;
 use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
@@ -17,7 +17,7 @@ impl Solver {
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
-        contacts: Vec<Arc<Closed>>,
+        contacts: Vec<Arc<LastingContact>>,
         model: &Model,
         (t, state): (f64, &State),
         loads: &Loads,
@@ -44,7 +44,7 @@ impl Solver {
     /// Returns the contact forces that the Gauss–Seidel sweeps of the last substep of Moreau's scheme have found.
     pub(in crate::dynamics) fn last_forces(
         &self,
-        contacts: Vec<Arc<Closed>>,
+        contacts: Vec<Arc<LastingContact>>,
         model: &Model,
         t: f64,
         state: &State,

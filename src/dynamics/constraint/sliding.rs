@@ -1,7 +1,7 @@
 //! The forces at sliding contacts. Friction is μ times the normal force, and the normal force depends on friction in turn, so both are
 //! found together.
 
-use super::friction::Grip;
+use super::friction::FrictionPair;
 use super::modes::Mode;
 use super::solver::Solver;
 
@@ -10,7 +10,7 @@ impl Solver {
     /// Friction is μ n, where n are the normal forces, and n = c + K n, where c are the normal forces without friction. A small dense
     /// system gives n. Returns true if it has a solution.
     pub(super) fn solve_sliding(&mut self) -> bool {
-        let slides = |grip: &&Grip| self.modes[grip.row] == Mode::Slid;
+        let slides = |grip: &&FrictionPair| self.modes[grip.row] == Mode::Slid;
         let mut normals: Vec<usize> = self.grips.iter().filter(slides).map(|grip| grip.normal).collect();
         normals.dedup();
         let mut pushes: Vec<Vec<(usize, f64)>> = vec![Vec::new(); normals.len()];

@@ -7,15 +7,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::super::contact::Closed;
+use super::super::contact::LastingContact;
 use super::super::{Breakdown, Model, Motion, State};
 use super::columns::Columns;
 use super::factor::Factor;
-use super::friction::Grip;
-use super::member::{Member, Nature};
+use super::friction::FrictionPair;
+use super::last_forces::LastForces;
+use super::member::{BodyConstants, Member};
 use super::modes::Mode;
 use super::structure::{Place, Structure};
-use super::warm::Warm;
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
 /// A constraint is broken if its error exceeds this fraction of its scale after all corrections.
@@ -26,7 +26,7 @@ pub(super) const FAILURE: f64 = 1e-9;
 pub(in crate::dynamics) struct Solver {
     pub(super) structure: Option<Structure>,
     /// The lasting contacts, which act as constraints in addition to those of the model.
-    pub(super) contacts: Vec<Arc<Closed>>,
+    pub(super) contacts: Vec<Arc<LastingContact>>,
     /// The indices of bodies whose constraints another solver handles at present.
     pub(super) away: BTreeSet<usize>,
     /// All constraints: first those of the model, then the lasting contacts.
@@ -35,7 +35,7 @@ pub(in crate::dynamics) struct Solver {
     pub(super) first_row: Vec<Option<usize>>,
     pub(super) factor: Factor,
     pub(super) members: Vec<Member>,
-    pub(super) natures: Vec<Nature>,
+    pub(super) natures: Vec<BodyConstants>,
     /// The states of the members at the start of the step. `begun` is the time of this start, s.
     pub(super) origin: Vec<Member>,
     pub(super) begun: f64,
@@ -57,12 +57,12 @@ pub(in crate::dynamics) struct Solver {
     pub(super) laws: Vec<Law>,
     pub(super) modes: Vec<Mode>,
     /// The pairs of friction rows, in the order of their rows.
-    pub(super) grips: Vec<Grip>,
+    pub(super) grips: Vec<FrictionPair>,
     /// For each pair of bodies, the number of mode changes at their contacts in the present step.
     pub(super) changes: BTreeMap<[usize; 2], u32>,
     /// The product J v of each constraint row, for slip velocities. Computed only while contacts slide.
     pub(super) slips: Vec<f64>,
-    /// True if the mode of any constraint row can change, so that not all laws are [`Law::Tie`].
+    /// True if the mode of any constraint row can change, so that not all laws are [`Law::Equality`].
     pub(super) has_modes: bool,
     /// The largest magnitude of the terms of c' so far; `largest_acceleration` is that of c''. Values far below them count as rounding
     /// errors.
@@ -79,7 +79,7 @@ pub(in crate::dynamics) struct Solver {
     /// The velocity changes by a unit impulse along each constraint row, which Gauss–Seidel sweeps use.
     pub(super) columns: Columns,
     /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
-    pub(super) warm: Warm,
+    pub(super) warm: LastForces,
     /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of Moreau's scheme.
     pub(super) forced: f64,
     /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.
@@ -209,7 +209,7 @@ impl Solver {
             }
             self.factor.soften(soft);
         }
-        self.natures = structure.bodies.iter().map(|&body| Nature::of(body, model)).collect();
+        self.natures = structure.bodies.iter().map(|&body| BodyConstants::of(body, model)).collect();
         self.members = self.natures.iter().map(Member::new).collect();
         (self.measured, self.factorised) = (f64::NAN, f64::NAN);
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
@@ -222,9 +222,9 @@ impl Solver {
             (0..place.rows).map(move |row| constraint.law(row))
         };
         self.laws = places.flat_map(laws).collect();
-        self.grips = Grip::all(&structure, &self.laws);
+        self.grips = FrictionPair::all(&structure, &self.laws);
         self.see_restless(model, &structure);
-        self.has_modes = self.laws.iter().any(|law| *law != Law::Tie);
+        self.has_modes = self.laws.iter().any(|law| *law != Law::Equality);
         self.modes = self.laws.iter().map(Mode::first).collect();
         self.held = vec![false; structure.rows];
         self.origin = self.members.clone();

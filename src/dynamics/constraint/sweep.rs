@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::super::{Model, State};
 use super::anderson::Anderson;
-use super::friction::Grip;
+use super::friction::FrictionPair;
 use super::jacobian::push;
 use super::solver::Solver;
 use super::{Direction, Law, Row};
@@ -71,8 +71,8 @@ impl Solver {
                     };
                 let account = match self.laws[row] {
                     Law::Friction { .. } if purpose != Purpose::Impact => &mut state.accounts.friction,
-                    Law::Drive { .. } => &mut state.accounts.motors,
-                    Law::Stop if place.constraint < joints => &mut state.accounts.limits,
+                    Law::SpeedMotor { .. } => &mut state.accounts.motors,
+                    Law::Inequality if place.constraint < joints => &mut state.accounts.limits,
                     _ => &mut state.accounts.impacts,
                 };
                 *account += work;
@@ -99,7 +99,7 @@ impl Solver {
     pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
         let middle = |(row, &goal): (usize, &f64)| {
             let middle = 0.5 * (goal + self.rate_of(row));
-            if self.laws[row] == Law::Stop { middle.max(goal) } else { middle }
+            if self.laws[row] == Law::Inequality { middle.max(goal) } else { middle }
         };
         goals.iter().enumerate().map(middle).collect()
     }
@@ -107,7 +107,8 @@ impl Solver {
     /// Returns the gap of each constraint row at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller
     /// body count as zero, as do all rows that are not inequalities (stops).
     pub(in crate::dynamics) fn gaps(&self, closed: f64) -> Vec<f64> {
-        let gap = |(row, law): (&Row, &Law)| if *law == Law::Stop { row.violation.max(0.0) } else { 0.0 };
+        let gap =
+            |(row, law): (&Row, &Law)| if *law == Law::Inequality { row.violation.max(0.0) } else { 0.0 };
         let mut gaps: Vec<f64> = self.rows.iter().zip(&self.laws).map(gap).collect();
         for place in self.structure.iter().flat_map(|structure| &structure.places) {
             let Some(contact) = place.constraint.checked_sub(self.joints()) else { continue };
@@ -223,15 +224,17 @@ impl Solver {
         for (row, &goal) in goals.iter().enumerate() {
             let weight = self.columns.weights()[row];
             let law = self.laws[row];
-            if weight <= 0.0 || !matches!(law, Law::Stop | Law::Drive { .. }) {
+            if weight <= 0.0 || !matches!(law, Law::Inequality | Law::SpeedMotor { .. }) {
                 continue;
             }
             let before = self.unknown[row];
-            let goal = if law == Law::Stop { goal } else { 0.0 };
+            let goal = if law == Law::Inequality { goal } else { 0.0 };
             let wanted = before - (self.rate_of(row) - goal) / weight;
             let next = match (law, purpose) {
-                (Law::Stop, _) => wanted.max(self.least(row)),
-                (Law::Drive { limit }, Purpose::Forces(time)) => wanted.clamp(-limit * time, limit * time),
+                (Law::Inequality, _) => wanted.max(self.least(row)),
+                (Law::SpeedMotor { limit }, Purpose::Forces(time)) => {
+                    wanted.clamp(-limit * time, limit * time)
+                }
                 _ => 0.0,
             };
             self.unknown[row] = next;
@@ -243,7 +246,7 @@ impl Solver {
 
     /// Makes one Gauss–Seidel sweep over a pair of friction rows. Returns the change of its slip velocity.
     fn sweep_grip(&mut self, grip: usize, goals: &[f64]) -> f64 {
-        let Grip { row, normal, coefficient, .. } = self.grips[grip];
+        let FrictionPair { row, normal, coefficient, .. } = self.grips[grip];
         let before = DVec2::new(self.unknown[row], self.unknown[row + 1]);
         let most = coefficient * self.unknown[normal];
         if most == 0.0 && before == DVec2::ZERO {

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::nearest::{Nearest, nearest};
+use super::closest_points::{ClosestPoints, nearest};
 use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
 use super::touch::touches;
@@ -37,7 +37,12 @@ pub(super) struct Approach<'a> {
 }
 
 /// Returns the closest points of two bodies, `near`, and all other pairs of points that are closer than `within`, m.
-pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, within: f64) -> Vec<Nearest> {
+pub(super) fn places(
+    solids: [&Solid; 2],
+    poses: [&Pose; 2],
+    near: ClosestPoints,
+    within: f64,
+) -> Vec<ClosestPoints> {
     let mut all = vec![near];
     let [a, b] = solids;
     let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
@@ -46,7 +51,7 @@ pub(super) fn places(solids: [&Solid; 2], poses: [&Pose; 2], near: Nearest, with
         let slack = SLACK * a.size().min(b.size());
         let others = touches(a, poses[0], b, poses[1], within);
         let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
-        all.extend(others.map(|other| Nearest { gap: other.gap.max(near.gap), ..other }));
+        all.extend(others.map(|other| ClosestPoints { gap: other.gap.max(near.gap), ..other }));
     }
     all
 }
@@ -100,7 +105,7 @@ impl Approach<'_> {
     }
 
     /// Computes the rate of the gap at one pair of points, m/s. It is negative while the bodies approach.
-    fn rate(&self, place: &Nearest, moving: &[Moving; 2], time: f64) -> f64 {
+    fn rate(&self, place: &ClosestPoints, moving: &[Moving; 2], time: f64) -> f64 {
         let at = |i: usize| {
             let arm = place.on[i] - moving[i].pose.location;
             let path = self.paths[i];
@@ -111,7 +116,7 @@ impl Approach<'_> {
     }
 
     /// Computes the largest rate at which the gap of any pair of points can close, m/s, and a bound of the gap's second derivative, m/s².
-    fn bounds(&self, near: &Nearest, moving: &[Moving; 2]) -> (f64, f64) {
+    fn bounds(&self, near: &ClosestPoints, moving: &[Moving; 2]) -> (f64, f64) {
         let velocity = moving[1].velocity - moving[0].velocity;
         let mut shrink = -near.normal.dot(velocity);
         let mut bend = self.paths[0].bend(self.paths[1]);

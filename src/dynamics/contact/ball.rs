@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::nearest::{Nearest, between};
+use super::closest_points::{ClosestPoints, between};
 use super::patch::Patch;
 use super::solid::{Pose, Solid};
 use crate::dynamics::shape::Shape;
@@ -34,7 +34,8 @@ impl Ball {
         pose: &Pose,
     ) -> (f64, DVec3, DVec3) {
         let own = Pose { location: centre, orientation: DQuat::IDENTITY };
-        let Nearest { gap, normal, on } = between(&self.solid.parts()[0], &own, &solid.parts()[part], pose);
+        let ClosestPoints { gap, normal, on } =
+            between(&self.solid.parts()[0], &own, &solid.parts()[part], pose);
         (gap, -normal, on[1])
     }
 

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::super::constraint::Member;
-use super::nearest::Nearest;
+use super::closest_points::ClosestPoints;
 use super::patch::{Patch, meet};
 use super::solid::Pose;
 
@@ -118,7 +118,7 @@ impl Change {
             meet(a, &p, b, &q)
         };
         let (before, after) = (moved(-step), moved(step));
-        let middle = |meeting: &Nearest| 0.5 * (meeting.on[0] + meeting.on[1]);
+        let middle = |meeting: &ClosestPoints| 0.5 * (meeting.on[0] + meeting.on[1]);
         Change {
             normal: (after.normal - before.normal) / (2.0 * step),
             place: (middle(&after) - middle(&before)) / (2.0 * step),

@@ -7,15 +7,15 @@ use glam::DVec3;
 
 use super::super::{BodyId, Breakdown, Constraint, Model, State};
 use super::approach::{Approach, TOUCH, are_convex, close, places};
-use super::closed::Closed;
+use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
-use super::nearest::{Nearest, nearest};
+use super::lasting_contact::LastingContact;
 use super::pairs::Pairs;
 use super::path::{Path, pose};
 use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
-use super::{Contacts, Impact, Meeting};
+use super::{ContactProperties, Contacts, Impact};
 
 /// At an event, bodies touch if their gap is below this fraction of their coordinates.
 pub(super) const NEAR: f64 = 1e-10;
@@ -58,7 +58,7 @@ pub(in crate::dynamics) struct Collider {
 #[derive(Clone, Debug)]
 pub(super) struct Touching {
     pub(super) bodies: [usize; 2],
-    pub(super) law: Meeting,
+    pub(super) law: ContactProperties,
     pub(super) touches: Vec<Touch>,
     /// Points with gaps so small that they count as touching while the bodies do not move there.
     pub(super) snug: Vec<Touch>,
@@ -157,7 +157,7 @@ impl Collider {
         model: &Model,
         (before, after): (&State, &State),
         duration: f64,
-        closed: &[Arc<Closed>],
+        closed: &[Arc<LastingContact>],
     ) -> Option<(f64, [usize; 2])> {
         self.follow(model, (before, after), duration);
         let Collider { solids, pairs, paths, fastest, crowd, .. } = self;
@@ -206,7 +206,7 @@ impl Collider {
         let poses = bodies.map(|i| pose(i, model, state));
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
         let touch = TOUCH * scale(bodies, [x, y], state);
-        let gap = |place: &Nearest| if place.gap.abs() > touch { place.gap } else { 0.0 };
+        let gap = |place: &ClosestPoints| if place.gap.abs() > touch { place.gap } else { 0.0 };
         let turns = |&body: &usize| model.angular_velocity(body, state) != DVec3::ZERO;
         if are_convex([x, y]) && !bodies.iter().any(turns) {
             return Some((gap(&near), rate(&near, bodies, (model, state))));
@@ -221,7 +221,12 @@ impl Collider {
 
     /// Returns how far touching bodies are from the next change of their contact points, in units of the tolerance: they touch at a
     /// further point, or leave the edge or face on which they touch. Negative after this change.
-    pub(in crate::dynamics) fn margin(&self, model: &Model, state: &State, closed: &[Arc<Closed>]) -> f64 {
+    pub(in crate::dynamics) fn margin(
+        &self,
+        model: &Model,
+        state: &State,
+        closed: &[Arc<LastingContact>],
+    ) -> f64 {
         let mut margin = f64::INFINITY;
         let mut last = None;
         for contact in closed {
@@ -236,7 +241,7 @@ impl Collider {
             }
             last = Some(contact.bodies);
             let is_closed = |touch: &Touch| {
-                let same = |other: &&Arc<Closed>| {
+                let same = |other: &&Arc<LastingContact>| {
                     other.bodies == contact.bodies && other.touch.patches == touch.patches
                 };
                 closed.iter().any(|other| same(&other))
@@ -285,7 +290,7 @@ impl Collider {
         model: &Model,
         time: f64,
         state: &State,
-        closed: &[Arc<Closed>],
+        closed: &[Arc<LastingContact>],
     ) -> Option<Breakdown> {
         self.meet_bodies(model);
         self.paths.clear();
@@ -328,7 +333,7 @@ pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
 }
 
 /// Computes the rate of the gap at a pair of points of two bodies, m/s.
-fn rate(meeting: &Nearest, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
+fn rate(meeting: &ClosestPoints, bodies: [usize; 2], (model, state): (&Model, &State)) -> f64 {
     let at = |i: usize| {
         let arm = meeting.on[i] - state.location[bodies[i]];
         state.velocity[bodies[i]] + model.angular_velocity(bodies[i], state).cross(arm)

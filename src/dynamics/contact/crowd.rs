@@ -3,19 +3,19 @@
 //! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap that settles.
 //! Moreau's scheme advances them to the end of the step. If this happens repeatedly, they stay in the crowd for some more steps.
 
-mod course;
 mod heap;
 mod hits;
+mod substep_motion;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use self::course::Course;
 use self::heap::is_heap;
+use self::substep_motion::SubstepMotion;
 use super::super::constraint::Solver;
 use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
-use super::closed::Closed;
 use super::collider::{Collider, Touching};
+use super::lasting_contact::LastingContact;
 
 /// The largest number of further steps for which a body stays in the crowd (the bodies that Moreau's scheme advances). Without further
 /// steps, a settling heap would collect thousands of events in each step before it joins the crowd again.
@@ -27,9 +27,9 @@ pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
     solver: Solver,
     /// The motion of the crowd (the bodies that Moreau's scheme advances) until the end of the step; `None` until it is computed.
-    course: Option<Course>,
+    course: Option<SubstepMotion>,
     /// The contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
-    places: Vec<Arc<Closed>>,
+    places: Vec<Arc<LastingContact>>,
     /// The impacts in the last substep of Moreau's scheme.
     impacts: Vec<Impact>,
     /// The pairs of bodies with contact forces between them in the last substep.
@@ -118,7 +118,7 @@ impl Collider {
 
     /// Returns true if all bodies of the crowd (the bodies that Moreau's scheme advances) remain so for the next step. `places` are the
     /// contacts of the crowd.
-    pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<Closed>]) -> bool {
+    pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<LastingContact>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
     }
@@ -130,7 +130,7 @@ impl Collider {
         t: f64,
         state: &State,
     ) -> Vec<ContactSnapshot> {
-        let is_here = |place: &&Arc<Closed>| place.is_of(&self.crowd.bodies);
+        let is_here = |place: &&Arc<LastingContact>| place.is_of(&self.crowd.bodies);
         let places: Vec<_> = self.crowd.places.iter().filter(is_here).cloned().collect();
         self.crowd.solver.last_forces(places, model, t, state)
     }
@@ -138,7 +138,7 @@ impl Collider {
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
     pub(in crate::dynamics) fn forces_at_rest(
         &self,
-        places: &[Arc<Closed>],
+        places: &[Arc<LastingContact>],
         model: &Model,
         (t, state): (f64, &State),
         loads: &Loads,

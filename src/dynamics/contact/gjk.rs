@@ -5,7 +5,7 @@ use glam::DVec3;
 use parry3d_f64::query::contact::contact_support_map_support_map;
 use parry3d_f64::shape::SupportMap;
 
-use super::nearest::Nearest;
+use super::closest_points::ClosestPoints;
 use super::solid::{Part, Pose};
 
 /// The core of a convex part as parry sees it: moved to the origin and scaled to a size of about 1, since parry's tolerances are absolute.
@@ -24,7 +24,7 @@ impl SupportMap for Placed<'_> {
 }
 
 /// Computes the closest points of the cores of two convex parts by GJK. `None` if the algorithm fails or a part is infinite.
-pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
+pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<ClosestPoints> {
     let origin = pa.point(a.centre);
     let unit = a.bound.max(b.bound);
     let far = (pb.point(b.centre) - origin).length();
@@ -35,7 +35,7 @@ pub(super) fn cores(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest>
     let same = parry3d_f64::math::Pose::IDENTITY;
     let found = contact_support_map_support_map(&same, &placed(a, pa), &placed(b, pb), f64::MAX)?;
     let world = |point: DVec3| origin + unit * point;
-    Some(Nearest {
+    Some(ClosestPoints {
         gap: unit * found.dist,
         normal: found.normal1,
         on: [world(found.point1), world(found.point2)],

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::approach::{Approach, TOUCH};
-use super::closed::Closed;
+use super::closest_points::nearest;
 use super::collider::{Collider, NEAR, SLIGHT, is_passive, scale};
 use super::crowd::Crowd;
-use super::nearest::nearest;
+use super::lasting_contact::LastingContact;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
@@ -71,7 +71,7 @@ impl Collider {
         model: &Model,
         (before, after): (&State, &State),
         duration: f64,
-        closed: &[Arc<Closed>],
+        closed: &[Arc<LastingContact>],
         held: impl Iterator<Item = &'a BTreeSet<usize>>,
         met: &[[usize; 2]],
     ) -> Parting {

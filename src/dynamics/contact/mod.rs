@@ -7,7 +7,7 @@
 mod approach;
 mod ball;
 mod change;
-mod closed;
+mod closest_points;
 mod collider;
 mod crowd;
 mod feature;
@@ -15,7 +15,7 @@ mod feature;
 mod gjk;
 mod group;
 mod impulse;
-mod nearest;
+mod lasting_contact;
 mod pairs;
 mod patch;
 mod path;
@@ -33,11 +33,11 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 pub(super) use ball::Ball;
-pub(super) use closed::Closed;
 pub(super) use collider::Collider;
 pub(super) use group::Parting;
+pub(super) use lasting_contact::LastingContact;
 pub(super) use solid::{Pose, Solid};
-pub use surface::{Meeting, Surface};
+pub use surface::{ContactProperties, Surface};
 pub(super) use tree::Tree;
 
 /// The contact properties of the bodies: their surfaces, and the pairs that pass through each other.

@@ -1,10 +1,10 @@
 //! The replacement of GJK without the feature `time-stepping`: there is no first guess, so all pairs of features are compared. The result
 //! is as exact, but slower.
 
-use super::nearest::Nearest;
+use super::closest_points::ClosestPoints;
 use super::solid::{Part, Pose};
 
 /// Always returns `None`: without GJK, there is no first guess for the closest points of two convex parts.
-pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<Nearest> {
+pub(super) fn cores(_: &Part, _: &Pose, _: &Part, _: &Pose) -> Option<ClosestPoints> {
     None
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::super::{Model, State};
 use super::path::{Path, pose};
 use super::solid::Solid;
-use super::{Contacts, Meeting};
+use super::{ContactProperties, Contacts};
 
 /// The margin around the box of a body, as a multiple of the distance that the body moves in a step.
 const WAYS: f64 = 8.0;
@@ -20,7 +20,7 @@ pub(super) struct Pair {
     /// The indices of the two bodies, the smaller one first.
     pub(super) bodies: [usize; 2],
     /// The restitution and the friction of the two surfaces.
-    pub(super) law: Meeting,
+    pub(super) law: ContactProperties,
     /// A lower bound of the gap of the two bodies, m.
     pub(super) free: f64,
 }
@@ -57,7 +57,7 @@ impl Pairs {
     }
 
     /// Returns the restitution and friction of two bodies; `None` if the pair is not in the list.
-    pub(super) fn law(&self, bodies: [usize; 2]) -> Option<Meeting> {
+    pub(super) fn law(&self, bodies: [usize; 2]) -> Option<ContactProperties> {
         let at = self.list.binary_search_by_key(&bodies, |pair| pair.bodies).ok()?;
         Some(self.list[at].law)
     }
@@ -154,7 +154,7 @@ pub(super) fn near(
 }
 
 /// Returns the restitution and friction of two bodies. `None` if they pass through each other or if neither can move.
-fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<Meeting> {
+fn law(contacts: &Contacts, bodies: [usize; 2], model: &Model) -> Option<ContactProperties> {
     let [a, b] = bodies;
     let is_moved = |i: usize| model.can_move(i);
     if !(is_moved(a) || is_moved(b)) || contacts.apart.contains(&(a, b)) {

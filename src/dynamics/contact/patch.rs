@@ -4,7 +4,7 @@ mod rim;
 
 use glam::{DQuat, DVec3};
 
-use super::nearest::Nearest;
+use super::closest_points::ClosestPoints;
 use super::solid::Pose;
 
 /// Two directions count as parallel if the sine of the angle between them is below this.
@@ -139,7 +139,7 @@ impl Patch {
 /// Computes the closest points of two patches.
 ///
 /// The gap between a corner and a corner, an edge or a rim is never negative, because the normal is not unique there.
-pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> Nearest {
+pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> ClosestPoints {
     // Coordinates are relative to the first body, to keep precision far from the origin.
     let origin = pa.location;
     let a = a.placed(&Pose { location: DVec3::ZERO, orientation: pa.orientation });
@@ -148,7 +148,7 @@ pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> N
 }
 
 /// Computes the closest points of two patches in common axes.
-pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
+pub(super) fn meet_placed(a: &Patch, b: &Patch) -> ClosestPoints {
     match (*a, *b) {
         (Patch::Plane { at, normal }, _) => on_plane(at, normal, b),
         (_, Patch::Plane { at, normal }) => on_plane(at, normal, a).flipped(),
@@ -162,13 +162,13 @@ pub(super) fn meet_placed(a: &Patch, b: &Patch) -> Nearest {
         _ => match (a.spine(), b.spine()) {
             (Some(a), Some(b)) => spines(&a, &b),
             // All pairs with a plane or a rim are handled above.
-            _ => Nearest { gap: f64::INFINITY, normal: DVec3::X, on: [DVec3::ZERO; 2] },
+            _ => ClosestPoints { gap: f64::INFINITY, normal: DVec3::X, on: [DVec3::ZERO; 2] },
         },
     }
 }
 
 /// Computes the closest points of a plane and a patch. The closest point of a line is its nearer end.
-fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
+fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> ClosestPoints {
     let lowest = match *other {
         Patch::Plane { at, .. } => at,
         Patch::Circle { centre, axis, radius } => {
@@ -182,14 +182,14 @@ fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> Nearest {
         },
     };
     let gap = (lowest - at).dot(normal);
-    Nearest { gap, normal, on: [lowest - gap * normal, lowest] }
+    ClosestPoints { gap, normal, on: [lowest - gap * normal, lowest] }
 }
 
 /// Computes the closest points of a rim and a point, a line, or the side of a cone.
-fn rim_and(rim: rim::Rim, other: &Patch) -> Nearest {
+fn rim_and(rim: rim::Rim, other: &Patch) -> ClosestPoints {
     match other.spine() {
         Some(spine) => rim::rim_and_spine(rim, &spine),
-        None => Nearest { gap: f64::INFINITY, normal: rim.axis, on: [rim.centre; 2] },
+        None => ClosestPoints { gap: f64::INFINITY, normal: rim.axis, on: [rim.centre; 2] },
     }
 }
 
@@ -211,7 +211,7 @@ impl Spine {
 /// The gap of the balls at s and t is |w + t v − s u| − r₁ − r₂ − k₁ s − k₂ t. Let the lines be nearest at (s₀, t₀), at the distance h.
 /// With x = (s, t) − (s₀, t₀) and the matrix G of the dot products of the directions, the gap is √(h² + xᵀ G x) − k·x − …, whose minimum
 /// is at x = G⁻¹ k h / √(1 − kᵀ G⁻¹ k).
-fn spines(a: &Spine, b: &Spine) -> Nearest {
+fn spines(a: &Spine, b: &Spine) -> ClosestPoints {
     let w = b.at - a.at;
     if a.is_point() && b.is_point() {
         return balls(a.at, a.radius, b.at, b.radius, DVec3::ZERO);
@@ -257,7 +257,7 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
     let (s, t) = (s0 + steepest[0] * scale, t0 + steepest[1] * scale);
     let normal = sign * below * unit + steepest[1] * v - steepest[0] * u;
     let radii = [a.radius + k[0] * s, b.radius + k[1] * t];
-    Nearest {
+    ClosestPoints {
         gap: scale - radii[0] - radii[1],
         normal,
         on: [a.at + s * u + radii[0] * normal, b.at + t * v - radii[1] * normal],
@@ -266,8 +266,8 @@ fn spines(a: &Spine, b: &Spine) -> Nearest {
 
 /// Returns an infinite gap. The gap of steep cones decreases steadily along the lines, so the cones are nearest at an end, which is a
 /// separate patch.
-fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> Nearest {
-    Nearest { gap: f64::INFINITY, normal, on: [a, b] }
+fn nowhere(a: DVec3, b: DVec3, normal: DVec3) -> ClosestPoints {
+    ClosestPoints { gap: f64::INFINITY, normal, on: [a, b] }
 }
 
 /// Returns the middle of the length that two parallel lines share, as a distance from the middle of the second line, m.
@@ -279,10 +279,10 @@ fn common_middle(a: &Spine, b: &Spine, w: DVec3) -> f64 {
 }
 
 /// Computes the closest points of two balls with centers `a` and `b` and radii `ra` and `rb`. `away` is the normal for concentric balls.
-fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> Nearest {
+fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> ClosestPoints {
     let between = b - a;
     let normal = between.try_normalize().or(away.try_normalize()).unwrap_or(DVec3::X);
-    Nearest { gap: between.length() - ra - rb, normal, on: [a + ra * normal, b - rb * normal] }
+    ClosestPoints { gap: between.length() - ra - rb, normal, on: [a + ra * normal, b - rb * normal] }
 }
 
 impl Pose {

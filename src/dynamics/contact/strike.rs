@@ -12,10 +12,10 @@ use super::super::constraint::Solver;
 use super::super::motion::Twist;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
-use super::closed::{Closed, heading};
+use super::closest_points::ClosestPoints;
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
-use super::nearest::Nearest;
+use super::lasting_contact::{LastingContact, heading};
 use super::touch::Touch;
 
 /// A rebound speed below this fraction of the largest closing speed is suppressed, because it would be invisible.
@@ -58,13 +58,13 @@ struct Place {
 /// The result of the impacts between touching bodies at one instant.
 pub(in crate::dynamics) struct Strike {
     /// The contacts at which bodies may stay in touch.
-    pub(in crate::dynamics) closed: Vec<Arc<Closed>>,
+    pub(in crate::dynamics) closed: Vec<Arc<LastingContact>>,
     /// The indices of the bodies that had an impact. A body may occur several times.
     pub(in crate::dynamics) struck: Vec<usize>,
 }
 
 impl Place {
-    fn of(meeting: &Nearest, bodies: [usize; 2], state: &State) -> Place {
+    fn of(meeting: &ClosestPoints, bodies: [usize; 2], state: &State) -> Place {
         let (u, w) = meeting.normal.any_orthonormal_pair();
         let arm = |i: usize| meeting.on[i] - state.location[bodies[i]];
         Place { axes: [meeting.normal, u, w], arms: [arm(0), arm(1)] }
@@ -157,7 +157,7 @@ impl Collider {
             let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
             for touch in near.iter().copied().chain(snug) {
                 let (bodies, law, heading) = (pair.bodies, pair.law, heading(touch.meeting.normal));
-                closed.push(Arc::new(Closed { bodies, touch: *touch, law, size, heading, still }));
+                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, heading, still }));
             }
         }
         Ok(Strike { closed, struck })

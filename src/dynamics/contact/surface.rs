@@ -16,7 +16,7 @@ pub struct Surface {
 
 /// The combined contact properties of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct ContactProperties {
     /// The coefficient of restitution.
     pub restitution: f64,
     /// Coulomb's coefficient of friction.
@@ -29,12 +29,12 @@ impl Surface {
     /// Combines two surfaces: the larger restitution, the geometric mean of the coefficients of friction, and the larger rolling friction.
     /// If only one surface specifies a value, this value counts. If neither does, the values are 0, 0.5 and 0.
     #[must_use]
-    pub fn meet(&self, other: &Surface) -> Meeting {
+    pub fn meet(&self, other: &Surface) -> ContactProperties {
         let mix = |a: Option<f64>, b: Option<f64>, both: fn(f64, f64) -> f64, neither: f64| match (a, b) {
             (Some(a), Some(b)) => both(a, b),
             (one, another) => one.or(another).unwrap_or(neither),
         };
-        Meeting {
+        ContactProperties {
             restitution: mix(self.restitution, other.restitution, f64::max, 0.0),
             friction: mix(self.friction, other.friction, |a, b| (a * b).sqrt(), FRICTION),
             rolling_friction: mix(self.rolling_friction, other.rolling_friction, f64::max, 0.0),
@@ -51,9 +51,9 @@ mod tests {
         let silent = Surface::default();
         let ball = Surface { restitution: Some(0.8), friction: Some(0.2), rolling_friction: Some(0.01) };
         let floor = Surface { restitution: Some(0.5), friction: Some(0.8), rolling_friction: None };
-        let neither = Meeting { restitution: 0.0, friction: 0.5, rolling_friction: 0.0 };
+        let neither = ContactProperties { restitution: 0.0, friction: 0.5, rolling_friction: 0.0 };
         assert_eq!(silent.meet(&silent), neither);
-        let one = Meeting { restitution: 0.8, friction: 0.2, rolling_friction: 0.01 };
+        let one = ContactProperties { restitution: 0.8, friction: 0.2, rolling_friction: 0.01 };
         assert_eq!((silent.meet(&ball), ball.meet(&silent)), (one, one));
         let both = ball.meet(&floor);
         assert_eq!(both, floor.meet(&ball));

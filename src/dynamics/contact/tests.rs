@@ -6,7 +6,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use std::sync::Arc;
 
-use super::nearest::{Nearest, nearest};
+use super::closest_points::{ClosestPoints, nearest};
 use super::patch::{Patch, meet};
 use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
@@ -52,7 +52,7 @@ fn solid(shape: &Shape) -> Solid {
 }
 
 #[allow(clippy::unwrap_used, reason = "without a limit, there is a nearest place")]
-fn near(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> Nearest {
+fn near(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> ClosestPoints {
     nearest(&solid(a), pa, &solid(b), pb, f64::INFINITY).unwrap()
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::closest_points::{ClosestPoints, EDGE, apart, ball_and, between, edge, for_pairs, margin};
 use super::feature::Feature;
-use super::nearest::{EDGE, Nearest, apart, ball_and, between, edge, for_pairs, margin};
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
@@ -20,7 +20,7 @@ pub(in crate::dynamics) struct Touch {
     /// For each solid, its surface around the contact point, in its body axes.
     pub patches: [Patch; 2],
     /// The closest points of the two patches, with their gap and normal.
-    pub meeting: Nearest,
+    pub meeting: ClosestPoints,
     /// For each solid, the index of its convex part and the index of the feature in this part. `None` for a single point of a rim, which
     /// is no feature.
     features: [(usize, Option<usize>); 2],
@@ -58,7 +58,7 @@ pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, w
 }
 
 /// Returns true if two contact points coincide, with the same normal. `same` is the tolerance, m.
-fn is_same(a: &Nearest, b: &Nearest, same: f64) -> bool {
+fn is_same(a: &ClosestPoints, b: &ClosestPoints, same: f64) -> bool {
     a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
 }
 
@@ -186,7 +186,7 @@ impl Pair<'_> {
     }
 
     /// Adds the contact points of two features, whose closest points are `meeting`.
-    fn add_met(&mut self, i: usize, j: usize, meeting: Nearest) {
+    fn add_met(&mut self, i: usize, j: usize, meeting: ClosestPoints) {
         let (a, b) = (&self.a.features[i], &self.b.features[j]);
         if a.is_seam || b.is_seam {
             return;
@@ -239,7 +239,7 @@ impl Pair<'_> {
     }
 
     /// Returns true if two patches touch at their closest points, and not on the far sides of the convex parts.
-    fn is_within_reach(&self, meeting: &Nearest) -> bool {
+    fn is_within_reach(&self, meeting: &ClosestPoints) -> bool {
         (-2.0 * self.depth..=self.within).contains(&meeting.gap)
     }
 
@@ -250,7 +250,7 @@ impl Pair<'_> {
     }
 
     /// Adds the contact of two patches, whose closest points are `meeting`, if the convex parts touch there and the contact is new.
-    fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: Nearest) {
+    fn keep(&mut self, patches: [Patch; 2], features: [Option<usize>; 2], meeting: ClosestPoints) {
         if !self.is_within_reach(&meeting) {
             return;
         }

@@ -34,7 +34,7 @@ impl Buoyancy {
             }
             let turn = moment.model.world_from_body(i, moment.state);
             let depth = self.level - moment.state.location[i].dot(up);
-            if let Some(below) = shape.immersed(turn.conjugate() * up, depth) {
+            if let Some(below) = shape.submerged(turn.conjugate() * up, depth) {
                 see(i, below.volume, turn * below.moment);
             }
         }

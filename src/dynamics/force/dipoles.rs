@@ -100,7 +100,7 @@ impl Force for Dipoles {
             loads.torque[one.body] += self.constant * a.cross(field(b, n, r));
             loads.torque[other.body] += self.constant * b.cross(field(a, n, r));
         });
-        moment.model.effort().add(usize::try_from(self.pairs()).unwrap_or(0));
+        moment.model.pair_counter().add(usize::try_from(self.pairs()).unwrap_or(0));
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
@@ -112,7 +112,7 @@ impl Force for Dipoles {
             let r = d.length();
             sum -= self.constant * one.moment.dot(field(other.moment, d / r, r));
         });
-        moment.model.effort().add(usize::try_from(self.pairs()).unwrap_or(0));
+        moment.model.pair_counter().add(usize::try_from(self.pairs()).unwrap_or(0));
         sum
     }
 

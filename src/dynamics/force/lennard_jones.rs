@@ -36,7 +36,7 @@ pub struct LennardJones {
 
 /// Working memory for one evaluation of the force. It is reused, so that a run allocates no memory.
 #[derive(Debug, Default)]
-struct Room {
+struct WorkingMemory {
     sorted: Sorted,
     /// The forces on the sorted bodies, N: one list for each axis.
     force: [Vec<f64>; 3],
@@ -59,7 +59,7 @@ struct Sorted {
 
 /// A pool of working memory. An evaluation takes an entry, or makes a new one if the pool is empty, so concurrent evaluations never wait
 /// for each other.
-static ROOMS: Mutex<Vec<Room>> = Mutex::new(Vec::new());
+static POOL: Mutex<Vec<WorkingMemory>> = Mutex::new(Vec::new());
 
 impl LennardJones {
     /// The usual cutoff distance, in units of σ.
@@ -83,12 +83,12 @@ impl LennardJones {
     }
 
     /// Takes working memory from the pool, sorts the present bodies in it, and calls `work` with it. Returns the result of `work`.
-    fn with_room<T>(&self, moment: &Moment, work: impl FnOnce(&mut Room) -> T) -> T {
-        let taken = ROOMS.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut room = taken.unwrap_or_default();
-        room.sorted.fill(self, moment);
-        let done = work(&mut room);
-        ROOMS.lock().unwrap_or_else(PoisonError::into_inner).push(room);
+    fn with_working_memory<T>(&self, moment: &Moment, work: impl FnOnce(&mut WorkingMemory) -> T) -> T {
+        let taken = POOL.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut memory = taken.unwrap_or_default();
+        memory.sorted.fill(self, moment);
+        let done = work(&mut memory);
+        POOL.lock().unwrap_or_else(PoisonError::into_inner).push(memory);
         done
     }
 
@@ -150,7 +150,7 @@ impl Sorted {
 impl Force for LennardJones {
     fn apply(&self, moment: &Moment, loads: &mut Loads) {
         let (_, less) = self.shifts();
-        self.with_room(moment, |Room { sorted, force }| {
+        self.with_working_memory(moment, |WorkingMemory { sorted, force }| {
             for force in force.iter_mut() {
                 force.clear();
                 force.resize(sorted.bodies.len(), 0.0);
@@ -180,7 +180,7 @@ impl Force for LennardJones {
 
     fn potential(&self, moment: &Moment) -> f64 {
         let (shift, less) = self.shifts();
-        self.with_room(moment, |Room { sorted, .. }| {
+        self.with_working_memory(moment, |WorkingMemory { sorted, .. }| {
             let mut sum = 0.0;
             let add = |sum: &mut f64, _: usize, _: usize, _: [f64; 3], square: f64| {
                 let over = if less == 0.0 { 0.0 } else { less * (square.sqrt() - self.cutoff) };

@@ -84,7 +84,7 @@ impl Pairs<'_> {
             }
             pulls[j] = back;
         }
-        moment.model.effort().add(bodies.len() * bodies.len().saturating_sub(1) / 2);
+        moment.model.pair_counter().add(bodies.len() * bodies.len().saturating_sub(1) / 2);
         for (body, pull) in bodies.iter().zip(pulls) {
             loads.force[body.index()] += self.constant * self.strength[body.index()] * pull;
         }
@@ -106,7 +106,7 @@ impl Pairs<'_> {
     /// With one group, calls `see` for every tile alone, and then for that tile with each later tile. With two groups, calls `see` for
     /// every tile with each tile of the other group. The flag is true at the last call with the same first tile.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
-        let effort = moment.model.effort();
+        let counter = moment.model.pair_counter();
         let bodies = moment.model.present(self.bodies);
         if let Some(against) = self.against {
             let against = moment.model.present(against);
@@ -116,7 +116,7 @@ impl Pairs<'_> {
                 while let Some(other) = others.next() {
                     let mut second = self.tile(other, moment);
                     see(&mut first, Some(&mut second), others.peek().is_none());
-                    effort.add(first.len() * second.len());
+                    counter.add(first.len() * second.len());
                 }
             }
             return;
@@ -126,12 +126,12 @@ impl Pairs<'_> {
             let (head, behind) = rest.split_at(TILE.min(rest.len()));
             let mut first = self.tile(head, moment);
             see(&mut first, None, behind.is_empty());
-            effort.add(first.len() * (first.len() - 1) / 2);
+            counter.add(first.len() * (first.len() - 1) / 2);
             let mut others = behind.chunks(TILE).peekable();
             while let Some(other) = others.next() {
                 let mut second = self.tile(other, moment);
                 see(&mut first, Some(&mut second), others.peek().is_none());
-                effort.add(first.len() * second.len());
+                counter.add(first.len() * second.len());
             }
             rest = behind;
         }

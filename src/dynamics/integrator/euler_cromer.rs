@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     adaptive: false,
     summary: "first order, symplectic: cheap, and the energy error stays bounded",
     create: || Box::new(EulerCromer::default()),
-    ahead: None,
+    take_over: None,
 };
 
 #[derive(Clone, Default)]

@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     adaptive: false,
     summary: "first order: gains energy without bound, for comparison only",
     create: || Box::new(ExplicitEuler::default()),
-    ahead: None,
+    take_over: None,
 };
 
 #[derive(Clone, Default)]

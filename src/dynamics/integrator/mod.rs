@@ -15,7 +15,7 @@ mod velocities;
 mod velocity_verlet;
 mod yoshida4;
 
-use super::{Accuracy, Dynamics, State, System, World, ahead};
+use super::{Accuracy, Dynamics, State, System, World, frame_independent};
 
 pub use dense::{DenseOutput, Step};
 pub(super) use rotation::{free as turn_freely, rate as orientation_rate};
@@ -69,7 +69,7 @@ pub struct Method {
     pub create: fn() -> Box<dyn Integrator>,
     /// Takes over a world to advance it in steps that are independent of frames. `None` for a method whose steps divide the time between
     /// two frames.
-    pub ahead: Option<TakeOver>,
+    pub take_over: Option<TakeOver>,
 }
 
 /// The methods whose steps divide the time between two frames. The first method is the default.
@@ -77,12 +77,13 @@ pub static METHODS: &[Method] =
     &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
 /// The methods whose steps are independent of frames.
-pub static AHEAD: &[Method] = &[ahead::DOP853, ahead::GAUSS_RADAU, ahead::WISDOM_HOLMAN];
+pub static FRAME_INDEPENDENT: &[Method] =
+    &[frame_independent::DOP853, frame_independent::GAUSS_RADAU, frame_independent::WISDOM_HOLMAN];
 
 impl Method {
     /// Returns all methods of both tables.
     pub fn all() -> impl Iterator<Item = &'static Method> {
-        METHODS.iter().chain(AHEAD)
+        METHODS.iter().chain(FRAME_INDEPENDENT)
     }
 
     /// Returns the method with this name; `None` if there is no such method.
@@ -93,8 +94,8 @@ impl Method {
 
     /// Whether the method can only advance planets about a heavy body that nothing but gravitation moves.
     #[must_use]
-    pub fn is_of_planets(&self) -> bool {
-        self.name == ahead::WISDOM_HOLMAN.name
+    pub fn is_planetary(&self) -> bool {
+        self.name == frame_independent::WISDOM_HOLMAN.name
     }
 }
 

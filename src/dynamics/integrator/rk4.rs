@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     adaptive: false,
     summary: "fourth order: accurate over short times, loses energy slowly over long ones",
     create: || Box::new(Rk4::default()),
-    ahead: None,
+    take_over: None,
 };
 
 #[derive(Clone, Default)]

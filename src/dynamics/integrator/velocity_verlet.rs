@@ -17,7 +17,7 @@ pub(super) const METHOD: Method = Method {
     adaptive: false,
     summary: "second order, symplectic, one evaluation of forces a step: for long motion, also with joints and impacts",
     create: || Box::new(VelocityVerlet::default()),
-    ahead: None,
+    take_over: None,
 };
 
 #[derive(Clone, Default)]

@@ -17,7 +17,7 @@ pub(super) const METHOD: Method = Method {
     adaptive: false,
     summary: "fourth order, symplectic: for long and precise motion without joints and impacts",
     create: || Box::new(Yoshida4::default()),
-    ahead: None,
+    take_over: None,
 };
 
 /// 1 / (2 − ∛2): the length of the first and of the third second-order step, as a fraction of the whole step. The three lengths add up to

@@ -9,9 +9,9 @@ use glam::DVec3;
 
 use super::hold;
 use super::obstacles::{Near, Scenery, Target};
+use super::particle_step::{ParticlePath, ParticleStep};
 use super::stepper::Stepper;
-use super::way::{Leap, Way};
-use crate::dynamics::contact::{Ball, Meeting, Surface};
+use crate::dynamics::contact::{Ball, ContactProperties, Surface};
 
 /// A particle touches an obstacle if the gap is at most `TOUCH` times its radius, or `DIGITS` times its largest coordinate, whichever is
 /// larger.
@@ -48,7 +48,7 @@ pub(super) struct Bouncer {
 pub(super) struct Contact {
     pub(super) target: Target,
     pub(super) near: Near,
-    pub(super) law: Meeting,
+    pub(super) law: ContactProperties,
     /// The rate of change of the gap between particle and part, m/s; negative if they approach each other.
     rate: f64,
     /// The speed of approach up to which an approach is taken for a rounding error, m/s.
@@ -77,7 +77,7 @@ impl Bouncer {
 
     /// Returns the position (m) and the velocity (m/s) of a particle at the end of a step among obstacles. `leap` is the same step without
     /// obstacles.
-    pub(super) fn step(&mut self, leap: &Leap, scenery: &Scenery) -> (DVec3, DVec3) {
+    pub(super) fn step(&mut self, leap: &ParticleStep, scenery: &Scenery) -> (DVec3, DVec3) {
         let whole = leap.span();
         let mut leap = *leap;
         for _ in 0..MOST {
@@ -99,8 +99,11 @@ impl Bouncer {
                 [] => (leap.places[1], leap.velocities[1]),
                 _ => hold::hold(&self.ball, &leap, held, scenery),
             };
-            let moved =
-                Leap { places: [leap.places[0], end], velocities: [leap.velocities[0], velocity], ..leap };
+            let moved = ParticleStep {
+                places: [leap.places[0], end],
+                velocities: [leap.velocities[0], velocity],
+                ..leap
+            };
             let way = moved.way();
             let stays = end == leap.places[0] && velocity == DVec3::ZERO;
             let may_hit = |it: &&Contact| !(stays && scenery.is_still(&it.target));
@@ -120,14 +123,14 @@ impl Bouncer {
     }
 
     /// Computes the end of a step again without obstacles, after the time, the position or the velocity at its beginning has changed.
-    fn again(&mut self, leap: &mut Leap) {
+    fn again(&mut self, leap: &mut ParticleStep) {
         (leap.places[1], leap.velocities[1]) =
             self.spare.leap((leap.places[0], leap.velocities[0]), leap.times);
     }
 
     /// Finds all parts of obstacles that the particle may touch within a step, and their gaps at the beginning of the step. `whole` is the
     /// length of the full step, s.
-    fn look(&mut self, leap: &Leap, whole: f64, scenery: &Scenery) {
+    fn look(&mut self, leap: &ParticleStep, whole: f64, scenery: &Scenery) {
         let Bouncer { ball, surface, targets, seen, .. } = self;
         seen.clear();
         // The margin bounds how far a particle in contact can deviate from its path without obstacles.
@@ -181,7 +184,13 @@ impl Bouncer {
 
     /// Returns the time of the first contact with a part, in s after the beginning of the path; `None` if the particle does not reach the
     /// part.
-    fn touch(&self, way: &Way, contact: &Contact, leap: &Leap, scenery: &Scenery) -> Option<f64> {
+    fn touch(
+        &self,
+        way: &ParticlePath,
+        contact: &Contact,
+        leap: &ParticleStep,
+        scenery: &Scenery,
+    ) -> Option<f64> {
         let span = leap.span();
         let touch = (TOUCH * self.ball.radius()).max(DIGITS * leap.places[0].abs().max_element());
         let mut near = contact.near;

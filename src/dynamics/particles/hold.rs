@@ -5,8 +5,8 @@
 use glam::{DQuat, DVec3};
 
 use super::bounce::Contact;
-use super::obstacles::{Scenery, Standing};
-use super::way::Leap;
+use super::obstacles::{ObstacleState, Scenery};
+use super::particle_step::ParticleStep;
 use crate::dynamics::contact::Ball;
 
 /// A particle comes to rest if its speed is below this fraction of the velocity change that forces cause in a step.
@@ -25,7 +25,7 @@ const GAP: f64 = 1e-11;
 /// The state of a particle at the beginning of a step, in the axes of an obstacle.
 struct Frame {
     /// The poses and velocities of the obstacle at the beginning and at the end of the step.
-    standing: [Standing; 2],
+    standing: [ObstacleState; 2],
     span: f64,
     place: DVec3,
     velocity: DVec3,
@@ -33,7 +33,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn new(leap: &Leap, contact: &Contact, scenery: &Scenery) -> Frame {
+    fn new(leap: &ParticleStep, contact: &Contact, scenery: &Scenery) -> Frame {
         let standing = leap.times.map(|t| scenery.standing(&contact.target, t));
         let back = standing.map(|it| it.pose.orientation.conjugate());
         let place = standing[0].pose.local(leap.places[0]);
@@ -49,7 +49,7 @@ impl Frame {
 
     /// Converts a position and a velocity at the end of the step from the obstacle's axes to world axes.
     fn end(&self, place: DVec3, velocity: DVec3) -> (DVec3, DVec3) {
-        let Standing { pose, .. } = self.standing[1];
+        let ObstacleState { pose, .. } = self.standing[1];
         let place = pose.point(place);
         (place, self.standing[1].velocity(place) + pose.orientation * velocity)
     }
@@ -61,7 +61,7 @@ impl Frame {
 
 /// Returns the position (m) and the velocity (m/s) at the end of a step, world axes, for a particle that stays in contact with the parts
 /// in `held`.
-pub(super) fn hold(ball: &Ball, leap: &Leap, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
+pub(super) fn hold(ball: &Ball, leap: &ParticleStep, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
     let frame = Frame::new(leap, &held[0], scenery);
     if let [contact] = held {
         hold_one(ball, &frame, contact, scenery)
@@ -131,7 +131,13 @@ fn slide(begin: DVec3, along: DVec3, most: f64, span: f64) -> (DVec3, DVec3) {
 
 /// Returns the position and the velocity at the end of a step for a particle in contact with several parts. An iteration over the contacts
 /// finds the impulses.
-fn hold_many(ball: &Ball, leap: &Leap, frame: &Frame, held: &[Contact], scenery: &Scenery) -> (DVec3, DVec3) {
+fn hold_many(
+    ball: &Ball,
+    leap: &ParticleStep,
+    frame: &Frame,
+    held: &[Contact],
+    scenery: &Scenery,
+) -> (DVec3, DVec3) {
     let span = frame.span;
     let acting = span * frame.acceleration.length();
     let mut velocity = frame.velocity + span * frame.acceleration;

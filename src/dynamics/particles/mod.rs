@@ -20,6 +20,7 @@ mod cloud;
 mod hold;
 mod obstacles;
 mod origin;
+mod particle_step;
 mod recorded_motion;
 mod source;
 mod stepper;
@@ -27,7 +28,6 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod triangles;
-mod way;
 
 pub use births::Births;
 pub use cloud::{Cloud, Particle};

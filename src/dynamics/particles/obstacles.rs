@@ -72,7 +72,7 @@ pub(super) struct Target {
 
 /// The pose and the velocities of an obstacle at one time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Standing {
+pub(super) struct ObstacleState {
     pub(super) pose: Pose,
     pub(super) state: BodyState,
 }
@@ -94,7 +94,7 @@ pub(super) struct Near {
     pub(super) is_hidden: bool,
 }
 
-impl Standing {
+impl ObstacleState {
     /// Returns the velocity of a point that moves with the obstacle, m/s. `place` is the position of the point, world axes, m.
     pub(super) fn velocity(&self, place: DVec3) -> DVec3 {
         self.state.velocity + self.state.angular_velocity.cross(place - self.state.location)
@@ -199,17 +199,20 @@ impl Scenery {
     }
 
     /// Returns the pose and the velocities of an obstacle at time `t`, s.
-    pub(super) fn standing(&self, target: &Target, t: f64) -> Standing {
+    pub(super) fn standing(&self, target: &Target, t: f64) -> ObstacleState {
         let Placed { course, still, .. } = &self.placed[target.placed];
         match *still {
             Some(pose) => {
                 let Pose { location, orientation } = pose;
                 let (velocity, angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
-                Standing { pose, state: BodyState { location, orientation, velocity, angular_velocity } }
+                ObstacleState { pose, state: BodyState { location, orientation, velocity, angular_velocity } }
             }
             None => {
                 let state = course.state(t);
-                Standing { pose: Pose { location: state.location, orientation: state.orientation }, state }
+                ObstacleState {
+                    pose: Pose { location: state.location, orientation: state.orientation },
+                    state,
+                }
             }
         }
     }

@@ -55,18 +55,18 @@ impl ParticleSource {
     /// Returns the lifetime of a particle that is born at time `t` (s), s.
     #[must_use]
     pub fn life(&self, number: u64, t: f64) -> f64 {
-        self.lifetime.draw(t, &mut self.branch(number, 0)).min(self.longest_life)
+        self.lifetime.draw(t, &mut self.substream(number, 0)).min(self.longest_life)
     }
 
     /// Returns the initial position (m) and velocity (m/s), world axes, of a particle that is born at time `t`, s. `carrier` is the pose
     /// and motion of the body that carries the source.
     #[must_use]
     pub fn begin(&self, number: u64, t: f64, carrier: Option<&BodyState>) -> (DVec3, DVec3) {
-        let mut random = self.branch(number, 1);
+        let mut random = self.substream(number, 1);
         let (place, normal) = self.origin.place(&mut random);
         let middle = self.direction.unwrap_or(normal);
         let direction = within_cone(middle, self.spread, &mut random);
-        let speed = self.speed.draw(t, &mut self.branch(number, 2));
+        let speed = self.speed.draw(t, &mut self.substream(number, 2));
         match carrier {
             Some(state) => {
                 let (location, velocity) = state.point(place);
@@ -76,8 +76,8 @@ impl ParticleSource {
         }
     }
 
-    fn branch(&self, number: u64, which: u64) -> Stream {
-        self.random.branch(number.wrapping_mul(BRANCHES).wrapping_add(which))
+    fn substream(&self, number: u64, which: u64) -> Stream {
+        self.random.substream(number.wrapping_mul(BRANCHES).wrapping_add(which))
     }
 }
 

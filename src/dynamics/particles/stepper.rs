@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::way::Leap;
+use super::particle_step::ParticleStep;
 use super::{Particle, RecordedMotion};
 use crate::dynamics::constraint::Solver;
 use crate::dynamics::{BodyId, Force, Integrator, Method, Model, RigidBody, Shape, State, System};
@@ -144,7 +144,7 @@ impl Stepper {
         particles: &mut [Particle],
         t: f64,
         grid: &Grid,
-        look: &mut dyn FnMut(usize, &Leap),
+        look: &mut dyn FnMut(usize, &ParticleStep),
     ) {
         self.enter(particles, t);
         let (mut now, mut number) = (t, grid.first_after(t));
@@ -165,7 +165,7 @@ impl Stepper {
         particles: &mut [Particle],
         t: f64,
         grid: &Grid,
-        change: &mut dyn FnMut(&Leap) -> (DVec3, DVec3),
+        change: &mut dyn FnMut(&ParticleStep) -> (DVec3, DVec3),
     ) {
         self.enter(particles, t);
         let (mut now, mut number) = (t, grid.first_after(t));
@@ -226,9 +226,9 @@ impl Stepper {
     }
 
     /// Returns the last step of the particle in a lane: its states at the beginning and at the end.
-    fn made(&self, lane: usize, times: [f64; 2]) -> Leap {
+    fn made(&self, lane: usize, times: [f64; 2]) -> ParticleStep {
         let (place, velocity) = self.before[lane];
-        Leap {
+        ParticleStep {
             times,
             places: [place, self.state.location[lane]],
             velocities: [velocity, self.state.velocity[lane]],

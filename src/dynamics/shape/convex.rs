@@ -32,7 +32,7 @@ impl Placed<'_> {
     /// Two spheres are compared by their distance, other shapes by the GJK algorithm. Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi,
     /// IEEE J. Robotics and Automation 4 (1988) 193.
     #[must_use]
-    pub fn meets(&self, other: &Placed<'_>) -> bool {
+    pub fn intersects(&self, other: &Placed<'_>) -> bool {
         let between = other.location - self.location;
         if let (Shape::Sphere { radius: a }, Shape::Sphere { radius: b }) = (self.shape, other.shape) {
             return between.length() < a * self.scale + b * other.scale;
@@ -152,7 +152,7 @@ mod tests {
         let can = Shape::Cylinder { radius: 1.0, height: 4.0 };
         let pill = Shape::Capsule { radius: 0.5, height: 4.0 };
         let cone = Shape::Cone { radius: 1.0, top_radius: 0.0, height: 4.0 };
-        for (one, two, place, turn, meets) in [
+        for (one, two, place, turn, intersects) in [
             (&ball, &ball, [1.99, 0.0, 0.0], 0.0, true),
             (&ball, &ball, [2.01, 0.0, 0.0], 0.0, false),
             // Along the diagonal, the corners of both cubes are √3 m from their centres.
@@ -178,8 +178,8 @@ mod tests {
             (&cone, &ball, [0.0, -2.01, 0.0], 0.0, false),
         ] {
             let (a, b) = (placed(one, [0.0; 3], 0.0), placed(two, place, turn));
-            assert_eq!(a.meets(&b), meets, "{one:?} {two:?} {place:?}");
-            assert_eq!(b.meets(&a), meets, "{two:?} {one:?} {place:?}");
+            assert_eq!(a.intersects(&b), intersects, "{one:?} {two:?} {place:?}");
+            assert_eq!(b.intersects(&a), intersects, "{two:?} {one:?} {place:?}");
         }
     }
 
@@ -194,8 +194,8 @@ mod tests {
             let place = [at(0.618_033), at(0.414_213), at(0.732_050)];
             let distance = DVec3::from_array(place).length();
             if (distance - 1.0).abs() > 1e-3 {
-                let meets = placed(&ball, [0.0; 3], 0.0).meets(&placed(&round, place, 20.0));
-                assert_eq!(meets, distance < 1.0, "{place:?}");
+                let intersects = placed(&ball, [0.0; 3], 0.0).intersects(&placed(&round, place, 20.0));
+                assert_eq!(intersects, distance < 1.0, "{place:?}");
             }
         }
     }

@@ -3,10 +3,10 @@
 mod compound;
 mod convex;
 mod exit;
-mod immersed;
 mod mesh;
 mod principal;
 mod solids;
+mod submerged;
 #[cfg(test)]
 mod tests;
 
@@ -16,8 +16,8 @@ use glam::{DQuat, DVec2, DVec3};
 
 pub use compound::{Compound, Part};
 pub use convex::Placed;
-pub use immersed::Immersed;
 pub use mesh::{Flaw, Mesh};
+pub use submerged::Submerged;
 
 /// The shape of a body in its own frame. The origin is the centre of mass. Except for compounds and meshes, the coordinate axes are the
 /// principal axes of inertia. An axis of symmetry is along y. Lengths are in metres.

@@ -10,11 +10,11 @@
 
 mod advance;
 mod bodies;
-mod books;
+mod bookkeeping;
 mod checkpoint;
-mod driven;
 mod joint;
 mod mixing;
+mod non_potential_work;
 mod plane;
 mod rolling;
 mod shape;
@@ -26,13 +26,13 @@ mod touch;
 
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
-use self::books::Books;
-use self::driven::Driven;
+use self::bookkeeping::Bookkeeping;
 use self::joint::Joints;
 use self::mixing::Mixing;
+use self::non_potential_work::NonPotentialWork;
 use self::rolling::Rolling;
 use super::contact::{Contacts, Impact};
-use super::presence::Calendar;
+use super::presence::PresenceSchedule;
 use super::softness::STIFFNESS;
 use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, World};
 
@@ -42,8 +42,8 @@ pub use joint::{Link, LinkKind};
 /// final sweeps. With only two final sweeps, a block creeps down an incline on which friction should hold it.
 const SWEEPS: usize = 2;
 const FINAL_SWEEPS: usize = 4;
-/// The numbers of the same sweeps in scenes with joints. A sweep passes a force on by one joint only, so fewer sweeps let chains stretch, and
-/// joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
+/// The numbers of the same sweeps in scenes with joints. A sweep passes a force on by one joint only, so fewer sweeps let chains stretch,
+/// and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
 const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
 /// The damping ratio of contacts: their damping divided by critical damping.
@@ -60,7 +60,7 @@ pub struct TimeStepping {
     model: Model,
     state: State,
     ledger: EnergyLedger,
-    calendar: Calendar,
+    calendar: PresenceSchedule,
     /// The physics engine, which finds and solves contacts and joints.
     engine: PhysicsWorld,
     /// The physics engine's handle of each body of the model.
@@ -70,8 +70,8 @@ pub struct TimeStepping {
     mixing: Mixing,
     joints: Joints,
     rolling: Rolling,
-    books: Books,
-    driven: Driven,
+    books: Bookkeeping,
+    driven: NonPotentialWork,
     /// Whether snapshots list the contacts.
     shows_contacts: bool,
     /// Working memory for the loads at one moment.
@@ -106,9 +106,9 @@ impl TimeStepping {
             before: State::default(),
             ledger: parts.ledger,
             calendar: parts.calendar,
-            books: Books::new(model.len(), length, joints.held(model.len())),
+            books: Bookkeeping::new(model.len(), length, joints.held(model.len())),
             half_thickness: bodies::half_thickness(&model),
-            driven: Driven::default(),
+            driven: NonPotentialWork::default(),
             shows_contacts: true,
             newcomers: (0..model.len()).filter(|&i| model.is_present(i)).collect(),
             failure: None,

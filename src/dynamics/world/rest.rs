@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::World;
-use crate::dynamics::contact::{Closed, Collider};
+use crate::dynamics::contact::{Collider, LastingContact};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
 /// The number of consecutive steps at rest after which bodies are held in place.
@@ -37,7 +37,7 @@ pub(super) struct Rest {
 #[derive(Clone)]
 struct Island {
     bodies: BTreeSet<usize>,
-    contacts: Vec<Arc<Closed>>,
+    contacts: Vec<Arc<LastingContact>>,
     /// The contacts of the group with their forces, as snapshots show them.
     seen: Vec<ContactSnapshot>,
     /// The force (N) and the torque (N m) on each body of the group, without contact forces. A change of these releases the group.
@@ -135,7 +135,7 @@ impl World {
     }
 
     /// Removes the contacts of these bodies from the solver, and returns them.
-    fn take_out(&mut self, bodies: &BTreeSet<usize>) -> Vec<Arc<Closed>> {
+    fn take_out(&mut self, bodies: &BTreeSet<usize>) -> Vec<Arc<LastingContact>> {
         let (taken, left) = self.solver.contacts().iter().cloned().partition(|contact| contact.is_of(bodies));
         self.solver.take_contacts(left);
         taken
@@ -145,7 +145,7 @@ impl World {
     fn island(
         &self,
         bodies: BTreeSet<usize>,
-        contacts: Vec<Arc<Closed>>,
+        contacts: Vec<Arc<LastingContact>>,
         seen: Vec<ContactSnapshot>,
     ) -> Island {
         let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
@@ -240,7 +240,8 @@ impl World {
 
     /// Releases the held groups that contain these bodies or touch them.
     pub(super) fn let_held_by_go(&mut self, bodies: &[usize]) {
-        let is_held_by = |contact: &Arc<Closed>| contact.bodies.iter().any(|body| bodies.contains(body));
+        let is_held_by =
+            |contact: &Arc<LastingContact>| contact.bodies.iter().any(|body| bodies.contains(body));
         let islands = self.rest.islands.iter().filter(|island| island.contacts.iter().any(is_held_by));
         let held: Vec<usize> = islands.filter_map(|island| island.bodies.first().copied()).collect();
         self.let_go(&held);

@@ -140,7 +140,7 @@ fn nobody(
 ) {
     let Some(body) = motion.follow.and_then(|follow| bodies.get(follow.body)) else { return };
     let span = keys.variant("follow").and_then(|follow| follow.span("body"));
-    if let Some(span) = span.filter(|_| !body.presence.meets(0.0, simulation.end())) {
+    if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, simulation.end())) {
         let message = format!("the camera follows `{}`, which is never there", body.name);
         let warning = Diagnostic::warning(Code::NeverThere, message);
         context.diagnostics.push(warning.at(span, "it looks where the body would come"));

@@ -101,7 +101,7 @@ impl Reader<'_, '_> {
     /// Reports an integrator that cannot move particles. Particles need timesteps of equal length.
     fn can_be_advanced(&mut self) {
         let method = self.simulation.method;
-        if method.ahead.is_some() {
+        if method.take_over.is_some() {
             let message = format!("the integrator `{}` moves no particles", method.name);
             let error = Diagnostic::error(Code::BadEmitter, message).at(self.span, "");
             let help = "take another one: `simulation.integrator = \"rk4\"`";
@@ -225,9 +225,9 @@ impl Reader<'_, '_> {
         for number in 0..DRAWS {
             #[allow(clippy::cast_precision_loss, reason = "both are small")]
             let t = births.start + (end - births.start) * number as f64 / (DRAWS - 1) as f64;
-            let value = formula.draw(t, &mut self.random.branch(u64::MAX - number));
+            let value = formula.draw(t, &mut self.random.substream(u64::MAX - number));
             if !value.is_finite() {
-                let error = formula.explain_non_finite(t, &mut self.random.branch(u64::MAX - number));
+                let error = formula.explain_non_finite(t, &mut self.random.substream(u64::MAX - number));
                 if let Some(error) = error {
                     let raw = self.context.sources.get(span.source).text.get(span.start..span.end);
                     let place = in_string(raw.unwrap_or_default(), formula.text(), &error.range, span);

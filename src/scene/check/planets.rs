@@ -19,7 +19,7 @@ pub(super) fn check(
     forces: &[Force],
     context: &mut Context<'_>,
 ) {
-    if !simulation.method.is_of_planets() {
+    if !simulation.method.is_planetary() {
         return;
     }
     let table = root.table("simulation");

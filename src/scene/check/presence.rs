@@ -42,7 +42,7 @@ pub(super) fn never(
     context: &mut Context<'_>,
 ) {
     let end = simulation.end();
-    if presence.meets(0.0, end) {
+    if presence.overlaps(0.0, end) {
         return;
     }
     let file = view.variant("motion").and_then(|motion| motion.variant("trajectory")?.span("file"));

@@ -16,7 +16,7 @@ type Solved = (&'static Problem, Vec<(&'static Method, Vec<Point>)>);
 
 fn solved() -> Vec<Solved> {
     let of = |problem: &'static Problem| {
-        let methods = Method::all().filter(|method| problem.is_of_planets || !method.is_of_planets());
+        let methods = Method::all().filter(|method| problem.is_planetary || !method.is_planetary());
         (problem, methods.map(|method| (method, problem.solve(method))).collect())
     };
     PROBLEMS.iter().map(of).collect()

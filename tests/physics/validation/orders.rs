@@ -52,7 +52,7 @@ pub(crate) struct Problem {
     /// Returns the difference between two states as one number.
     off: fn(&State, &State) -> f64,
     /// True if the problem is one of planets that move around a heavy body.
-    pub(crate) is_of_planets: bool,
+    pub(crate) is_planetary: bool,
 }
 
 /// The result of a method on a problem with one number of steps.
@@ -75,7 +75,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
             state.velocity[0] = DVec3::new(-2.0 * sin, cos, 0.0);
         },
         off: distance,
-        is_of_planets: false,
+        is_planetary: false,
     },
     Problem {
         name: "drag",
@@ -90,7 +90,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
             state.accounts.work = -2.0 * (t - (1.0 - decay) + (1.0 - decay * decay) / 2.0);
         },
         off: distance,
-        is_of_planets: false,
+        is_planetary: false,
     },
     Problem {
         name: "rotation",
@@ -100,7 +100,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
         build: rotation,
         exact: |t, state| *state = finest(rotation(), t, 512),
         off: distance,
-        is_of_planets: false,
+        is_planetary: false,
     },
     Problem {
         name: "Kepler",
@@ -126,7 +126,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
             let ((x, v), (y, w)) = (seen(a), seen(b));
             (x - y).length().max((v - w).length())
         },
-        is_of_planets: true,
+        is_planetary: true,
     },
     Problem {
         name: "planets",
@@ -138,7 +138,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
             let all = a.location.iter().zip(&b.location);
             all.map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
         },
-        is_of_planets: true,
+        is_planetary: true,
     },
 ];
 
@@ -224,8 +224,8 @@ impl Problem {
         let end = self.durations[usize::from(method.order > 8)];
         let mut exact = (self.build)().state().clone();
         (self.exact)(end, &mut exact);
-        let finer = if self.is_of_planets { 4 } else { 1 };
-        let finest = if self.is_of_planets && method.order == 1 { 8 } else { 1 };
+        let finer = if self.is_planetary { 4 } else { 1 };
+        let finest = if self.is_planetary && method.order == 1 { 8 } else { 1 };
         let steps: Vec<u32> = match method.order {
             1 | 2 => (6..12).map(|k| (finer * finest) << k).collect(),
             3..=4 => (4..10).map(|k| finer << k).collect(),
@@ -238,7 +238,7 @@ impl Problem {
             let counter = Counter::default();
             let mut world = (self.build)();
             world.add_force(counter.clone());
-            let state = if method.is_of_planets() {
+            let state = if method.is_planetary() {
                 by_ahead(world, method, end, steps)
             } else {
                 advanced(world, method, end, steps)
@@ -255,7 +255,7 @@ fn by_ahead(mut world: World, method: &'static Method, end: f64, steps: u32) -> 
     let mut state = world.state().clone();
     world.set_integrator(method);
     world.set_step(end / f64::from(steps));
-    if let Some(ahead) = method.ahead {
+    if let Some(ahead) = method.take_over {
         let mut run: Box<dyn Dynamics> = ahead(world, Accuracy { tolerance: 0.0, end });
         if run.advance(end, &[], &mut |_| {}).is_ok()
             && let Ok(snapshot) = run.snapshot()
@@ -292,7 +292,7 @@ pub(crate) fn order(points: &[Point]) -> Option<f64> {
 pub(crate) fn required(problem: &Problem, method: &Method) -> Option<f64> {
     match (problem.name, method.order) {
         ("Kepler", 5..) => None,
-        ("Kepler", _) if method.is_of_planets() => None,
+        ("Kepler", _) if method.is_planetary() => None,
         // A first-order method leaves the orbits unless its steps are shorter than those used here.
         ("planets", 1) => None,
         (_, 9..) => Some(13.0),

@@ -13,7 +13,7 @@ pub(crate) fn plot(solved: &[Solved]) -> String {
     let chart = |(problem, methods): &Solved| {
         let curve = |(method, points): &(&Method, Vec<Point>)| {
             // The method for planets computes gravitation itself and evaluates no force, so its cost is the number of its steps.
-            let cost = |point: &Point| match method.is_of_planets() {
+            let cost = |point: &Point| match method.is_planetary() {
                 true => f64::from(point.steps),
                 false => point.evaluations as f64,
             };

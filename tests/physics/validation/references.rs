@@ -59,7 +59,7 @@ impl Reference {
         let mut world = world(&scene);
         world.add_force(counter.clone());
         let accuracy = Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.end() };
-        let mut run: Box<dyn Dynamics> = match scene.simulation.method.ahead {
+        let mut run: Box<dyn Dynamics> = match scene.simulation.method.take_over {
             Some(ahead) => ahead(world, accuracy),
             None => Box::new(world),
         };

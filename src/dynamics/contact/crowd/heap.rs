@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::super::super::{Model, State};
-use super::super::closed::Closed;
 use super::super::collider::Collider;
+use super::super::lasting_contact::LastingContact;
 
 /// Touching bodies form a heap if they have more than this number of touching pairs. To decide repeatedly which of many contacts push and
 /// slide would take too long.
@@ -17,7 +17,7 @@ impl Collider {
     pub(in crate::dynamics) fn heap_of(
         &mut self,
         bodies: &[usize],
-        places: &[Arc<Closed>],
+        places: &[Arc<LastingContact>],
         model: &Model,
     ) -> Vec<usize> {
         let heap = heap(bodies, places, model);
@@ -31,7 +31,7 @@ impl Collider {
         &mut self,
         model: &Model,
         state: &State,
-        places: &[Arc<Closed>],
+        places: &[Arc<LastingContact>],
     ) {
         if !is_heap(places) || self.crowd.heaps.is_empty() {
             return;
@@ -53,7 +53,7 @@ impl Collider {
 }
 
 /// Returns true if contacts connect enough pairs of bodies for a heap. The contacts are in the order of their bodies.
-pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> bool {
+pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<LastingContact>>) -> bool {
     let (mut pairs, mut last) = (0, None);
     for place in places {
         if last != Some(place.bodies) {
@@ -65,7 +65,7 @@ pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<Closed>>) -> 
 }
 
 /// Returns all movable bodies that contacts connect with the given bodies, in ascending order. Empty if they form no heap.
-fn heap(bodies: &[usize], places: &[Arc<Closed>], model: &Model) -> Vec<usize> {
+fn heap(bodies: &[usize], places: &[Arc<LastingContact>], model: &Model) -> Vec<usize> {
     if !is_heap(places) {
         return Vec::new();
     }

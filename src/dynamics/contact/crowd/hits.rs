@@ -1,8 +1,8 @@
 //! Adds bodies that will hit the crowd (the bodies that Moreau's scheme advances) within a step to the crowd from the step's beginning.
 
 use super::super::super::{Model, State};
+use super::super::closest_points::nearest;
 use super::super::collider::Collider;
-use super::super::nearest::nearest;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 

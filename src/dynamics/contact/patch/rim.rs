@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::super::nearest::Nearest;
+use super::super::closest_points::ClosestPoints;
 use super::{PARALLEL, Spine, balls};
 
 /// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
@@ -40,7 +40,7 @@ impl Rim {
 }
 
 /// Computes the closest points of a rim and an envelope of balls (an edge, a round side, or a ball).
-pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
+pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> ClosestPoints {
     if spine.is_point() {
         let radial = rim.towards(spine.at);
         return balls(rim.centre + rim.radius * radial, 0.0, spine.at, spine.radius, rim.axis);
@@ -93,7 +93,7 @@ pub(super) fn rim_and_spine(rim: Rim, spine: &Spine) -> Nearest {
 }
 
 /// Computes the closest points of two rims.
-pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
+pub(super) fn rims(a: Rim, b: Rim) -> ClosestPoints {
     let place_a = |angle: f64| a.centre + a.radius * a.radial(angle);
     let gap = |angle: f64| {
         let place = place_a(angle);
@@ -117,7 +117,15 @@ pub(super) fn rims(a: Rim, b: Rim) -> Nearest {
 
 /// Computes the contact of two crossing edges. The first edge is given by a point `p`, its unit direction `u` and a vector `out_p` out of
 /// its body; the second by `q`, `v` and `out_q`. The second edge may be round, with a radius.
-fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, radius: f64) -> Nearest {
+fn crossing(
+    p: DVec3,
+    u: DVec3,
+    out_p: DVec3,
+    q: DVec3,
+    v: DVec3,
+    out_q: DVec3,
+    radius: f64,
+) -> ClosestPoints {
     let cross = u.cross(v);
     let sine = cross.length();
     if sine < PARALLEL.sqrt() {
@@ -125,7 +133,7 @@ fn crossing(p: DVec3, u: DVec3, out_p: DVec3, q: DVec3, v: DVec3, out_q: DVec3, 
     }
     let normal = cross / sine * (cross.dot(out_p - out_q)).signum();
     let gap = (q - p).dot(normal) - radius;
-    Nearest { gap, normal, on: [p, q - radius * normal] }
+    ClosestPoints { gap, normal, on: [p, q - radius * normal] }
 }
 
 /// Returns the angle of the smallest minimum of a periodic function, rad, to within rounding errors. `derivatives` returns its first and

@@ -18,8 +18,8 @@ pub(in super::super) struct ByTree<'a> {
 impl ByTree<'_> {
     /// Adds the forces on all bodies to the loads.
     pub(in super::super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        let effort = moment.model.effort();
-        let done = |bodies: usize| effort.add(bodies * self.each as usize);
+        let counter = moment.model.pair_counter();
+        let done = |bodies: usize| counter.add(bodies * self.each as usize);
         let mut pull = |bodies: &[BodyId], tree: &Tree, sources: Option<&Tree>| {
             let pulls = tree.sums::<Pull>(sources, self.pairs.softening, &done);
             for (body, pull) in bodies.iter().zip(pulls) {
@@ -38,8 +38,8 @@ impl ByTree<'_> {
 
     /// Returns the potential energy of all pairs in which at least one body can move, J.
     pub(in super::super) fn potential(&self, moment: &Moment) -> f64 {
-        let effort = moment.model.effort();
-        let done = |bodies: usize| effort.add(bodies * self.each as usize);
+        let counter = moment.model.pair_counter();
+        let done = |bodies: usize| counter.add(bodies * self.each as usize);
         let movable = |bodies: &[BodyId]| -> (Vec<BodyId>, Vec<BodyId>) {
             let present = moment.model.present(bodies);
             present.iter().partition(|body| moment.model.movable()[body.index()])
@@ -58,7 +58,7 @@ impl ByTree<'_> {
                 let (their_free, their_held) = movable(against);
                 let theirs = [their_free.as_slice(), their_held.as_slice()].concat();
                 // The progress counter must count the bodies of the other group as well, although no sum runs over them.
-                effort.add(theirs.len() * self.each as usize);
+                counter.add(theirs.len() * self.each as usize);
                 sum(&free, Some(&theirs), &done) + sum(&held, Some(&their_free), &done)
             }
         };

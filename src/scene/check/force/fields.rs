@@ -15,7 +15,7 @@ impl Reader<'_, '_> {
         let mut carried = Vec::new();
         for id in self.movable(view) {
             let body = &bodies[id.index()];
-            if body.shape.immersed(DVec3::Y, 0.0).is_some() {
+            if body.shape.submerged(DVec3::Y, 0.0).is_some() {
                 carried.push((id, body.shape.clone()));
                 continue;
             }

@@ -11,12 +11,12 @@ use super::super::{Accounts, Loads, Model, State, WorkAccount};
 
 /// The loads in one step by forces without a potential.
 #[derive(Clone, Default)]
-pub(super) struct Driven {
+pub(super) struct NonPotentialWork {
     /// For each account, the summed loads of the forces whose work belongs to that account.
     alone: Vec<(WorkAccount, Loads)>,
 }
 
-impl Driven {
+impl NonPotentialWork {
     /// Evaluates the forces without a potential at the start of a step, and removes their power from `loads`.
     pub(super) fn begin(&mut self, model: &Model, time: f64, state: &State, loads: &mut Loads) {
         for (_, alone) in &mut self.alone {

@@ -2,9 +2,9 @@
 //! lie within steps.
 
 use super::super::{Breakdown, Snapshot};
-use super::{Ahead, Field, Scales, Stepper, Time};
+use super::{Field, FrameIndependent, Scales, Stepper, Time};
 
-impl<S: Stepper> Ahead<S> {
+impl<S: Stepper> FrameIndependent<S> {
     /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
     pub(super) fn advance_by_events(
         &mut self,
@@ -71,14 +71,14 @@ impl<S: Stepper> Ahead<S> {
         self.model.evaluate(self.time, &self.stage, &mut self.loads);
         self.scales = Scales::of(&self.bodies, &self.model, &self.stage, &self.loads);
         self.now.0 = Time::at(self.time);
-        let Ahead { model, bodies, scales, stage, loads, now, .. } = self;
+        let FrameIndependent { model, bodies, scales, stage, loads, now, .. } = self;
         now.1.begin(&mut Field { model, bodies, scales, stage, loads }, now.0);
     }
 
     /// Makes one step. `wanted` is the time that later steps must reach, s.
     fn make_step(&mut self, wanted: f64) -> Result<(), Breakdown> {
         let stop = self.stop();
-        let Ahead { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
+        let FrameIndependent { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
         let longest = now.until(stop);
         if method.proposal().min(longest) >= now.until(wanted) {
             // This step reaches the requested time, so the state before the step is saved for interpolation.
@@ -104,7 +104,9 @@ impl<S: Stepper> Ahead<S> {
 
     /// Computes the state of the bodies at the requested time, which lies within the last step or at its end.
     fn look(&mut self) {
-        let Ahead { model, bodies, scales, stage, loads, now, before, branch, state, time, .. } = self;
+        let FrameIndependent {
+            model, bodies, scales, stage, loads, now, before, branch, state, time, ..
+        } = self;
         let field = &mut Field { model, bodies, scales, stage, loads };
         if now.0.until(*time) == 0.0 {
             now.1.write(field, state);

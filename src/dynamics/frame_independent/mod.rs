@@ -22,7 +22,7 @@ use self::gauss_radau::GaussRadau;
 use self::stepper::Stepper;
 use self::time::Time;
 use self::wisdom_holman::WisdomHolman;
-use super::presence::Calendar;
+use super::presence::PresenceSchedule;
 use super::world::Parts;
 use super::{Breakdown, Dynamics, EnergyLedger, Loads, Method, Model, Snapshot, State, World};
 
@@ -45,7 +45,7 @@ pub(super) const DOP853: Method = Method {
     adaptive: true,
     summary: "order 8, adaptive (`tolerance`): for smooth motion of any kind, precise over short and medium times",
     create: || Box::new(Fixed::new(Dop853::new(FOR_FIXED_STEPS))),
-    ahead: Some(|world, accuracy| take_over(world, Dop853::new(accuracy.tolerance), accuracy.end)),
+    take_over: Some(|world, accuracy| take_over(world, Dop853::new(accuracy.tolerance), accuracy.end)),
 };
 
 pub(super) const GAUSS_RADAU: Method = Method {
@@ -56,7 +56,7 @@ pub(super) const GAUSS_RADAU: Method = Method {
     adaptive: true,
     summary: "order 15, adaptive (`tolerance`): orbits to the last digits, also through close encounters and over long times",
     create: || Box::new(Fixed::new(GaussRadau::new(FOR_FIXED_STEPS))),
-    ahead: Some(|world, accuracy| take_over(world, GaussRadau::new(accuracy.tolerance), accuracy.end)),
+    take_over: Some(|world, accuracy| take_over(world, GaussRadau::new(accuracy.tolerance), accuracy.end)),
 };
 
 pub(super) const WISDOM_HOLMAN: Method = Method {
@@ -67,10 +67,10 @@ pub(super) const WISDOM_HOLMAN: Method = Method {
     adaptive: false,
     summary: "order 2, symplectic, with a corrector: planets about one heavy body for millions of years, without close encounters",
     create: || Box::new(Fixed::new(WisdomHolman::new(f64::INFINITY))),
-    ahead: Some(|world, accuracy| {
+    take_over: Some(|world, accuracy| {
         let parts = world.into_parts();
         let method = WisdomHolman::new(parts.step);
-        Box::new(Ahead::new(parts, method, accuracy.end))
+        Box::new(FrameIndependent::new(parts, method, accuracy.end))
     }),
 };
 
@@ -78,16 +78,16 @@ pub(super) const WISDOM_HOLMAN: Method = Method {
 const FOR_FIXED_STEPS: f64 = 1e-9;
 
 fn take_over(world: World, method: impl Stepper + 'static, end: f64) -> Box<dyn Dynamics> {
-    Box::new(Ahead::new(world.into_parts(), method, end))
+    Box::new(FrameIndependent::new(world.into_parts(), method, end))
 }
 
 /// Simulates bodies that move under forces, by a method that chooses its own steps.
-struct Ahead<S> {
+struct FrameIndependent<S> {
     model: Model,
     /// The state of the bodies at the requested time.
     state: State,
     ledger: EnergyLedger,
-    calendar: Calendar,
+    calendar: PresenceSchedule,
     /// The last requested time, s.
     time: f64,
     end: f64,
@@ -106,11 +106,11 @@ struct Ahead<S> {
     loads: Loads,
 }
 
-impl<S: Stepper> Ahead<S> {
-    fn new(parts: Parts, stepper: S, end: f64) -> Ahead<S> {
+impl<S: Stepper> FrameIndependent<S> {
+    fn new(parts: Parts, stepper: S, end: f64) -> FrameIndependent<S> {
         let Parts { time, model, state, ledger, calendar, .. } = parts;
         let now = (Time::at(time), stepper);
-        Ahead {
+        FrameIndependent {
             stage: state.clone(),
             before: now.clone(),
             branch: now.1.clone(),
@@ -130,7 +130,7 @@ impl<S: Stepper> Ahead<S> {
     }
 }
 
-impl<S: Stepper> Dynamics for Ahead<S> {
+impl<S: Stepper> Dynamics for FrameIndependent<S> {
     fn time(&self) -> f64 {
         self.time
     }

@@ -71,7 +71,7 @@ fn system(name: &str, step: f64, tolerance: f64) -> Box<dyn Dynamics> {
     world.add(sphere(0.01).with_location(DVec3::X * 1.0).with_velocity(DVec3::new(0.1, 0.95, 0.1)));
     world.add(sphere(0.01).with_location(DVec3::Y * -2.5).with_velocity(DVec3::new(0.6, 0.1, 0.0)));
     attract(&mut world);
-    method.ahead.unwrap()(world, Accuracy { tolerance, end: 20.0 })
+    method.take_over.unwrap()(world, Accuracy { tolerance, end: 20.0 })
 }
 
 fn places(mut run: Box<dyn Dynamics>) -> Vec<DVec3> {
@@ -107,7 +107,7 @@ fn a_single_planet_needs_no_short_steps() {
     attract(&mut world);
     let method = Method::by_name("wisdom-holman").unwrap();
     let end = std::f64::consts::TAU / 1.001_f64.sqrt();
-    let mut run = method.ahead.unwrap()(world, Accuracy { tolerance: 0.0, end });
+    let mut run = method.take_over.unwrap()(world, Accuracy { tolerance: 0.0, end });
     run.advance(end, &[], &mut |_| {}).unwrap();
     let bodies = run.snapshot().unwrap().bodies;
     let seen = bodies[1].location - bodies[0].location;

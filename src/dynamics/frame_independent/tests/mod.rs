@@ -8,7 +8,7 @@ use super::super::*;
 fn run(name: &str, tolerance: f64, end: f64, mut world: World) -> Box<dyn Dynamics> {
     let method = Method::by_name(name).unwrap();
     world.set_integrator(method);
-    method.ahead.unwrap()(world, Accuracy { tolerance, end })
+    method.take_over.unwrap()(world, Accuracy { tolerance, end })
 }
 
 fn sphere(mass: f64) -> RigidBody {

@@ -2,26 +2,26 @@
 
 use std::collections::BTreeMap;
 
-use super::super::contact::Closed;
+use super::super::contact::LastingContact;
 
 /// The last known contact forces: for each pair of bodies, their contacts with the multipliers of each contact's rows, N or N m.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Warm(BTreeMap<[usize; 2], Vec<(Closed, Vec<f64>)>>);
+pub(super) struct LastForces(BTreeMap<[usize; 2], Vec<(LastingContact, Vec<f64>)>>);
 
-impl Warm {
+impl LastForces {
     /// Discards the stored forces between two bodies.
     pub(super) fn forget(&mut self, bodies: [usize; 2]) {
         self.0.remove(&bodies);
     }
 
     /// Stores the forces along the constraint rows of a contact, N or N m.
-    pub(super) fn note(&mut self, contact: &Closed, forces: impl Iterator<Item = f64>) {
+    pub(super) fn note(&mut self, contact: &LastingContact, forces: impl Iterator<Item = f64>) {
         let known = self.0.entry(contact.bodies).or_default();
         known.push((contact.clone(), forces.collect()));
     }
 
     /// Returns the stored forces along the constraint rows of the same contact; `None` if there are none.
-    pub(super) fn find(&self, contact: &Closed) -> Option<&[f64]> {
+    pub(super) fn find(&self, contact: &LastingContact) -> Option<&[f64]> {
         let known = self.0.get(&contact.bodies)?.iter();
         let mut same = known.filter(|(other, _)| other.is(contact));
         same.next().map(|(_, forces)| &forces[..])

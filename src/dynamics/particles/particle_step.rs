@@ -7,7 +7,7 @@ const ROUNDING: f64 = 2e-15;
 
 /// A step of a particle, or a part of a step: the times, positions and velocities at its beginning and its end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leap {
+pub(super) struct ParticleStep {
     /// The times at the beginning and at the end, s.
     pub(super) times: [f64; 2],
     /// The positions of the particle at the beginning and at the end, m.
@@ -18,14 +18,14 @@ pub(super) struct Leap {
 
 /// The path of a particle within a step. The position and the velocity are polynomials of the time since the beginning of the step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct ParticlePath {
     place: [DVec3; 4],
     velocity: [DVec3; 3],
     /// An upper bound for the magnitude of the second derivative of the position, m/s².
     pub(super) bend: f64,
 }
 
-impl Leap {
+impl ParticleStep {
     pub(super) fn span(&self) -> f64 {
         self.times[1] - self.times[0]
     }
@@ -50,21 +50,29 @@ impl Leap {
     ///
     /// A part of a step of Euler–Cromer is a shorter step of Euler–Cromer. So the path is x + v t + a t², although the velocity is v + a
     /// t.
-    pub(super) fn way(&self) -> Way {
+    pub(super) fn way(&self) -> ParticlePath {
         let (h, a) = (self.span(), self.acceleration());
         let ([x, y], [v, w]) = (self.places, self.velocities);
         let rounding = ROUNDING * x.abs().max(y.abs()).max_element();
         let is_way = |way: DVec3| (y - x - way).abs().max_element() <= rounding;
         let rest = y - x - 0.5 * h * (v + w);
         if is_way(0.5 * h * (v + w)) {
-            Way { place: [x, v, 0.5 * a, DVec3::ZERO], velocity: [v, a, DVec3::ZERO], bend: a.length() }
+            ParticlePath {
+                place: [x, v, 0.5 * a, DVec3::ZERO],
+                velocity: [v, a, DVec3::ZERO],
+                bend: a.length(),
+            }
         } else if is_way(h * w) {
-            Way { place: [x, v, a, DVec3::ZERO], velocity: [v, a, DVec3::ZERO], bend: 2.0 * a.length() }
+            ParticlePath {
+                place: [x, v, a, DVec3::ZERO],
+                velocity: [v, a, DVec3::ZERO],
+                bend: 2.0 * a.length(),
+            }
         } else {
             let rest = rest * (6.0 / (h * h));
             let (first, last) = (a + rest, a - rest);
             let third = (last - first) / h;
-            Way {
+            ParticlePath {
                 place: [x, v, 0.5 * first, third / 6.0],
                 velocity: [v, first, 0.5 * third],
                 bend: first.length().max(last.length()),
@@ -73,7 +81,7 @@ impl Leap {
     }
 }
 
-impl Way {
+impl ParticlePath {
     /// Returns the position of the particle at time `t` (s) after the beginning of the step, m.
     pub(super) fn place(&self, t: f64) -> DVec3 {
         let [a, b, c, d] = self.place;

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// A counter of the computed interactions between pairs of bodies. One evaluation for a hundred thousand bodies takes seconds, so counting
 /// steps would be too coarse for a progress bar. Clones share one counter. A run does not depend on it.
 #[derive(Clone, Debug, Default)]
-pub struct Effort(Arc<AtomicU64>);
+pub struct PairCounter(Arc<AtomicU64>);
 
-impl Effort {
+impl PairCounter {
     /// Adds a number of computed pair interactions.
     pub(super) fn add(&self, interactions: usize) {
         self.0.fetch_add(interactions as u64, Ordering::Relaxed);

@@ -9,15 +9,15 @@ use super::{Mesh, Shape, cone_base};
 
 /// The part of a shape below a plane, in the frame of the shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Immersed {
+pub struct Submerged {
     /// The volume of the submerged part, m³.
     pub volume: f64,
     /// The first moment of the submerged part, m⁴: its volume times its centroid.
     pub moment: DVec3,
 }
 
-impl Immersed {
-    fn add(&mut self, other: Immersed) {
+impl Submerged {
+    fn add(&mut self, other: Submerged) {
         self.volume += other.volume;
         self.moment += other.moment;
     }
@@ -30,7 +30,7 @@ impl Shape {
     /// The results for spheres, boxes and meshes are exact. Shapes with an axis of symmetry are integrated over slices, with an error of
     /// at most 1e-9 of the whole, and mostly 1e-12.
     #[must_use]
-    pub fn immersed(&self, up: DVec3, height: f64) -> Option<Immersed> {
+    pub fn submerged(&self, up: DVec3, height: f64) -> Option<Submerged> {
         Some(match self {
             Shape::Sphere { radius } => ball(*radius, up, height),
             Shape::Box { size } => cuboid(*size, up, height),
@@ -51,12 +51,12 @@ impl Shape {
             Shape::Torus { radius, tube_radius } => Profile::ring(*radius, *tube_radius).below(up, height),
             Shape::Mesh { mesh, scale } if mesh.flaw().is_none() => of_mesh(mesh, *scale, up, height),
             Shape::Compound(compound) => {
-                let mut sum = Immersed::default();
+                let mut sum = Submerged::default();
                 for part in compound.parts() {
                     let inner = part.orientation.conjugate() * up;
-                    let below = part.shape.immersed(inner, height - part.location.dot(up))?;
+                    let below = part.shape.submerged(inner, height - part.location.dot(up))?;
                     let moment = part.orientation * below.moment + below.volume * part.location;
-                    sum.add(Immersed { volume: below.volume, moment });
+                    sum.add(Submerged { volume: below.volume, moment });
                 }
                 sum
             }
@@ -69,12 +69,12 @@ impl Shape {
 
 /// Returns the part of a ball below a plane at height h above its centre: a cap of height R + h. Its volume is π (R + h)² (2R − h)/3, and
 /// its first moment along `up` is −π (R² − h²)²/4.
-fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
+fn ball(radius: f64, up: DVec3, height: f64) -> Submerged {
     let h = height.clamp(-radius, radius);
     let pi = std::f64::consts::PI;
     let rest = (radius - h) * (radius + h);
     let volume = pi / 3.0 * (radius + h) * (radius + h) * (2.0 * radius - h);
-    Immersed { volume, moment: -0.25 * pi * rest * rest * up }
+    Submerged { volume, moment: -0.25 * pi * rest * rest * up }
 }
 
 /// The corners of each face of a box, counter-clockwise as seen from outside. In the index of a corner, bit 0 is 1 for positive x, bit 1
@@ -82,12 +82,12 @@ fn ball(radius: f64, up: DVec3, height: f64) -> Immersed {
 const FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
-fn cuboid(size: DVec3, up: DVec3, height: f64) -> Immersed {
+fn cuboid(size: DVec3, up: DVec3, height: f64) -> Submerged {
     let side = |corner: usize, bit: usize| if corner >> bit & 1 == 1 { 0.5 } else { -0.5 };
     let corner = |corner: usize| size * DVec3::new(side(corner, 0), side(corner, 1), side(corner, 2));
     let reach = 0.5 * size.dot(up.abs());
     if height >= reach {
-        return Immersed { volume: size.x * size.y * size.z, moment: DVec3::ZERO };
+        return Submerged { volume: size.x * size.y * size.z, moment: DVec3::ZERO };
     }
     let mut cut = Cut::new(up, height);
     for [a, b, c, d] in FACES.map(|face| face.map(corner)) {
@@ -97,7 +97,7 @@ fn cuboid(size: DVec3, up: DVec3, height: f64) -> Immersed {
     cut.done()
 }
 
-fn of_mesh(mesh: &Mesh, scale: f64, up: DVec3, height: f64) -> Immersed {
+fn of_mesh(mesh: &Mesh, scale: f64, up: DVec3, height: f64) -> Submerged {
     let mut cut = Cut::new(up, height);
     for corners in mesh.triangles() {
         cut.add(corners.map(|corner| scale * mesh.vertices()[corner as usize]));
@@ -111,12 +111,12 @@ struct Cut {
     up: DVec3,
     tip: DVec3,
     /// The summed volumes and moments of the pyramids. The moments are relative to `tip`.
-    sum: Immersed,
+    sum: Submerged,
 }
 
 impl Cut {
     fn new(up: DVec3, height: f64) -> Cut {
-        Cut { up, tip: height * up, sum: Immersed::default() }
+        Cut { up, tip: height * up, sum: Submerged::default() }
     }
 
     fn add(&mut self, corners: [DVec3; 3]) {
@@ -140,13 +140,13 @@ impl Cut {
         for k in 2..count {
             let [a, b, c] = [kept[0], kept[k - 1], kept[k]];
             let volume = a.dot(b.cross(c)) / 6.0;
-            self.sum.add(Immersed { volume, moment: 0.25 * volume * (a + b + c) });
+            self.sum.add(Submerged { volume, moment: 0.25 * volume * (a + b + c) });
         }
     }
 
-    fn done(self) -> Immersed {
-        let Immersed { volume, moment } = self.sum;
-        Immersed { volume, moment: moment + volume * self.tip }
+    fn done(self) -> Submerged {
+        let Submerged { volume, moment } = self.sum;
+        Submerged { volume, moment: moment + volume * self.tip }
     }
 }
 
@@ -194,10 +194,10 @@ mod tests {
         for shape in shapes() {
             let whole = shape.volume().unwrap();
             for up in UPS {
-                let below = shape.immersed(up, 9.0).unwrap();
+                let below = shape.submerged(up, 9.0).unwrap();
                 assert!((below.volume / whole - 1.0).abs() < 1e-11, "{shape:?} {up}: {below:?} {whole}");
                 assert!(below.moment.length() < 1e-11, "{shape:?} {up}: {below:?}");
-                let above = shape.immersed(up, -9.0).unwrap();
+                let above = shape.submerged(up, -9.0).unwrap();
                 assert!(above.volume.abs() < 1e-13 && above.moment.length() < 1e-13, "{shape:?}: {above:?}");
             }
         }
@@ -210,7 +210,7 @@ mod tests {
             for up in UPS {
                 for height in [-0.41, -0.1, 0.0, 0.23, 0.52] {
                     let [one, other] = [(up, height), (-up, -height)]
-                        .map(|(up, height)| shape.immersed(up, height).unwrap());
+                        .map(|(up, height)| shape.submerged(up, height).unwrap());
                     let whole = shape.volume().unwrap();
                     let off = (one.volume + other.volume - whole).abs();
                     assert!(off < 1e-11 * whole, "{shape:?} {up} {height}: {off:e}");
@@ -228,7 +228,7 @@ mod tests {
         for shape in shapes() {
             for up in UPS.into_iter().skip(3).take(2) {
                 for height in [-0.31, 0.07, 0.29] {
-                    let at = |height| shape.immersed(up, height).unwrap();
+                    let at = |height| shape.submerged(up, height).unwrap();
                     let (less, more) = (at(height - H), at(height + H));
                     let area = (more.volume - less.volume) / (2.0 * H);
                     let rise = (more.moment - less.moment).dot(up) / (2.0 * H);
@@ -242,19 +242,19 @@ mod tests {
     /// height, displaces an eighth of its volume.
     #[test]
     fn known_parts() {
-        let lying = Shape::Cylinder { radius: 0.5, height: 2.0 }.immersed(DVec3::X, 0.0).unwrap();
+        let lying = Shape::Cylinder { radius: 0.5, height: 2.0 }.submerged(DVec3::X, 0.0).unwrap();
         let pi = std::f64::consts::PI;
         assert!((lying.volume - 0.25 * pi).abs() < 1e-13);
         assert!((lying.moment + DVec3::X * (0.25 * pi) * (2.0 / (3.0 * pi))).length() < 1e-13, "{lying:?}");
         let cone = Shape::Cone { radius: 1.0, top_radius: 0.0, height: 2.0 };
         // The centre of mass of the cone is 1.5 m from its tip.
-        let part = cone.immersed(DVec3::NEG_Y, -0.5).unwrap();
+        let part = cone.submerged(DVec3::NEG_Y, -0.5).unwrap();
         assert!((part.volume - cone.volume().unwrap() / 8.0).abs() < 1e-13, "{part:?}");
         let corner = Shape::Box { size: DVec3::splat(2.0) };
         // A plane cuts off a corner of the cube with three edges of 1 m. The plane is 1/√3 m from the corner, and the corner is √3 m from
         // the centre.
         let third = 1.0 / 3.0_f64.sqrt();
-        let part = corner.immersed(DVec3::splat(third), third - 3.0_f64.sqrt()).unwrap();
+        let part = corner.submerged(DVec3::splat(third), third - 3.0_f64.sqrt()).unwrap();
         assert!(
             (part.volume - 1.0 / 6.0).abs() < 1e-14
                 && (part.moment + DVec3::splat(0.75 / 6.0)).length() < 1e-14

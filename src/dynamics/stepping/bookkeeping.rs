@@ -12,15 +12,15 @@ use rapier3d_f64::prelude::{
 use super::super::contact::Impact;
 use super::super::motion::Twist;
 use super::super::{Accounts, Loads, Model, State};
-use super::driven::Driven;
 use super::joint::{Joints, MotorPush};
+use super::non_potential_work::NonPotentialWork;
 use super::touch::{self, Push, Touch};
 
 /// A new contact counts as an impact only if the bodies approach faster than this many thicknesses of the thinnest moving body per second.
 const SLOW: f64 = 0.03;
 
 /// The bookkeeping of contacts and joints: data of the last step from which their work and the impacts follow.
-pub(super) struct Books {
+pub(super) struct Bookkeeping {
     /// The twist of each body before the last step, and its mean during that step.
     pub(super) before: Vec<Twist>,
     pub(super) mean: Vec<Twist>,
@@ -103,10 +103,10 @@ fn number(collider: ColliderHandle) -> usize {
     collider.into_raw_parts().0 as usize
 }
 
-impl Books {
-    pub(super) fn new(bodies: usize, length: f64, held: Vec<bool>) -> Books {
+impl Bookkeeping {
+    pub(super) fn new(bodies: usize, length: f64, held: Vec<bool>) -> Bookkeeping {
         let still = vec![(DVec3::ZERO, DVec3::ZERO); bodies];
-        Books {
+        Bookkeeping {
             held,
             turned: vec![DVec3::ZERO; bodies],
             motors: Vec::new(),
@@ -142,7 +142,7 @@ impl Books {
         &mut self,
         engine: &PhysicsWorld,
         (model, joints): (&Model, &Joints),
-        (state, loads, driven): (&mut State, &Loads, &Driven),
+        (state, loads, driven): (&mut State, &Loads, &NonPotentialWork),
         time: f64,
     ) {
         self.note_near();

@@ -10,17 +10,17 @@ use super::change::Change;
 use super::patch::meet;
 use super::solid::Pose;
 use super::touch::Touch;
-use super::{ContactSnapshot, Meeting, nearest::Nearest};
+use super::{ContactProperties, ContactSnapshot, closest_points::ClosestPoints};
 
 /// A lasting contact between two bodies at one point.
 #[derive(Clone, Debug)]
-pub(in crate::dynamics) struct Closed {
+pub(in crate::dynamics) struct LastingContact {
     /// The indices of the two bodies, in ascending order.
     pub(in crate::dynamics) bodies: [usize; 2],
     /// The features of the two bodies (corners, edges, faces) that touch, and their closest points.
     pub(in crate::dynamics) touch: Touch,
     /// The restitution and the friction of the two surfaces.
-    pub(in crate::dynamics) law: Meeting,
+    pub(in crate::dynamics) law: ContactProperties,
     /// A typical length of the smaller body, m. Tolerances are relative to it.
     pub(in crate::dynamics) size: f64,
     /// The bodies count as at rest at this contact if they separate more slowly than this, m/s.
@@ -40,7 +40,7 @@ pub(super) fn heading(normal: DVec3) -> DVec3 {
     axes.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(DVec3::X)
 }
 
-impl Closed {
+impl LastingContact {
     /// Returns true if one of the contact's bodies is in this set.
     pub(in crate::dynamics) fn is_of(&self, bodies: &BTreeSet<usize>) -> bool {
         self.bodies.iter().any(|body| bodies.contains(body))
@@ -53,7 +53,7 @@ impl Closed {
 
     /// Returns true if a newly found contact is the same as this one: the same features of the same bodies touch, and the tangents remain
     /// valid.
-    pub(in crate::dynamics) fn is(&self, new: &Closed) -> bool {
+    pub(in crate::dynamics) fn is(&self, new: &LastingContact) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
         is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
     }
@@ -70,7 +70,7 @@ impl Closed {
         [first, normal.cross(first)]
     }
 
-    fn meet(&self, poses: [Pose; 2]) -> Nearest {
+    fn meet(&self, poses: [Pose; 2]) -> ClosestPoints {
         meet(&self.touch.patches[0], &poses[0], &self.touch.patches[1], &poses[1])
     }
 }
@@ -81,14 +81,14 @@ fn pose(member: &Member) -> Pose {
 }
 
 /// Computes the velocity of the second body relative to the first at the contact point, m/s.
-fn slip(meeting: &Nearest, members: [&Member; 2]) -> DVec3 {
+fn slip(meeting: &ClosestPoints, members: [&Member; 2]) -> DVec3 {
     let at = |member: &Member, place: DVec3| {
         member.velocity + member.angular_velocity.cross(place - member.location)
     };
     at(members[1], meeting.on[1]) - at(members[0], meeting.on[0])
 }
 
-impl Constraint for Closed {
+impl Constraint for LastingContact {
     fn ends(&self) -> Vec<Anchor> {
         self.bodies.map(|body| Anchor::centre(BodyId::new(body))).to_vec()
     }
@@ -99,7 +99,7 @@ impl Constraint for Closed {
 
     fn law(&self, row: usize) -> Law {
         match row {
-            0 => Law::Stop,
+            0 => Law::Inequality,
             1 | 2 if self.law.friction > 0.0 => Law::Friction { coefficient: self.law.friction },
             _ => Law::Friction { coefficient: self.law.rolling_friction },
         }
@@ -109,7 +109,7 @@ impl Constraint for Closed {
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let both = [&members[0], &members[1]];
         let meeting = self.meet(both.map(pose));
-        let Nearest { gap, normal, on } = meeting;
+        let ClosestPoints { gap, normal, on } = meeting;
         let arms = [on[0] - both[0].location, on[1] - both[1].location];
         let [a, b] = &self.touch.patches;
         let change = Change::of([a, b], both, self.size);
@@ -150,7 +150,7 @@ impl Constraint for Closed {
     }
 }
 
-impl Closed {
+impl LastingContact {
     /// Returns the contact as frames show it: its place, normal, normal force and friction. The closure adds the force of one of its rows
     /// on the second body.
     pub(in crate::dynamics) fn seen(

@@ -23,7 +23,7 @@ const FEW: usize = 16;
 
 /// The closest points of two solids, with their gap and normal. For overlapping solids, the points of the smallest separating motion.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::dynamics) struct Nearest {
+pub(in crate::dynamics) struct ClosestPoints {
     /// The gap, m. For overlapping solids, it is minus the penetration depth.
     pub gap: f64,
     /// The unit normal at the closest points, from the first solid to the second, world axes.
@@ -32,15 +32,15 @@ pub(in crate::dynamics) struct Nearest {
     pub on: [DVec3; 2],
 }
 
-impl Nearest {
+impl ClosestPoints {
     /// Returns the same closest points with the two solids swapped.
-    pub(super) fn flipped(self) -> Nearest {
-        Nearest { gap: self.gap, normal: -self.normal, on: [self.on[1], self.on[0]] }
+    pub(super) fn flipped(self) -> ClosestPoints {
+        ClosestPoints { gap: self.gap, normal: -self.normal, on: [self.on[1], self.on[0]] }
     }
 
     /// Returns the same closest points, translated by a vector.
-    pub(super) fn moved(self, by: DVec3) -> Nearest {
-        Nearest { on: self.on.map(|place| place + by), ..self }
+    pub(super) fn moved(self, by: DVec3) -> ClosestPoints {
+        ClosestPoints { on: self.on.map(|place| place + by), ..self }
     }
 }
 
@@ -53,8 +53,8 @@ pub(in crate::dynamics) fn nearest(
     b: &Solid,
     pb: &Pose,
     beyond: f64,
-) -> Option<Nearest> {
-    let mut best: Option<Nearest> = None;
+) -> Option<ClosestPoints> {
+    let mut best: Option<ClosestPoints> = None;
     let mut within = if a.is_surface() || b.is_surface() { START * a.size().min(b.size()) } else { beyond };
     loop {
         for_pairs(a, pa, b, pb, within, &mut |i, j| {
@@ -122,7 +122,7 @@ fn above(pose: &Pose, at: DVec3, normal: DVec3, place: DVec3) -> f64 {
 }
 
 /// Computes the closest points of two convex parts.
-pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
+pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
     match (&a.core, &b.core) {
         (Core::Ground { at, normal }, _) => on_ground(pa, *at, *normal, b, pb),
         (_, Core::Ground { at, normal }) => on_ground(pb, *at, *normal, a, pa).flipped(),
@@ -136,14 +136,14 @@ pub(super) fn between(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
 }
 
 /// Computes the closest points of the ground, which comes first, and a convex part.
-fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> Nearest {
+fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) -> ClosestPoints {
     let normal = ground.orientation * normal;
     // Coordinates are relative to the ground, to keep precision far from the origin.
     let shift = pose.location - ground.location;
     let lowest = pose.orientation * part.support(-(pose.orientation.conjugate() * normal));
     let gap = (shift + lowest - ground.orientation * at).dot(normal);
     let place = pose.location + lowest;
-    Nearest { gap, normal, on: [place - gap * normal, place] }
+    ClosestPoints { gap, normal, on: [place - gap * normal, place] }
 }
 
 /// Returns the distance outside a feature at which a point still counts as on the feature, m. `round` is true if the other body is round
@@ -153,7 +153,7 @@ pub(super) fn edge(part: &Part, round: bool) -> f64 {
 }
 
 /// Computes the closest points of a ball and a convex part, and the index of the part's feature at its closest point.
-pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nearest, usize) {
+pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (ClosestPoints, usize) {
     let patch = &ball.features[0].patch;
     // The ball is moved into the body axes of the convex part, so the features of the part need no rotation.
     let centre = at.local(pose.point(ball.centre));
@@ -182,7 +182,7 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Nea
     let found = meet(patch, pose, &part.features[i].patch, at);
     // The closest point is outside of this triangle, so another triangle is nearer and this one does not count.
     let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
-    (Nearest { gap, ..found }, i)
+    (ClosestPoints { gap, ..found }, i)
 }
 
 /// Returns how far a contact is inside a feature, m: the distance of its point from the border. If smaller, the angular distance of its
@@ -198,7 +198,7 @@ pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3
 /// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the right n is
 /// the normal of some pair of features. The largest separation along the normals of all pairs is therefore the gap, exact to rounding
 /// errors, with its sign. If GJK gives a guess, only the features near the guess are tried first.
-fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
+fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
     if let Some(found) = faces(a, pa, b, pb) {
         return found;
     }
@@ -218,13 +218,13 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Nearest {
             return found;
         }
         let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
-        search.consider(Nearest { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
+        search.consider(ClosestPoints { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
     }
     search.pairs(&all(a), &all(b));
     match search.best {
-        Some((along, found)) => Nearest { gap: along, ..found },
+        Some((along, found)) => ClosestPoints { gap: along, ..found },
         // No candidate was found, because a coordinate is NaN.
-        None => Nearest { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
+        None => ClosestPoints { gap: f64::NAN, normal: DVec3::X, on: [DVec3::NAN; 2] },
     }
 }
 
@@ -239,7 +239,7 @@ fn side(part: &Part, feature: &Feature) -> Patch {
 }
 
 /// Computes the closest points of two boxes with parallel edges. `None` unless the boxes are nearest at two faces.
-fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
+fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<ClosestPoints> {
     let (of_a, of_b) = (a.half?, b.half?);
     if pa.orientation != pb.orientation {
         return None;
@@ -258,7 +258,7 @@ fn faces(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> Option<Nearest> {
     normal[axis] = sign;
     let on = pa.point(a.centre + place);
     let normal = pa.orientation * normal;
-    Some(Nearest { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
+    Some(ClosestPoints { gap: gaps[axis], normal, on: [on, on + gaps[axis] * normal] })
 }
 
 /// The search for the normal along which two convex parts have the largest separation.
@@ -268,7 +268,7 @@ struct Search<'a> {
     b: &'a Part,
     pb: &'a Pose,
     /// The largest separation so far, m, and the closest points whose normal gives it.
-    best: Option<(f64, Nearest)>,
+    best: Option<(f64, ClosestPoints)>,
 }
 
 impl Search<'_> {
@@ -289,7 +289,7 @@ impl Search<'_> {
     /// Returns true if the convex parts are nearest at a corner and another corner, an edge or a rim: the points and the normal belong to
     /// the two features. The gap is then exact. The normal is less accurate: its rounding error grows as the gap shrinks, so the
     /// separation along it would be too small.
-    fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &Nearest) -> bool {
+    fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &ClosestPoints) -> bool {
         let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
             |(feature, pose, part, side, sign)| {
@@ -300,11 +300,11 @@ impl Search<'_> {
         )
     }
 
-    fn consider(&mut self, found: Nearest) {
+    fn consider(&mut self, found: ClosestPoints) {
         self.best_of(separation(self.a, self.pa, self.b, self.pb, found.normal), found);
     }
 
-    fn best_of(&mut self, along: f64, found: Nearest) {
+    fn best_of(&mut self, along: f64, found: ClosestPoints) {
         let digits = self.digits();
         // Of several candidates with the same separation, the one whose gap is closest to it counts.
         let better = self.best.is_none_or(|(other, nearest)| {
@@ -317,7 +317,7 @@ impl Search<'_> {
     }
 
     /// Returns the best candidate if it is certain: its points are on the convex parts, and its gap is the separation along its normal.
-    fn answer(&self) -> Option<Nearest> {
+    fn answer(&self) -> Option<ClosestPoints> {
         let (along, found) = self.best?;
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
         let is_on = |(part, pose, place): (&Part, &Pose, DVec3)| {
@@ -327,7 +327,7 @@ impl Search<'_> {
         // The closest points of overlapping convex parts may lie outside of the features.
         let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
-        (is_exact && is_certain).then_some(Nearest { gap: along, ..found })
+        (is_exact && is_certain).then_some(ClosestPoints { gap: along, ..found })
     }
 
     /// Returns a bound of the rounding error of a distance between the convex parts, m.

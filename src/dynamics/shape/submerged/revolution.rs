@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::Immersed;
+use super::Submerged;
 
 /// The positive nodes and their weights of Gauss–Legendre quadrature with 16 points on [−1, 1]. Source: M. Abramowitz & I. A. Stegun,
 /// *Handbook of Mathematical Functions*, table 25.4.
@@ -57,7 +57,7 @@ impl Profile {
     /// A slice at y is a disk or a ring. The plane leaves all of it, nothing, or a segment. The integral is split where one case changes
     /// into another. Near these places, it behaves like a power 3/2, so the substitution a + (b − a) τ² (3 − 2τ) makes it smooth in τ. A
     /// ball or a torus becomes smooth at its ends if an angle replaces y.
-    pub(super) fn below(&self, up: DVec3, height: f64) -> Immersed {
+    pub(super) fn below(&self, up: DVec3, height: f64) -> Submerged {
         let across = (up.x * up.x + up.z * up.z).sqrt();
         let mut ends = [self.span[0]; 6];
         let inner = self.crossings(up.y, across, height);
@@ -84,7 +84,7 @@ impl Profile {
             }
         }
         let outwards = if across > 0.0 { DVec3::new(up.x, 0.0, up.z) / across } else { DVec3::ZERO };
-        Immersed { volume, moment: axial * DVec3::Y + radial * outwards }
+        Submerged { volume, moment: axial * DVec3::Y + radial * outwards }
     }
 
     /// Returns the integration parameter that belongs to y. The outline is smooth in this parameter, which is y itself or an angle.

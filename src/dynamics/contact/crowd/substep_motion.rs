@@ -15,9 +15,9 @@ use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
-use super::super::closed::{Closed, heading};
+use super::super::closest_points::nearest;
 use super::super::collider::{Collider, scale};
-use super::super::nearest::nearest;
+use super::super::lasting_contact::{LastingContact, heading};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 use super::super::solid::Solid;
@@ -52,7 +52,7 @@ const NEAR: f64 = 1e-9;
 
 /// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
 #[derive(Clone, Default)]
-pub(super) struct Course {
+pub(super) struct SubstepMotion {
     /// The time at which the motion begins, s.
     start: f64,
     /// The length of each substep, s.
@@ -119,16 +119,16 @@ impl Collider {
         (t, span): (f64, f64),
         (before, after): (&State, &State),
         loads: &mut Loads,
-    ) -> Course {
+    ) -> SubstepMotion {
         let parts = self.parts(model, before, span);
-        let mut course = Course {
+        let mut course = SubstepMotion {
             start: t,
             part: span / parts,
             states: vec![self.crowd.part_of(before)],
             first: before.clone(),
             velocity: after.velocity.clone(),
             pairs: self.crowd_pairs(model, before, span),
-            ..Course::default()
+            ..SubstepMotion::default()
         };
         for k in 0..parts as usize {
             let next = self.advance_from(&course, k, course.part, model, loads);
@@ -148,7 +148,7 @@ impl Collider {
     }
 
     /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
-    fn moment(&mut self, course: &mut Course, time: f64, model: &Model, loads: &mut Loads) -> State {
+    fn moment(&mut self, course: &mut SubstepMotion, time: f64, model: &Model, loads: &mut Loads) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
         let k = ((passed + SAME) as usize).min(last);
@@ -174,7 +174,7 @@ impl Collider {
     /// before its end.
     fn advance_from(
         &mut self,
-        course: &Course,
+        course: &SubstepMotion,
         k: usize,
         part: f64,
         model: &Model,
@@ -255,7 +255,13 @@ impl Collider {
     }
 
     /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds.
-    fn crowd_places(&self, model: &Model, state: &State, pairs: &[Pair], part: f64) -> Vec<Arc<Closed>> {
+    fn crowd_places(
+        &self,
+        model: &Model,
+        state: &State,
+        pairs: &[Pair],
+        part: f64,
+    ) -> Vec<Arc<LastingContact>> {
         let mut all = Vec::new();
         for pair in pairs {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
@@ -278,12 +284,12 @@ impl Collider {
         pair: &Pair,
         [x, y]: [&Solid; 2],
         within: f64,
-    ) -> Vec<Arc<Closed>> {
+    ) -> Vec<Arc<LastingContact>> {
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));
         if nearest(x, &p, y, &q, f64::INFINITY).is_none_or(|near| near.gap > within) {
             return Vec::new();
         }
-        let closed = |touch| Closed {
+        let closed = |touch| LastingContact {
             bodies: pair.bodies,
             touch,
             law: pair.law,
@@ -305,7 +311,7 @@ impl Collider {
         model: &Model,
         time: f64,
         state: &mut State,
-    ) -> Result<Vec<Arc<Closed>>, Breakdown> {
+    ) -> Result<Vec<Arc<LastingContact>>, Breakdown> {
         let mut jammed = None;
         for _ in 0..REPAIRS {
             let (all, deep) = self.touching_in_crowd(model, state);
@@ -331,7 +337,11 @@ impl Collider {
 
     /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
     /// any.
-    fn touching_in_crowd(&self, model: &Model, state: &State) -> (Vec<Arc<Closed>>, Option<[usize; 2]>) {
+    fn touching_in_crowd(
+        &self,
+        model: &Model,
+        state: &State,
+    ) -> (Vec<Arc<LastingContact>>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
@@ -365,7 +375,7 @@ impl Crowd {
     /// possible contacts.
     fn advance(
         &mut self,
-        closed: Vec<Arc<Closed>>,
+        closed: Vec<Arc<LastingContact>>,
         model: &Model,
         (t, part): (f64, f64),
         now: &mut State,
