@@ -7,8 +7,8 @@ use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
 
-/// The tolerance of events. An inequality c ≥ 0 (a stop) is passed if its error exceeds this fraction of its scale. A constraint row moves
-/// if its rate exceeds this fraction of the largest rate.
+/// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its scale. A constraint counts as moving if its rate c'
+/// exceeds this fraction of the largest rate of all constraints.
 pub(super) const PASSED: f64 = 1e-12;
 
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of

@@ -35,7 +35,7 @@ impl<T: Nothing> Sparse<T> {
         }
     }
 
-    /// Writes the values of bodies 0 to `bodies` − 1 to `out`, and replaces its contents.
+    /// Replaces the contents of `out` by the values of the first `bodies` bodies.
     pub(super) fn write(&self, out: &mut Vec<T>, bodies: usize) {
         out.clone_from(&self.0);
         out.resize(bodies, T::NOTHING);

@@ -117,8 +117,7 @@ impl Link<'_> {
 /// The drawn springs and joints of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Links {
-    /// The parts of all springs and joints, in the order of the forces, their links, and the joints. All parts of a spring or joint are
-    /// adjacent.
+    /// The drawn parts of all springs, in the order of the forces, and then of all joints. The parts of one spring or joint are adjacent.
     parts: Vec<Part>,
     /// The drawn shape of each body, indexed by body. Empty without parts.
     shapes: Vec<Shape>,

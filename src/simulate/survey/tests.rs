@@ -160,7 +160,8 @@ fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
     assert!(taken.lost > 0.0);
 }
 
-/// A ball of a tonne hangs on a light one by two rods. With a coarse step, a rod gives way; with a fine step, both hold.
+/// A rod holds a light ball, and a second rod hangs a ball of a tonne on it. With a coarse step, the length of a rod changes too much. With
+/// a fine step, both rods hold.
 #[cfg(feature = "time-stepping")]
 #[test]
 fn a_joint_that_gives_way_is_found() {
