@@ -2,16 +2,16 @@
 
 use glam::{DQuat, DVec3};
 
+use super::cameras_and_lights::CamerasAndLights;
 use super::channels::animation;
 use super::document::{
     Animation, Asset, Buffer, Document, Extras, LIGHTS, LightOfNode, Lights, Node, OfLights, SceneOfNodes,
 };
 use super::geometry::Geometry;
 use super::links::LinkNode;
-use super::materials::What;
+use super::materials::PaintedObject;
 use super::meshes::Meshes;
 use super::motion::{NodeMotion, NodePose, SampledMotion};
-use super::sight::Sight;
 use crate::scene::{Body, Look, Scene};
 use crate::surface::{BaseShape, Detail, Piece, pieces};
 
@@ -25,7 +25,7 @@ const ROOT: &str = "jabuka";
 struct DocumentBuilder<'a> {
     scene: &'a Scene,
     /// The surroundings, cameras and lights.
-    sight: Sight,
+    sight: CamerasAndLights,
     nodes: Vec<Node>,
     meshes: Meshes,
 }
@@ -33,7 +33,7 @@ struct DocumentBuilder<'a> {
 /// Builds the glTF document of a scene whose motion is recorded. Also returns its triangles.
 pub(super) fn document(
     scene: &Scene,
-    sight: Sight,
+    sight: CamerasAndLights,
     links: &[LinkNode],
     motion: &SampledMotion,
 ) -> (Document, Geometry) {
@@ -73,7 +73,7 @@ impl DocumentBuilder<'_> {
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
-        let material = body.material.map_or(What::Unknown, What::Material);
+        let material = body.material.map_or(PaintedObject::Unknown, PaintedObject::Material);
         // A pattern is designed for a ball of radius 1. A body gets the pattern of a ball with the same volume.
         let ball = body.shape.radius_of_ball();
         for mut piece in pieces {
@@ -122,7 +122,7 @@ impl DocumentBuilder<'_> {
         let scale = DVec3::splat(self.half_of_ground());
         let (location, orientation) = (self.sight.stage.center.with_y(ground.height), DQuat::IDENTITY);
         let piece = Piece { form: BaseShape::PLANE, scale, location, orientation, color: None };
-        let mesh = self.meshes.number(self.scene, &piece, What::Ground, Some(ground.tile));
+        let mesh = self.meshes.number(self.scene, &piece, PaintedObject::Ground, Some(ground.tile));
         let name = "ground".to_owned();
         let place = NodePose { location, orientation };
         Some(self.node(Node { name, mesh, scale: Some(scale.to_array()), ..at(place) }))
@@ -155,7 +155,8 @@ impl DocumentBuilder<'_> {
     fn link(&mut self, link: &LinkNode, way: &NodeMotion) -> u32 {
         let (location, orientation) = (DVec3::ZERO, DQuat::IDENTITY);
         let piece = Piece { form: link.form.clone(), scale: DVec3::ONE, location, orientation, color: None };
-        let mesh = self.meshes.number(self.scene, &piece, What::Link(link.color.0.map(f64::to_bits)), None);
+        let mesh =
+            self.meshes.number(self.scene, &piece, PaintedObject::Link(link.color.0.map(f64::to_bits)), None);
         let name = link.name.clone();
         self.node(Node { name, mesh, scale: Some(way.size.to_array()), ..at(way.start) })
     }

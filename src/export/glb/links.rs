@@ -56,7 +56,7 @@ pub(super) fn nodes(
             place(its, link.map(|link| link.form));
         }
         let poses = placed.iter().map(|placed| (placed.pose, placed.size));
-        ways.add_sized(poses, frame.time, |i| nodes[i].name.clone(), &mut motion.room)?;
+        ways.add_sized(poses, frame.time, |i| nodes[i].name.clone(), &mut motion.budget)?;
     }
     motion.append(ways);
     Ok(nodes)

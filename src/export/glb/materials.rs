@@ -8,8 +8,8 @@ use crate::surface::{Appearance, SurfacePattern, appearance, ground};
 
 /// The key of a glTF material: what it colors, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) struct Paint {
-    pub(super) what: What,
+pub(super) struct MaterialKey {
+    pub(super) what: PaintedObject,
     /// True if the back of the surface is visible as well.
     pub(super) both_sides: bool,
     /// The index of a color of the pattern. `None` for the mean of the pattern's colors.
@@ -17,7 +17,7 @@ pub(super) struct Paint {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum What {
+pub(super) enum PaintedObject {
     /// The material with this index in the scene.
     Material(usize),
     /// An sRGB color, as the bits of its three components.
@@ -30,9 +30,9 @@ pub(super) enum What {
     Unknown,
 }
 
-impl From<Color> for What {
-    fn from(color: Color) -> What {
-        What::Color(color.0.map(f64::to_bits))
+impl From<Color> for PaintedObject {
+    fn from(color: Color) -> PaintedObject {
+        PaintedObject::Color(color.0.map(f64::to_bits))
     }
 }
 
@@ -41,12 +41,12 @@ impl From<Color> for What {
 pub(super) struct Paints {
     pub(super) materials: Vec<Material>,
     /// The index of each material in `materials`. The map is never iterated, so its random order does not matter.
-    known: HashMap<Paint, u32>,
+    known: HashMap<MaterialKey, u32>,
 }
 
 impl Paints {
     /// Returns the index of a material. Adds the material if it is new.
-    pub(super) fn number(&mut self, paint: Paint, scene: &Scene) -> u32 {
+    pub(super) fn number(&mut self, paint: MaterialKey, scene: &Scene) -> u32 {
         *self.known.entry(paint).or_insert_with(|| {
             self.materials.push(material(paint, scene));
             self.materials.len() as u32 - 1
@@ -54,7 +54,7 @@ impl Paints {
     }
 }
 
-fn material(paint: Paint, scene: &Scene) -> Material {
+fn material(paint: MaterialKey, scene: &Scene) -> Material {
     let (mut name, mut look) = look(paint.what, scene);
     if let Some((number, [red, green, blue])) = paint.color.and_then(|i| Some((i, *look.colors().get(i)?))) {
         name = format!("{name}, color {}", number + 1);
@@ -64,19 +64,19 @@ fn material(paint: Paint, scene: &Scene) -> Material {
 }
 
 /// Returns the name of a material, and its appearance in a drawing without POV-Ray.
-pub(super) fn look(what: What, scene: &Scene) -> (String, Appearance) {
+pub(super) fn look(what: PaintedObject, scene: &Scene) -> (String, Appearance) {
     let preset = scene.environment.preset;
     let satin =
         |bits: [u64; 3]| Look::Plain { color: Color(bits.map(f64::from_bits)), finish: Finish::Satin };
     match what {
-        What::Material(number) => {
+        PaintedObject::Material(number) => {
             let material = &scene.materials[number];
             (material.name.clone(), appearance(&material.look, preset))
         }
-        What::Color(bits) => ("axes".to_owned(), appearance(&satin(bits), preset)),
-        What::Link(bits) => ("link".to_owned(), appearance(&satin(bits), preset)),
-        What::Ground => ("ground".to_owned(), ground(preset)),
-        What::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()), preset)),
+        PaintedObject::Color(bits) => ("axes".to_owned(), appearance(&satin(bits), preset)),
+        PaintedObject::Link(bits) => ("link".to_owned(), appearance(&satin(bits), preset)),
+        PaintedObject::Ground => ("ground".to_owned(), ground(preset)),
+        PaintedObject::Unknown => ("unknown".to_owned(), appearance(&Look::Sdl("".into()), preset)),
     }
 }
 

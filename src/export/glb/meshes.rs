@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use super::document::{Accessor, Mesh, Primitive};
 use super::geometry::{Geometry, Known};
-use super::materials::{self, Paint, Paints, What};
+use super::materials::{self, MaterialKey, PaintedObject, Paints};
 use crate::scene::Scene;
 use crate::surface::{BaseShape, Detail, Piece, SurfacePattern};
 
@@ -14,7 +14,7 @@ use crate::surface::{BaseShape, Detail, Piece, SurfacePattern};
 pub(super) struct Meshes {
     pub(super) meshes: Vec<Mesh>,
     /// The index of each mesh in `meshes`. The map is never iterated, so its random order does not matter.
-    known: HashMap<(BaseShape, Paint, Option<Cut>), u32>,
+    known: HashMap<(BaseShape, MaterialKey, Option<Cut>), u32>,
     pub(super) paints: Paints,
     pub(super) accessors: Vec<Accessor>,
     pub(super) geometry: Geometry,
@@ -40,11 +40,11 @@ impl Meshes {
         &mut self,
         scene: &Scene,
         piece: &Piece,
-        material: What,
+        material: PaintedObject,
         size: Option<f64>,
     ) -> Option<u32> {
-        let what = piece.color.map_or(material, What::from);
-        let paint = Paint { what, both_sides: !piece.form.is_closed(), color: None };
+        let what = piece.color.map_or(material, PaintedObject::from);
+        let paint = MaterialKey { what, both_sides: !piece.form.is_closed(), color: None };
         let (name, look) = materials::look(what, scene);
         let cut = size.filter(|_| look.pattern != SurfacePattern::None).map(|size| cut(piece, size));
         let key = (piece.form.clone(), paint, cut);
@@ -59,8 +59,8 @@ impl Meshes {
         let primitives = match parts {
             Some(parts) => {
                 let parts = parts.into_iter().enumerate();
-                let parts =
-                    parts.filter_map(|(color, part)| Some((Paint { color: Some(color), ..paint }, part?)));
+                let parts = parts
+                    .filter_map(|(color, part)| Some((MaterialKey { color: Some(color), ..paint }, part?)));
                 parts.map(|(paint, part)| self.primitive(scene, paint, part)).collect()
             }
             None => {
@@ -74,7 +74,7 @@ impl Meshes {
         Some(number)
     }
 
-    fn primitive(&mut self, scene: &Scene, paint: Paint, part: Known) -> Primitive {
+    fn primitive(&mut self, scene: &Scene, paint: MaterialKey, part: Known) -> Primitive {
         let material = self.paints.number(paint, scene);
         Primitive { attributes: part.attributes, indices: part.indices, material }
     }

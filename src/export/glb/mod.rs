@@ -4,8 +4,8 @@
 //! | what | where |
 //! | --- | --- |
 //! | the poses of the bodies in all frames | `motion` |
-//! | the times at which bodies are present | `shown` |
-//! | the poses and properties of cameras and lights | `sight` |
+//! | the times at which bodies are present | `visibility` |
+//! | the poses and properties of cameras and lights | `cameras_and_lights` |
 //! | the poses and lengths of springs and joints | `links` |
 //! | triangles, once for each base shape | `geometry` |
 //! | materials | `materials` |
@@ -18,6 +18,7 @@
 //! The file uses meters and seconds, with y up. Everything is below one node, so that programs with other units can scale that node.
 //! Vertices and poses are `f32`, as glTF requires.
 
+mod cameras_and_lights;
 mod channels;
 mod container;
 mod document;
@@ -27,15 +28,14 @@ mod links;
 mod materials;
 mod meshes;
 mod motion;
-mod shown;
-mod sight;
 #[cfg(test)]
 mod tests;
+mod visibility;
 
 use std::io::Write;
 
+use self::cameras_and_lights::CamerasAndLights;
 use self::motion::SampledMotion;
-use self::sight::Sight;
 use super::ExportError;
 use crate::simulate::{Recorded, Selection};
 
@@ -62,7 +62,7 @@ pub fn write_glb(
 ) -> Result<Exported, ExportError> {
     let scene = run.scene();
     let mut motion = SampledMotion::of(run, selection)?;
-    let sight = Sight::of(run, selection, &mut motion)?;
+    let sight = CamerasAndLights::of(run, selection, &mut motion)?;
     let links = links::nodes(run, selection, &mut motion)?;
     let (document, geometry) = document_builder::document(scene, sight, &links, &motion);
     let bytes = container::write(&document, &geometry, &motion, &mut out)?;

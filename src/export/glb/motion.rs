@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::container::LARGEST;
-use super::shown::Shown;
+use super::visibility::Visibility;
 use crate::export::ExportError;
 use crate::picture::Pace;
 use crate::scene::Body;
@@ -17,7 +17,7 @@ pub(super) struct SampledMotion {
     slower: f64,
     ways: Vec<NodeMotion>,
     /// The size of the binary data in the file so far, checked against the largest file.
-    pub(super) room: Room,
+    pub(super) budget: SizeBudget,
 }
 
 /// A location in world axes, m, and an orientation.
@@ -40,7 +40,7 @@ pub(super) struct NodeMotion {
     /// The sizes in all frames, with three numbers for each. Empty if the size never changes.
     pub(super) scales: Vec<f32>,
     /// The times at which the object is present.
-    pub(super) shown: Shown,
+    pub(super) shown: Visibility,
     /// The orientation in the latest frame. The quaternions q and −q are the same orientation; this is the one nearer to the previous
     /// frame's.
     last: DQuat,
@@ -57,8 +57,8 @@ impl SampledMotion {
         }
         let slower = scene.simulation.frame_rate / rate;
         let mut times = Vec::with_capacity(count);
-        let mut room = Room::default();
-        room.take(count)?;
+        let mut budget = SizeBudget::default();
+        budget.take(count)?;
         let mut bodies = Recorder::new(count);
         let pose = |location, orientation: DQuat| NodePose { location, orientation: orientation.normalize() };
         // An absent body stays at its last pose, or waits at the pose at which it will appear.
@@ -71,12 +71,12 @@ impl SampledMotion {
                 poses[body.id] = pose(body.location, body.orientation);
             }
             let name = |body: usize| scene.bodies[body].name.to_string();
-            bodies.add(poses.iter().copied(), frame.time, name, &mut room)?;
+            bodies.add(poses.iter().copied(), frame.time, name, &mut budget)?;
             for (id, way) in bodies.ways.iter_mut().enumerate() {
-                way.shown.add(frame.body(id).is_some(), &times, &mut room)?;
+                way.shown.add(frame.body(id).is_some(), &times, &mut budget)?;
             }
         }
-        Ok(SampledMotion { times, slower, ways: bodies.ways, room })
+        Ok(SampledMotion { times, slower, ways: bodies.ways, budget })
     }
 
     /// Appends the motion of cameras, lights, springs or joints.
@@ -131,9 +131,9 @@ impl Recorder {
         poses: impl Iterator<Item = NodePose>,
         time: f64,
         name: impl Fn(usize) -> String,
-        room: &mut Room,
+        budget: &mut SizeBudget,
     ) -> Result<(), ExportError> {
-        self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, room)
+        self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, budget)
     }
 
     /// Records the poses of all objects in a frame, and their sizes along their own axes. Fails like [`Recorder::add`].
@@ -142,14 +142,14 @@ impl Recorder {
         poses: impl Iterator<Item = (NodePose, DVec3)>,
         time: f64,
         name: impl Fn(usize) -> String,
-        room: &mut Room,
+        budget: &mut SizeBudget,
     ) -> Result<(), ExportError> {
         for (i, (pose, size)) in poses.enumerate() {
             if !pose.location.as_vec3().is_finite() {
                 return Err(ExportError::OutOfRange { what: name(i), time });
             }
             match self.ways.get_mut(i) {
-                Some(way) => way.add(pose, size, self.known, self.count, room)?,
+                Some(way) => way.add(pose, size, self.known, self.count, budget)?,
                 None => self.ways.push(NodeMotion::new(pose, size)),
             }
         }
@@ -167,7 +167,7 @@ impl NodeMotion {
             rotations,
             size,
             scales,
-            shown: Shown::default(),
+            shown: Visibility::default(),
             last: start.orientation,
         }
     }
@@ -179,18 +179,18 @@ impl NodeMotion {
         size: DVec3,
         known: usize,
         count: usize,
-        room: &mut Room,
+        budget: &mut SizeBudget,
     ) -> Result<(), ExportError> {
         let NodePose { location, orientation } = pose;
         // The quaternions q and −q are the same orientation. With the one farther from the previous frame's, viewers would rotate the long
         // way round.
         self.last = if orientation.dot(self.last) < 0.0 { -orientation } else { orientation };
         let start = self.start.location.as_vec3().to_array();
-        follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, room)?;
+        follow(&mut self.translations, start, location.as_vec3().to_array(), known, count, budget)?;
         let start = self.start.orientation.as_quat().to_array();
-        follow(&mut self.rotations, start, self.last.as_quat().to_array(), known, count, room)?;
+        follow(&mut self.rotations, start, self.last.as_quat().to_array(), known, count, budget)?;
         let start = self.size.as_vec3().to_array();
-        follow(&mut self.scales, start, size.as_vec3().to_array(), known, count, room)
+        follow(&mut self.scales, start, size.as_vec3().to_array(), known, count, budget)
     }
 }
 
@@ -202,13 +202,13 @@ fn follow<const N: usize>(
     value: [f32; N],
     known: usize,
     count: usize,
-    room: &mut Room,
+    budget: &mut SizeBudget,
 ) -> Result<(), ExportError> {
     if values.is_empty() {
         if value == start {
             return Ok(());
         }
-        room.take(N * count)?;
+        budget.take(N * count)?;
         values.reserve_exact(N * count);
         (0..known).for_each(|_| values.extend(start));
     }
@@ -218,9 +218,9 @@ fn follow<const N: usize>(
 
 /// The number of bytes that the recorded numbers will take in the file.
 #[derive(Default)]
-pub(super) struct Room(u64);
+pub(super) struct SizeBudget(u64);
 
-impl Room {
+impl SizeBudget {
     /// Counts this many further numbers of 4 bytes. Fails if the file would become too large.
     pub(super) fn take(&mut self, numbers: usize) -> Result<(), ExportError> {
         self.0 += 4 * numbers as u64;

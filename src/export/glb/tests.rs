@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::container::{LARGEST, write};
 use super::document_builder::document;
-use super::motion::{Room, SampledMotion};
+use super::motion::{SampledMotion, SizeBudget};
 use super::*;
 use crate::scene::Scene;
 
@@ -110,7 +110,7 @@ fn what_is_too_large_is_refused_before_anything_is_written() {
     let scene = scene(SCENE);
     let frames = Selection::first(2);
     let mut motion = SampledMotion::of(&Recorded::new(&scene).unwrap(), &frames).unwrap();
-    let sight = Sight::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
+    let sight = CamerasAndLights::of(&Recorded::new(&scene).unwrap(), &frames, &mut motion).unwrap();
     let (mut document, geometry) = document(&scene, sight, &[], &motion);
     document.buffers[0].byte_length = LARGEST - 8;
     let mut out = Vec::new();
@@ -118,9 +118,9 @@ fn what_is_too_large_is_refused_before_anything_is_written() {
     assert!(matches!(refused, Err(ExportError::TooLarge(_))) && out.is_empty());
 
     // A thousand bodies in a thousand frames take 28 MB. Two hundred bodies in a million frames take too much.
-    let mut room = Room::default();
-    assert!(room.take(7 * 1_000 * 1_000).is_ok());
-    assert!(matches!(room.take(7 * 200 * 1_000_000), Err(ExportError::TooLarge(5_628_000_000))));
+    let mut budget = SizeBudget::default();
+    assert!(budget.take(7 * 1_000 * 1_000).is_ok());
+    assert!(matches!(budget.take(7 * 200 * 1_000_000), Err(ExportError::TooLarge(5_628_000_000))));
 }
 
 #[test]

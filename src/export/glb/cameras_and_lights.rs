@@ -13,7 +13,7 @@ use crate::simulate::{Recorded, Selection};
 const WIDEST: f64 = 179.9;
 
 /// The cameras and lights of a scene. Their recorded motion follows that of the bodies, cameras first.
-pub(super) struct Sight {
+pub(super) struct CamerasAndLights {
     /// The surroundings of the bodies.
     pub(super) stage: Stage,
     /// The main camera, followed by the cameras of the views.
@@ -21,23 +21,23 @@ pub(super) struct Sight {
     pub(super) lights: Vec<Light>,
 }
 
-impl Sight {
+impl CamerasAndLights {
     /// Converts the cameras and lights of a run, and appends their motion in the selected frames to `motion`.
     pub(super) fn of(
         run: &Recorded<'_>,
         selection: &Selection,
         motion: &mut SampledMotion,
-    ) -> Result<Sight, ExportError> {
+    ) -> Result<CamerasAndLights, ExportError> {
         let (scene, survey) = (run.scene(), run.survey());
         let views = scene.views.iter().map(|view| (format!("camera {}", view.name), &view.camera));
         let all = std::iter::once(("camera".to_owned(), &scene.camera)).chain(views);
         let (names, plans): (Vec<String>, Vec<Plan>) =
             all.map(|(name, camera)| (name, Plan::new(scene, camera, survey))).unzip();
         let stage = plans[0].stage().clone();
-        let mut seen: Vec<Seen> = plans.iter().map(|_| Seen::default()).collect();
+        let mut seen: Vec<CameraRange> = plans.iter().map(|_| CameraRange::default()).collect();
         let mut see = |time: f64, placed: Vec<Placed>, motion: &mut SampledMotion, ways: &mut Recorder| {
             seen.iter_mut().zip(&placed).for_each(|(seen, placed)| seen.see(placed, &stage));
-            ways.add(placed.iter().map(pose), time, |i| names[i].clone(), &mut motion.room)
+            ways.add(placed.iter().map(pose), time, |i| names[i].clone(), &mut motion.budget)
         };
         let mut ways = Recorder::new(motion.times().len());
         if plans.iter().any(Plan::camera_moves) {
@@ -53,7 +53,7 @@ impl Sight {
         let cameras = names.into_iter().zip(seen);
         let cameras = cameras.map(|(name, seen)| seen.camera(name, scene.output, &stage)).collect();
         let lights = lights(scene, &plans[0], selection, motion)?;
-        Ok(Sight { cameras, lights, stage })
+        Ok(CamerasAndLights { cameras, lights, stage })
     }
 }
 
@@ -67,7 +67,7 @@ fn pose(camera: &Placed) -> NodePose {
 
 /// The lens of a camera in the first frame, and the distances in all frames from which the clipping planes follow.
 #[derive(Default)]
-struct Seen {
+struct CameraRange {
     lens: Option<Lens>,
     /// The shortest distance between the camera and the scene in all frames, m.
     near: Option<f64>,
@@ -75,7 +75,7 @@ struct Seen {
     far: f64,
 }
 
-impl Seen {
+impl CameraRange {
     fn see(&mut self, camera: &Placed, stage: &Stage) {
         self.lens.get_or_insert(camera.lens());
         let (location, bounds) = (camera.location(), stage.whole);
@@ -136,10 +136,10 @@ fn lights(
     };
     let name = |i: usize| format!("light {}", shining[i].name);
     let mut ways = Recorder::new(motion.times().len());
-    ways.add(poses(&shining).into_iter(), first, name, &mut motion.room)?;
+    ways.add(poses(&shining).into_iter(), first, name, &mut motion.budget)?;
     if plan.lights_move() {
         for time in times {
-            ways.add(poses(&plan.lights(time)).into_iter(), time, name, &mut motion.room)?;
+            ways.add(poses(&plan.lights(time)).into_iter(), time, name, &mut motion.budget)?;
         }
     }
     motion.append(ways);
