@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::framing::decimal_step;
 use super::grid::{LEAST_PIXELS, SIZE};
 use super::length::{prefixed, value};
-use super::room::Rectangle;
+use super::occupancy::Rectangle;
 use super::screen::Screen;
 use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};

@@ -171,7 +171,7 @@ impl Placed {
 
 /// A camera of a run, which may move.
 #[derive(Clone, Debug)]
-pub(super) struct Eye {
+pub(super) struct MovingCamera {
     placed: Placed,
     moving: Option<Moving>,
 }
@@ -186,21 +186,21 @@ struct Moving {
     within: Option<Bounds>,
 }
 
-impl Eye {
+impl MovingCamera {
     /// Creates a camera of a scene. If the scene gives no position, the camera looks at the bounds from the direction `towards`.
-    pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Eye {
+    pub(super) fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> MovingCamera {
         let followed = camera.motion.follow.map(|follow| {
             let body = &scene.bodies[follow.body];
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
         let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed, within: None });
-        Eye { placed: Placed::new(camera, bounds, towards, scene.output), moving }
+        MovingCamera { placed: Placed::new(camera, bounds, towards, scene.output), moving }
     }
 
     /// Limits the camera to follow its body only within a box.
-    pub(super) fn within(self, bounds: Bounds) -> Eye {
+    pub(super) fn within(self, bounds: Bounds) -> MovingCamera {
         let moving = self.moving.map(|moving| Moving { within: Some(bounds), ..moving });
-        Eye { moving, ..self }
+        MovingCamera { moving, ..self }
     }
 
     /// The camera before it moves.

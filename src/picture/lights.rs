@@ -45,7 +45,7 @@ impl Lamp {
 }
 
 /// A default light. Lengths are relative to the size of the stage.
-struct Usual {
+struct DefaultLight {
     name: &'static str,
     /// The position relative to the middle of the stage.
     location: [f64; 3],
@@ -62,31 +62,31 @@ enum UsualColor {
 }
 
 /// The default lights of an environment. They equal those in `templates/lights.inc`; a test in `emit` compares them.
-fn usual(preset: Preset) -> &'static [Usual] {
+fn usual(preset: Preset) -> &'static [DefaultLight] {
     use UsualColor::{Linear, Srgb};
-    const SUN: Usual = Usual {
+    const SUN: DefaultLight = DefaultLight {
         name: "sun",
         location: [-30.0, 16.0, 26.0],
         size: None,
         color: Linear([1.25, 1.22, 1.15]),
         shadows: true,
     };
-    const MOON: Usual = Usual {
+    const MOON: DefaultLight = DefaultLight {
         name: "moon",
         location: [-20.0, 20.0, 10.0],
         size: Some(0.6),
         color: Linear([0.4, 0.47, 0.62]),
         shadows: true,
     };
-    const SOFT: [Usual; 2] = [
-        Usual {
+    const SOFT: [DefaultLight; 2] = [
+        DefaultLight {
             name: "lamp",
             location: [-13.0, 24.0, 12.0],
             size: Some(6.0),
             color: Linear([0.95; 3]),
             shadows: true,
         },
-        Usual {
+        DefaultLight {
             name: "fill",
             location: [18.0, 3.0, 18.0],
             size: None,
@@ -94,15 +94,15 @@ fn usual(preset: Preset) -> &'static [Usual] {
             shadows: false,
         },
     ];
-    const WARM: [Usual; 2] = [
-        Usual {
+    const WARM: [DefaultLight; 2] = [
+        DefaultLight {
             name: "lamp",
             location: [-13.0, 22.0, 16.0],
             size: Some(1.2),
             color: Srgb([1.1, 1.067, 1.012]),
             shadows: true,
         },
-        Usual {
+        DefaultLight {
             name: "fill",
             location: [14.0, -5.0, 22.0],
             size: None,
@@ -120,7 +120,7 @@ fn usual(preset: Preset) -> &'static [Usual] {
 
 /// The default lights around a stage, in world coordinates.
 pub(super) fn usual_lights(stage: &Stage) -> Vec<PlacedLight> {
-    let place = |light: &Usual| PlacedLight {
+    let place = |light: &DefaultLight| PlacedLight {
         name: light.name.to_owned(),
         kind: if light.size.is_some() { Lamp::Area } else { Lamp::Point },
         location: stage.center + DVec3::from_array(light.location) * stage.size,

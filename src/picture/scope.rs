@@ -1,7 +1,7 @@
 //! Chooses the part of a run that an automatic camera frames. Usually, this part is the whole run. If the bodies would then be too small,
 //! the camera frames the start of the run or follows the only body.
 
-use super::camera::{Eye, half_width};
+use super::camera::{MovingCamera, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
 use super::plan::reads_ground;
 use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
@@ -58,7 +58,8 @@ impl Scope {
         let width = 2.0 * half_width(largest).unwrap_or(0.0);
         let seen = |span: &Span| {
             let bounds = rounded_outward(span.seen);
-            let eye = Eye::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
+            let eye =
+                MovingCamera::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
             width / eye.placed().width_of_view(span.bounds)
         };
         // The camera ignores strays: a few bodies that fly far away from many others.

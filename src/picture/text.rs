@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::room::Rectangle;
+use super::occupancy::Rectangle;
 use crate::scene::{Color, Corner, Output};
 
 /// The distance of texts from the edges of the picture, which has a width of 2.

@@ -12,7 +12,7 @@ use super::text::least_height;
 use crate::scene::{self, Color, GridPlane, Preset, Scene};
 use crate::simulate::{Bounds, anchors};
 
-pub(super) use self::numbers::Ruled;
+pub(super) use self::numbers::GridLayout;
 
 /// The height of the numbers at grid lines, relative to the height of the picture.
 pub(super) const SIZE: f64 = 0.045;
@@ -47,9 +47,9 @@ pub struct Line {
     pub radius: f64,
 }
 
-/// The plane, the spacing and the extent of a grid. [`Ruled`] is the grid laid out for a camera.
+/// The plane, the spacing and the extent of a grid. [`GridLayout`] is the grid laid out for a camera.
 #[derive(Clone, Debug)]
-pub(super) struct Ruler {
+pub(super) struct GridPlan {
     plane: GridPlane,
     /// The distance between two lines, m.
     spacing: f64,
@@ -71,7 +71,7 @@ pub(super) struct Ruler {
     ink: Color,
 }
 
-impl Ruler {
+impl GridPlan {
     /// Plans the grid of a scene. `part` is the width in view of a moving camera, m; `None` for a fixed camera.
     pub(super) fn new(
         scene: &Scene,
@@ -79,7 +79,7 @@ impl Ruler {
         scenery: &Scenery,
         part: Option<f64>,
         ink: Color,
-    ) -> Ruler {
+    ) -> GridPlan {
         let (width, height) = (f64::from(scene.output.width), f64::from(scene.output.height));
         let given = grid.spacing.unwrap_or(scenery.spacing);
         let whole = (scenery.bounds.max - scenery.bounds.min).max_element();
@@ -96,7 +96,7 @@ impl Ruler {
         let (low, high) = extent_in_lines(grid.plane, bounds, spacing);
         let has_ground = scene.environment.ground.is_some() && !scene.output.transparent;
         let is_hidden = has_ground && scenery.ground < (high.y - 0.5) * spacing;
-        Ruler {
+        GridPlan {
             plane: grid.plane,
             spacing,
             too_fine: (spacing > given).then_some(given),
@@ -144,12 +144,12 @@ impl Ruler {
     }
 
     /// Lays out the whole grid with its numbers, for a stroke width (m) and a width in view (m).
-    pub(super) fn whole(&self, stroke: f64, view: f64) -> Ruled {
+    pub(super) fn whole(&self, stroke: f64, view: f64) -> GridLayout {
         self.rule(self.low, self.high, stroke, view)
     }
 
     /// Lays out the part of the grid around the view of a moving camera. Its lines extend beyond all edges of the picture.
-    pub(super) fn seen_by(&self, camera: &Placed, stroke: f64, view: f64) -> Ruled {
+    pub(super) fn seen_by(&self, camera: &Placed, stroke: f64, view: f64) -> GridLayout {
         let (first, second, place) = self.axes();
         let (look_at, normal) = (camera.look_at(), first.cross(second));
         let screen = camera.screen();
@@ -170,7 +170,7 @@ impl Ruler {
         self.rule(low, high.max(low), stroke, view)
     }
 
-    fn rule(&self, low: DVec3, high: DVec3, stroke: f64, view: f64) -> Ruled {
+    fn rule(&self, low: DVec3, high: DVec3, stroke: f64, view: f64) -> GridLayout {
         let spacing = self.spacing;
         let (first, second, place) = self.axes();
         let radius = (RADIUS * stroke).max(LEAST_RADIUS * view / self.pixels);
@@ -202,7 +202,7 @@ impl Ruler {
             numbers: numbers(lines),
             title: format!("{name} ({symbol})"),
         };
-        Ruled {
+        GridLayout {
             axes: [axis(Beside::Below, "x", &across), axis(beside, name, &along)],
             grid: Grid { lines: lines.collect(), color: self.color },
             height: self.height,

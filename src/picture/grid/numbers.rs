@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::room::{Rectangle, Room};
+use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::Screen;
 use super::super::text::{MARGIN, Text, Vertical, width};
 use super::Grid;
@@ -15,7 +15,7 @@ const POINTS: u32 = 48;
 
 /// A grid laid out for a camera, with its numbers.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Ruled {
+pub(in super::super) struct GridLayout {
     pub(super) grid: Grid,
     /// The numbers along both axes of the grid.
     pub(super) axes: [Axis; 2],
@@ -76,7 +76,7 @@ struct Placed {
     half: f64,
 }
 
-impl Ruled {
+impl GridLayout {
     /// The lines of the grid.
     pub(in super::super) fn grid(&self) -> &Grid {
         &self.grid
@@ -84,7 +84,7 @@ impl Ruled {
 
     /// Places the numbers and axis names in the image plane, where there is room. They avoid the coils of springs, except for an axis name
     /// without another free position.
-    pub(in super::super) fn written(&self, screen: &Screen, room: &Room, coils: &Room) -> Written {
+    pub(in super::super) fn written(&self, screen: &Screen, room: &Occupancy, coils: &Occupancy) -> Written {
         let lines = self.axes.each_ref().map(|axis| self.in_picture(axis, screen));
         let mut titles: Vec<Placed> = Vec::new();
         for (axis, numbers) in self.axes.iter().zip(&lines) {
@@ -162,7 +162,7 @@ impl Ruled {
         axis: &Axis,
         numbers: &[Placed],
         others: &[Placed],
-        [room, coils]: [&Room; 2],
+        [room, coils]: [&Occupancy; 2],
     ) -> Option<Placed> {
         let height = self.height;
         let title = |(x, y): (f64, f64), align: f64| {

@@ -1,6 +1,6 @@
 //! Places labels beside bodies, where there is room.
 
-use super::super::room::{Rectangle, Room};
+use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::{Screen, ScreenPoint};
 use super::super::text::{MARGIN, Text, Vertical};
 use super::said::Moment;
@@ -33,7 +33,7 @@ impl Labels {
         (at, side): (&BodySnapshot, Side),
         moment: &Moment<'_>,
         screen: &Screen,
-        (room, crowd): (&mut Room, &Room),
+        (room, crowd): (&mut Occupancy, &Occupancy),
     ) -> Option<Text<'a>> {
         let (point, area) = self.seen(at, screen)?;
         if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use self::corner::{Taken, inset_without_overlap, under_bar};
 use self::said::{Moment, longest};
-use super::room::Room;
+use super::occupancy::Occupancy;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, least_height, width};
 use crate::dynamics::Coordinate;
@@ -75,8 +75,8 @@ impl Labels {
     }
 
     /// Creates an empty record of the taken parts of a picture.
-    pub(super) fn room(&self) -> Room {
-        Room::new(self.aspect)
+    pub(super) fn room(&self) -> Occupancy {
+        Occupancy::new(self.aspect)
     }
 
     /// Returns the labels in the corners of a frame, each with its index in the scene.
@@ -93,7 +93,7 @@ impl Labels {
         &self,
         frame: &Frame,
         screen: &Screen,
-        room: &mut Room,
+        room: &mut Occupancy,
     ) -> Vec<(usize, Text<'_>)> {
         let now = Moment::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);

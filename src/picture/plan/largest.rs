@@ -1,6 +1,6 @@
 //! The size of the largest body in the picture, to warn if no body is large enough to be seen.
 
-use super::super::camera::{Eye, half_width};
+use super::super::camera::{MovingCamera, half_width};
 use super::super::framing;
 use super::super::scope::{Part, largest};
 use super::reads_ground;
@@ -23,12 +23,17 @@ pub struct Largest {
 
 impl Largest {
     /// Finds the largest body of a scene, and computes its size as seen by a camera. `None` without bodies other than planes.
-    pub(super) fn seen(scene: &Scene, camera: &Camera, survey: &Survey, eye: &Eye) -> Option<Largest> {
+    pub(super) fn seen(
+        scene: &Scene,
+        camera: &Camera,
+        survey: &Survey,
+        eye: &MovingCamera,
+    ) -> Option<Largest> {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?;
         let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
         let towards = framing::towards_camera(whole.moving, reads_ground(scene));
-        let on_whole = Eye::new(camera, framing::rounded_outward(whole.seen), towards, scene);
+        let on_whole = MovingCamera::new(camera, framing::rounded_outward(whole.seen), towards, scene);
         Some(Largest {
             name: body.name.to_string(),
             pixels: pixels(narrowest_view(scene, eye, whole.bounds)),
@@ -48,7 +53,7 @@ impl Largest {
 }
 
 /// The smallest width in view of a camera during the run, m. A moving camera is sampled at 33 times.
-pub(super) fn narrowest_view(scene: &Scene, eye: &Eye, bounds: Bounds) -> f64 {
+pub(super) fn narrowest_view(scene: &Scene, eye: &MovingCamera, bounds: Bounds) -> f64 {
     let times = if eye.moves() { 32 } else { 0 };
     let views = (0..=times).map(|number| {
         let time = scene.simulation.duration * f64::from(number) / 32.0;

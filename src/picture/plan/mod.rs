@@ -14,9 +14,9 @@ pub use written::Written;
 use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
 use super::bar::{Bar, ScaleBars};
-use super::camera::{Eye, Placed};
+use super::camera::{MovingCamera, Placed};
 use super::ghosts::Ghosts;
-use super::grid::{Grid, Ruled, Ruler};
+use super::grid::{Grid, GridLayout, GridPlan};
 use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
@@ -34,7 +34,7 @@ use crate::simulate::{Bounds, Frame, Ghost, Survey};
 #[derive(Clone, Debug)]
 pub struct Plan {
     stage: Stage,
-    eye: Eye,
+    eye: MovingCamera,
     lights: Lights,
     lights_move: bool,
     arrows: Arrows,
@@ -43,9 +43,9 @@ pub struct Plan {
     links: Links,
     ghosts: Ghosts,
     trails: Trails,
-    ruler: Option<Ruler>,
+    ruler: Option<GridPlan>,
     /// The grid of all frames. `None` without a grid, or if the camera moves.
-    ruled: Option<Ruled>,
+    ruled: Option<GridLayout>,
     bar: Option<ScaleBars>,
     labels: Labels,
     /// The image plane at the start. `None` if the pictures have no texts.
@@ -84,8 +84,9 @@ impl Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
         let towards = framing::towards_camera(span.moving, reads_ground(scene));
-        let eye_on =
-            |bounds: Bounds| Eye::new(&scope.camera, framing::rounded_outward(bounds), towards, scene);
+        let eye_on = |bounds: Bounds| {
+            MovingCamera::new(&scope.camera, framing::rounded_outward(bounds), towards, scene)
+        };
         // The sizes of arrows and grid are chosen for a camera that sees the bodies. The final camera also sees the ends of arrows and
         // grid.
         let first = eye_on(span.seen);
@@ -93,7 +94,7 @@ impl Plan {
         let ink = colors::ink(scene);
         let scenery = Scenery::new(scene, span.bounds, whole, view, scope.part);
         let part = first.moves().then_some(view);
-        let ruler = scene.grid.map(|grid| Ruler::new(scene, grid, &scenery, part, ink));
+        let ruler = scene.grid.map(|grid| GridPlan::new(scene, grid, &scenery, part, ink));
         let longest = std::array::from_fn(|kind: usize| span.arrows[kind].largest);
         let scales = round_scales(longest, view);
         let mut seen = span.seen;
@@ -260,7 +261,7 @@ impl Plan {
 
     /// The lines of the grid for a fixed camera, the same in all frames. `None` if the camera moves.
     pub fn still_grid(&self) -> Option<&Grid> {
-        self.ruled.as_ref().map(Ruled::grid)
+        self.ruled.as_ref().map(GridLayout::grid)
     }
 
     /// The lines of the grid in a frame. `None` without a grid.
@@ -269,7 +270,7 @@ impl Plan {
     }
 
     /// The grid with its numbers in a frame. For a moving camera, only the part around the camera's aim.
-    fn ruled(&self, frame: &Frame) -> Option<Cow<'_, Ruled>> {
+    fn ruled(&self, frame: &Frame) -> Option<Cow<'_, GridLayout>> {
         if let Some(ruled) = &self.ruled {
             return Some(Cow::Borrowed(ruled));
         }

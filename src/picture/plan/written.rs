@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Plan;
 use crate::picture::bar::Bar;
 use crate::picture::links::Link;
-use crate::picture::room::Room;
+use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
 use crate::picture::text::Text;
 use crate::simulate::Frame;
@@ -56,7 +56,7 @@ impl Plan {
             let before = labels.len();
             self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
             labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
-            let mut beside = Room::new(room.aspect());
+            let mut beside = Occupancy::new(room.aspect());
             labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
             grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
             labels.sort_by_key(|(place, _)| *place);

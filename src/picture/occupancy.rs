@@ -27,7 +27,7 @@ struct Stripe {
 
 /// The taken parts of a picture. A grid of cells lists the rectangles and lines in each cell, so that a search looks only at near ones.
 #[derive(Debug)]
-pub(super) struct Room {
+pub(super) struct Occupancy {
     /// The height of the picture, relative to its width.
     aspect: f64,
     /// The numbers of cells across the picture and upward.
@@ -60,13 +60,13 @@ impl Cell {
     }
 }
 
-impl Room {
+impl Occupancy {
     /// Creates a record of a picture in which nothing is taken. `aspect` is the height of the picture, relative to its width.
-    pub(super) fn new(aspect: f64) -> Room {
+    pub(super) fn new(aspect: f64) -> Occupancy {
         let (across, upward) = (CELLS, (CELLS * aspect).ceil().clamp(1.0, CELLS));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "both are 48 at most")]
         let (across, upward) = (across as usize, upward as usize);
-        Room { aspect, across, upward, cells: Vec::new() }
+        Occupancy { aspect, across, upward, cells: Vec::new() }
     }
 
     /// Takes a rectangle of the picture.
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_is_taken_is_not_free() {
-        let mut room = Room::new(0.5);
+        let mut room = Occupancy::new(0.5);
         assert!(room.is_free(PART));
         room.take(Rectangle { left: 0.2, right: 0.4, ..PART });
         assert!(room.is_free(PART));
@@ -259,7 +259,7 @@ mod tests {
             ([0.1, 0.05], [0.1, 0.05], true),
             ([0.3, 0.05], [0.3, 0.3], false),
         ] {
-            let mut room = Room::new(0.5);
+            let mut room = Occupancy::new(0.5);
             room.stripe(from, to, 0.02);
             assert_eq!(!room.is_free(PART), meets, "{from:?} {to:?}");
         }
@@ -274,7 +274,7 @@ mod tests {
             low + (high - low) * f64::from(state >> 8) / f64::from(1 << 24)
         };
         for (aspect, largest) in [(0.5625, 0.1), (0.5625, 0.9), (3.0, 0.4), (0.01, 0.02)] {
-            let mut room = Room::new(aspect);
+            let mut room = Occupancy::new(aspect);
             let (mut taken, mut stripes): (Vec<Rectangle>, Vec<Stripe>) = Default::default();
             for number in 0..400 {
                 let mut point = || [random(-1.2, 1.2), random(-1.2 * aspect, 1.2 * aspect)];
