@@ -6,7 +6,7 @@ use jabuka::diagnostic::visible;
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::linear_light;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Average images in linear light, as a camera does while its shutter is open
 #[derive(clap::Args)]
@@ -22,10 +22,10 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let protected =
         ProtectedFiles::default().and_files(&arguments.images, "it is one of the images to average");
-    say::spared(protected.check(&arguments.output))?;
+    terminal::report_protected(protected.check(&arguments.output))?;
     let mean = linear_light::mean(&arguments.images).and_then(|mean| mean.write(&arguments.output));
     mean.map_err(|error| {
-        say::error(&format!("error: {}\n", visible(&error.to_string())));
+        terminal::error(&format!("error: {}\n", visible(&error.to_string())));
         Failure::Errors
     })
 }

@@ -14,7 +14,7 @@ use super::picture_arguments::PictureArguments;
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments, seen};
 use super::video_arguments::VideoArguments;
-use super::{Failure, say, shell};
+use super::{Failure, shell, terminal};
 
 /// Write a job folder for a cluster: the scripts of a scene, and files that submit them to Slurm or to a render farm
 #[derive(clap::Args)]
@@ -103,7 +103,9 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
 
     for (_, folder) in &cameras {
         let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
-        say::spared(protected.and_then(|protected| protected.and_folder(&folder.join("images"))))?;
+        terminal::report_protected(
+            protected.and_then(|protected| protected.and_folder(&folder.join("images"))),
+        )?;
     }
     let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, cameras.len() * selection.count_within(frames));
@@ -115,15 +117,15 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
         let write = |job: &JobFolder| {
             let scripts = job.scripts()?;
             let written = output::write(run, &scripts, &selection, &|| progress.step());
-            progress.above(|| say::edits(&scripts));
+            progress.above(|| terminal::edits(&scripts));
             written?;
             Ok(([scene.output.width, scene.output.height], scene.output.transparent))
         };
         let said =
             make(arguments, folder, Some(&selection), write).map_err(|error| progress.failed(&error))?;
         progress.finish();
-        say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-        say::result(&said);
+        terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+        terminal::result(&said);
     }
     Ok(())
 }
@@ -147,14 +149,14 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     let copy = |job: &JobFolder| {
         let scripts = job.scripts()?;
         let copied = batch::copy_scripts(from, &scripts);
-        say::edits(&scripts);
+        terminal::edits(&scripts);
         copied?;
         Ok(batch::size(from))
     };
     let head = output::Manifest::read(from).map(|manifest| manifest.head);
     check_film(arguments.picture.size_or(batch::size(from).0), head.and_then(|head| head.video_rate))?;
     let said = make(arguments, &folder(arguments, &name), frames, copy);
-    say::result(&said.map_err(|error| failed(&error))?);
+    terminal::result(&said.map_err(|error| failed(&error))?);
     Ok(())
 }
 
@@ -164,13 +166,13 @@ fn check_film(size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
     let film = Film::new("film.mp4");
     let check = film.and_then(|film| film.check_size(size).and(rate.map_or(Ok(()), Film::check_rate)));
     check.map_err(|error| {
-        say::report(&error.report());
+        terminal::report(&error.report());
         Failure::Errors
     })
 }
 
 fn failed(error: &OutputError) -> Failure {
-    say::report(&error.report());
+    terminal::report(&error.report());
     Failure::Errors
 }
 

@@ -4,7 +4,7 @@ use jabuka::cache::{Cache, Holding};
 use jabuka::diagnostic::{Code, Report, visible_path};
 
 use super::summary::bytes;
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Show which simulated runs are kept between commands, or remove them
 ///
@@ -25,13 +25,13 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let cache = Cache::of_user().map_err(Failure::Usage)?;
     let Some(folder) = cache.folder() else {
-        say::result("nothing is kept: JABUKA_CACHE_SIZE is 0, or there is no folder for it\n");
+        terminal::result("nothing is kept: JABUKA_CACHE_SIZE is 0, or there is no folder for it\n");
         return Ok(());
     };
     let held = if arguments.clear { cache.clear() } else { cache.holding() };
     let Holding { runs, stopped, bytes: size } = held.map_err(|error| {
         let message = format!("`{}`: {error}", visible_path(folder));
-        say::report(&Report::of_error(Code::CannotWrite, message));
+        terminal::report(&Report::of_error(Code::CannotWrite, message));
         Failure::Errors
     })?;
     let runs = if runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
@@ -41,6 +41,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         1 => " and 1 that was stopped".to_owned(),
         stopped => format!(" and {stopped} that were stopped"),
     };
-    say::result(&format!("{}: {runs}{stopped}, {}{removed}\n", visible_path(folder), bytes(size)));
+    terminal::result(&format!("{}: {runs}{stopped}, {}{removed}\n", visible_path(folder), bytes(size)));
     Ok(())
 }

@@ -12,7 +12,7 @@ use jabuka::{Run, Scene};
 use super::progress::Progress;
 use super::run_arguments::simulated;
 use super::scene_arguments::SceneArguments;
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Check scenes for errors, without writing any file
 #[derive(clap::Args)]
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if matches!(arguments.format, Format::Json) {
-        say::json(&format!("{:#}\n", serde_json::Value::Array(json)));
+        terminal::json(&format!("{:#}\n", serde_json::Value::Array(json)));
     }
     if errors > 0 { Err(Failure::Errors) } else { Ok(()) }
 }
@@ -83,7 +83,7 @@ fn look_at(path: &Path, options: &Options, cache: Option<&Cache>) -> Report {
 }
 
 fn show(path: &Path, report: &Report) {
-    say::report(report);
+    terminal::report(report);
     let count = |number: usize, noun: &str| format!("{number} {noun}{}", if number == 1 { "" } else { "s" });
     let verdict = match (report.errors(), report.warnings()) {
         (0, 0) => "ok".to_owned(),
@@ -91,5 +91,5 @@ fn show(path: &Path, report: &Report) {
         (errors, 0) => count(errors, "error"),
         (errors, warnings) => format!("{}, {}", count(errors, "error"), count(warnings, "warning")),
     };
-    say::result(&format!("{}: {verdict}\n", visible_path(path)));
+    terminal::result(&format!("{}: {verdict}\n", visible_path(path)));
 }

@@ -11,7 +11,7 @@ use jabuka::simulate::Selection;
 
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments, seen};
-use super::{Failure, say, summary};
+use super::{Failure, summary, terminal};
 
 /// Compile a scene into POV-Ray scripts, one per frame
 #[derive(clap::Args)]
@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     if !arguments.check {
         for (_, folder) in &cameras {
-            say::spared(ProtectedFiles::of_scene(&scene).and_folder(folder))?;
+            terminal::report_protected(ProtectedFiles::of_scene(&scene).and_folder(folder))?;
         }
     }
     let cache = arguments.of_scene.cache()?;
@@ -74,11 +74,12 @@ fn write(
 ) -> Result<(), Failure> {
     let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     let written = output::write(run, &folder, selection, &|| progress.step());
-    let written = written.map_err(|error| progress.failed(&error)).inspect_err(|_| say::edits(&folder))?;
+    let written =
+        written.map_err(|error| progress.failed(&error)).inspect_err(|_| terminal::edits(&folder))?;
     progress.finish();
-    say::edits(&folder);
-    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-    say::result(&summary::summary(run, path, folder.path(), &written, start.elapsed()));
+    terminal::edits(&folder);
+    terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    terminal::result(&summary::summary(run, path, folder.path(), &written, start.elapsed()));
     Ok(())
 }
 
@@ -91,15 +92,22 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     let scripts_a_frame = if run.shutter().is_some() { 2 } else { 1 };
     let compared = scripts_a_frame * selection.count_within(run.scene().simulation.frames());
     if differences.is_empty() {
-        say::result(&format!("{}: {compared} scripts are as the scene gives them\n", visible_path(folder)));
+        terminal::result(&format!(
+            "{}: {compared} scripts are as the scene gives them\n",
+            visible_path(folder)
+        ));
         return Ok(());
     }
     for difference in differences.iter().take(SHOWN) {
-        say::result(&difference.to_text());
+        terminal::result(&difference.to_text());
     }
     if differences.len() > SHOWN {
-        say::result(&format!("… and {} more scripts\n", differences.len() - SHOWN));
+        terminal::result(&format!("… and {} more scripts\n", differences.len() - SHOWN));
     }
-    say::result(&format!("{}: {} of {compared} scripts differ\n", visible_path(folder), differences.len()));
+    terminal::result(&format!(
+        "{}: {} of {compared} scripts differ\n",
+        visible_path(folder),
+        differences.len()
+    ));
     Err(Failure::Errors)
 }

@@ -3,7 +3,7 @@
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Print a script with which a shell completes the commands and options of jabuka
 #[derive(clap::Args)]
@@ -15,6 +15,6 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut super::Arguments::command(), "jabuka", &mut script);
-    say::result(&String::from_utf8_lossy(&script));
+    terminal::result(&String::from_utf8_lossy(&script));
     Ok(())
 }

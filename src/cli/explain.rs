@@ -2,7 +2,7 @@
 
 use jabuka::explain::{Explanation, explanations};
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Explain the code of an error or a warning, with examples
 #[derive(clap::Args)]
@@ -14,10 +14,10 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(code) = &arguments.code else {
         let rows: Vec<_> = explanations().map(|entry| (entry.code.name(), entry.title())).collect();
-        say::rows(&rows);
+        terminal::rows(&rows);
         return Ok(());
     };
-    let explanation = Explanation::of(code).map_err(|near| say::unknown("code", code, near))?;
-    say::result(&explanation.to_string());
+    let explanation = Explanation::of(code).map_err(|near| terminal::unknown("code", code, near))?;
+    terminal::result(&explanation.to_string());
     Ok(())
 }

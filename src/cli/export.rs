@@ -17,7 +17,7 @@ use super::progress::Progress;
 use super::run_arguments;
 use super::scene_arguments::SceneArguments;
 use super::summary::{bytes as size, two_digits};
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Write the positions of all bodies at every frame: as a table (CSV), or as an animated model for Blender, three.js and other programs
 /// (binary glTF)
@@ -102,7 +102,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = files.output;
     let format = Format::of(output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
-    say::spared(ProtectedFiles::of_scene(&scene).check(output))?;
+    terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
     if arguments.joints && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
     }
@@ -147,7 +147,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Glb => model(output, &run, &selection),
     };
     let text = done.map_err(|error| {
-        say::report(&report(error, output));
+        terminal::report(&report(error, output));
         Failure::Errors
     })?;
     let left_out = match format {
@@ -156,7 +156,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         Format::Csv => "; particles are left out: `--particles` makes a table of them",
         Format::Glb => "; particles are left out: a model has no place for what comes and goes",
     };
-    say::result(&format!("{}: {text}{left_out}\n", visible_path(output)));
+    terminal::result(&format!("{}: {text}{left_out}\n", visible_path(output)));
     run_arguments::broken_down(&run, &selection)
 }
 

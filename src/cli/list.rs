@@ -3,7 +3,7 @@
 use jabuka::catalog::CATEGORIES;
 use jabuka::diagnostic::nearest;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// List the names that scenes can use: integrators, shapes, colors, …
 #[derive(clap::Args)]
@@ -15,17 +15,17 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(name) = &arguments.category else {
         let rows: Vec<_> = CATEGORIES.iter().map(|category| (category.name, category.place)).collect();
-        say::rows(&rows);
+        terminal::rows(&rows);
         return Ok(());
     };
     let names: Vec<&str> = CATEGORIES.iter().map(|category| category.name).collect();
     let found = CATEGORIES.iter().find(|category| category.name == name);
     let category = found.ok_or_else(|| {
-        let failure = say::unknown("list of", name, nearest(name, names.iter().copied()));
-        say::error(&format!("the lists: {}\n", names.join(", ")));
+        let failure = terminal::unknown("list of", name, nearest(name, names.iter().copied()));
+        terminal::error(&format!("the lists: {}\n", names.join(", ")));
         failure
     })?;
     let entries = (category.entries)();
-    say::rows(&entries.iter().map(|(name, what)| (*name, what.as_str())).collect::<Vec<_>>());
+    terminal::rows(&entries.iter().map(|(name, what)| (*name, what.as_str())).collect::<Vec<_>>());
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use clap::CommandFactory;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Print the manual page, in the format of `man`
 #[derive(clap::Args)]
@@ -12,9 +12,9 @@ pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
     let mut page = Vec::new();
     let written = clap_mangen::Man::new(super::Arguments::command()).render(&mut page);
     written.map_err(|error| {
-        say::error(&format!("error: {error}\n"));
+        terminal::error(&format!("error: {error}\n"));
         Failure::Errors
     })?;
-    say::result(&String::from_utf8_lossy(&page));
+    terminal::result(&String::from_utf8_lossy(&page));
     Ok(())
 }

@@ -22,7 +22,6 @@ mod render;
 mod report;
 mod run_arguments;
 mod sandbox;
-mod say;
 mod scene_arguments;
 mod schema;
 mod shell;
@@ -30,6 +29,7 @@ mod status;
 mod still;
 mod summary;
 mod templates;
+mod terminal;
 mod version;
 mod video_arguments;
 
@@ -90,13 +90,13 @@ pub(crate) fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) if error.kind() == ErrorKind::DisplayVersion && version::is_verbose() => {
-            say::result(&version::report());
+            terminal::result(&version::report());
             return ExitCode::SUCCESS;
         }
-        Err(error) => return say::misused(&error),
+        Err(error) => return terminal::misused(&error),
     };
     if arguments.verbose {
-        say::error("error: `--verbose` goes with `--version`\n");
+        terminal::error("error: `--verbose` goes with `--version`\n");
         return ExitCode::from(2);
     }
     let result = match arguments.command {
@@ -127,7 +127,10 @@ pub(crate) fn main() -> ExitCode {
         // 130 is the exit code by which shells report that Ctrl-C has ended a command.
         Err(Failure::Interrupted) => ExitCode::from(130),
         Err(Failure::Usage(message)) => {
-            say::error(&format!("error: {}\n\nFor more information, try '--help'.\n", visible(&message)));
+            terminal::error(&format!(
+                "error: {}\n\nFor more information, try '--help'.\n",
+                visible(&message)
+            ));
             ExitCode::from(2)
         }
     }

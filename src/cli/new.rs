@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use jabuka::diagnostic::visible_path;
 use jabuka::starter::write_starter;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Write an example scene with comments, to start from
 #[derive(clap::Args)]
@@ -18,13 +18,13 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = write_starter(&arguments.name).map_err(|error| {
         let name = visible_path(&arguments.name);
-        say::error(&match error.kind() {
+        terminal::error(&match error.kind() {
             ErrorKind::AlreadyExists => format!("error: the scene `{name}` is there already\n"),
             _ => format!("error: cannot write the scene `{name}`: {error}\n"),
         });
         Failure::Errors
     })?;
-    say::result(&format!(
+    terminal::result(&format!(
         "{}: a scene to start from; `jabuka compile` makes scripts of it\n",
         visible_path(&path)
     ));

@@ -8,7 +8,7 @@ use jabuka::render::{Images, Job, PovRay, RenderError, Sequence};
 use jabuka::sandbox::Confinement;
 
 use super::picture_arguments::PictureArguments;
-use super::say;
+use super::terminal;
 
 /// The POV-Ray program that renders the images, and how it is run.
 #[derive(clap::Args)]
@@ -45,7 +45,7 @@ impl PovRayArguments {
     pub(super) fn find(&self, images: &Images, confinement: Confinement) -> Result<PovRay, RenderError> {
         let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), confinement)?;
         if let Some(warning) = povray.warning() {
-            say::error(&format!("warning: {warning}\n"));
+            terminal::error(&format!("warning: {warning}\n"));
         }
         Ok(povray)
     }

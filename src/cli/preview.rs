@@ -6,7 +6,7 @@ use jabuka::preview::Preview;
 use jabuka::sandbox::Launcher;
 
 use super::scene_arguments::SceneArguments;
-use super::{Failure, interrupt, say};
+use super::{Failure, interrupt, terminal};
 
 /// Show a scene in the browser while you edit it
 #[derive(clap::Args)]
@@ -41,19 +41,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         launcher: Launcher::of_this_program(),
     };
     let listening = |address: &str| {
-        say::result(&format!("{address}\n"));
-        say::error("Ctrl-C ends it.\n");
+        terminal::result(&format!("{address}\n"));
+        terminal::error("Ctrl-C ends it.\n");
         if !arguments.no_open {
             // If the browser cannot be opened, the user can still open the printed address.
             if let Err(error) = open::that_detached(address) {
-                say::error(&format!("no browser could be opened: {error}\n"));
+                terminal::error(&format!("no browser could be opened: {error}\n"));
             }
         }
     };
-    let served = preview.serve(stop, listening, say::report);
+    let served = preview.serve(stop, listening, terminal::report);
     served.map_err(|error| {
         let port = arguments.port.map_or(String::new(), |port| format!(" on port {port}"));
-        say::error(&format!("error: the page cannot be served{port}: {error}\n"));
+        terminal::error(&format!("error: the page cannot be served{port}: {error}\n"));
         Failure::Errors
     })?;
     // The preview runs until the user interrupts it.

@@ -9,7 +9,7 @@ use jabuka::render::{ContactSheet, Ffmpeg, Film, FilmError, Images, Sequence, Sh
 use jabuka::sandbox::{Confinement, Launcher};
 
 use super::progress::Progress;
-use super::{Failure, render, say};
+use super::{Failure, render, terminal};
 
 /// The film and the contact sheet to make from rendered images, if they are requested.
 pub(super) struct Products {
@@ -84,7 +84,7 @@ impl Products {
             };
             let shots: Vec<Shot> = scripts.iter().map(shot).collect();
             sheet.make(&shots).map_err(|error| failed(&error))?;
-            say::result(&format!("sheet     {}\n", visible_path(sheet.path())));
+            terminal::result(&format!("sheet     {}\n", visible_path(sheet.path())));
         }
         if let Some((film, ffmpeg)) = &self.film {
             let frames: Vec<PathBuf> = scripts.iter().map(|script| images.image(&script.name)).collect();
@@ -103,14 +103,14 @@ impl Products {
             made.map_err(|error| failed(&error))?;
             let seconds = frames.len() as f64 / pace.rate;
             let speed = pace.in_words().map_or(String::new(), |words| format!(", {words}"));
-            say::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));
+            terminal::result(&format!("film      {}, {seconds:.2} s{speed}\n", visible_path(film.path())));
         }
         Ok(())
     }
 }
 
 fn failed(error: &FilmError) -> Failure {
-    say::report(&error.report());
+    terminal::report(&error.report());
     Failure::Errors
 }
 

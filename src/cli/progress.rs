@@ -11,7 +11,7 @@ use jabuka::dynamics::PairCounter;
 use jabuka::output::OutputError;
 use jabuka::simulate::Workload;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// The duration of a task after which the bar is shown.
 const LATE: Duration = Duration::from_secs(1);
@@ -127,7 +127,7 @@ impl Progress {
     /// Removes the bar and prints the error of a failed task.
     pub(super) fn failed(&self, error: &OutputError) -> Failure {
         self.finish();
-        say::report(&error.report());
+        terminal::report(&error.report());
         Failure::Errors
     }
 }

@@ -19,7 +19,7 @@ use super::products::Products;
 use super::progress::Progress;
 use super::run_arguments::{self, RunArguments};
 use super::video_arguments::VideoArguments;
-use super::{Failure, interrupt, say, summary};
+use super::{Failure, interrupt, summary, terminal};
 
 /// Render a scene, or a folder of scripts, into images and a film
 #[derive(clap::Args)]
@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for (_, folder) in &cameras {
         let protected = ProtectedFiles::of_scene(&scene).and_folder(folder);
         let protected = protected.and_then(|protected| protected.and_folder(&arguments.images(folder)));
-        say::spared(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
+        terminal::report_protected(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
     }
     products.check([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folders = write_scripts(&scene, &arguments.scene.cache()?, &selection, &cameras)?;
@@ -135,13 +135,13 @@ fn write_scripts(
             progress.phase("writing");
             let step = || progress.step();
             let written = output::write(run, &folder, selection, &step);
-            progress.above(|| say::edits(&folder));
+            progress.above(|| terminal::edits(&folder));
             written.map_err(|error| progress.failed(&error))?;
             let survey = run.survey();
             (warnings, drift) = (run.warnings(), Some((survey.drift, survey.drift_scale)));
         }
         if folders.is_empty() {
-            say::report(&Report { diagnostics: warnings, ..Report::default() });
+            terminal::report(&Report { diagnostics: warnings, ..Report::default() });
         }
         folders.push((folder, drift.map(|(drift, scale)| summary::drift(drift, scale)).unwrap_or_default()));
     }
@@ -159,11 +159,11 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
     let protected = ProtectedFiles::default()
         .and_folder(&arguments.source)
         .and_then(|protected| protected.and_folder(&images));
-    say::spared(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
+    terminal::report_protected(protected.and_then(|protected| products.replace_nothing_of(&protected)))?;
     let _lock = match Folder::open(&arguments.source) {
         Ok(lock) => Some(lock),
         Err(error @ OutputError::Locked(_)) => {
-            say::report(&error.report());
+            terminal::report(&error.report());
             return Err(Failure::Errors);
         }
         // A folder that this user may not write to, such as another user's, cannot be locked. Its scripts are rendered without a lock.
@@ -206,13 +206,13 @@ fn render_scripts(
         let there = outcome.rendered + outcome.copied + outcome.up_to_date;
         let frames = sequence.scripts().len();
         let goes_on = "the same command goes on with the others";
-        say::error(&format!("stopped: {there} of {frames} frames are there; {goes_on}\n"));
+        terminal::error(&format!("stopped: {there} of {frames} frames are there; {goes_on}\n"));
         return Err(Failure::Interrupted);
     }
-    say::result(&summed_up(&images, &sequence, known, &outcome, start.elapsed()));
+    terminal::result(&summed_up(&images, &sequence, known, &outcome, start.elapsed()));
     if !outcome.failed.is_empty() {
         if products.are_wanted() {
-            say::error("no film and no contact sheet were made, since frames are missing\n");
+            terminal::error("no film and no contact sheet were made, since frames are missing\n");
         }
         return Err(Failure::Errors);
     }
@@ -240,7 +240,7 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
             Event::Failed(fault) => {
                 failures += 1;
                 if failures <= SHOWN {
-                    progress.iter().for_each(|progress| progress.above(|| say::report(&fault.report())));
+                    progress.iter().for_each(|progress| progress.above(|| terminal::report(&fault.report())));
                 }
                 progress.iter().for_each(Progress::step);
             }
@@ -250,19 +250,19 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
     progress.iter().for_each(Progress::finish);
     let outcome = result.map_err(|error| failed(&error))?;
     for warning in &outcome.warnings {
-        say::error(&format!("POV-Ray: {warning}\n"));
+        terminal::error(&format!("POV-Ray: {warning}\n"));
     }
     if outcome.failed.len() > SHOWN {
         let others: Vec<String> =
             outcome.failed[SHOWN..].iter().map(|fault| fault.frame.to_string()).collect();
-        say::error(&format!("and of the frames {}\n", others.join(", ")));
+        terminal::error(&format!("and of the frames {}\n", others.join(", ")));
     }
     Ok(outcome)
 }
 
 /// Prints the error that stopped the rendering.
 pub(super) fn failed(error: &RenderError) -> Failure {
-    say::report(&error.report());
+    terminal::report(&error.report());
     Failure::Errors
 }
 

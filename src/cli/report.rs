@@ -16,7 +16,7 @@ use jabuka::report::{ACCURACY, Assessment, Phase, assess};
 use super::export::whole;
 use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
-use super::{Failure, interrupt, say};
+use super::{Failure, interrupt, terminal};
 
 /// Measure the accuracy of a simulation, and find the method and step for a wanted accuracy
 ///
@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
     if let Some((path, _)) = plot {
-        say::spared(ProtectedFiles::of_scene(&scene).check(path))?;
+        terminal::report_protected(ProtectedFiles::of_scene(&scene).check(path))?;
     }
     let progress = Progress::new(2 * STEPS);
     let mut done = 0;
@@ -109,13 +109,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     });
     progress.finish();
     let Ok(assessment) = assessed else {
-        say::error("stopped\n");
+        terminal::error("stopped\n");
         return Err(Failure::Interrupted);
     };
     match arguments.format {
-        Format::Text => say::result(&assessment.to_text(&visible_path(&arguments.scene).to_string())),
+        Format::Text => terminal::result(&assessment.to_text(&visible_path(&arguments.scene).to_string())),
         Format::Json => match serde_json::to_string_pretty(&assessment) {
-            Ok(text) => say::json(&format!("{text}\n")),
+            Ok(text) => terminal::json(&format!("{text}\n")),
             Err(error) => return Err(Failure::Usage(error.to_string())),
         },
     }
@@ -135,7 +135,7 @@ fn draw(
 ) -> Result<(), Failure> {
     let title = scene.title.as_deref().unwrap_or(&scene.name);
     let Some(picture) = Picture::of(assessment, title) else {
-        say::error("nothing is integrated, so there is no plot\n");
+        terminal::error("nothing is integrated, so there is no plot\n");
         return Err(Failure::Errors);
     };
     let written = whole(path, |mut file| {
@@ -146,11 +146,11 @@ fn draw(
         file.flush().map_err(ExportError::from)
     });
     if let Err(ExportError::Io(error)) = written {
-        say::report(&OutputError::Io(path.to_owned(), error).report());
+        terminal::report(&OutputError::Io(path.to_owned(), error).report());
         return Err(Failure::Errors);
     }
     if format == Format::Text {
-        say::result(&format!("plot      {}\n", visible_path(path)));
+        terminal::result(&format!("plot      {}\n", visible_path(path)));
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use jabuka::{Run, Scene};
 
 use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Command-line arguments that change a scene, and select frames and cameras of its run.
 #[derive(clap::Args)]
@@ -139,7 +139,8 @@ pub(super) fn simulated_to_breakdown<'a>(
 /// If the simulation continued a run that had been stopped, prints the time from which it continued.
 fn say_resumed(recorded: &Recorded<'_>, progress: &Progress) {
     if let Some(time) = recorded.resumed() {
-        progress.above(|| say::error(&format!("the run had been stopped; it went on from t = {time} s\n")));
+        progress
+            .above(|| terminal::error(&format!("the run had been stopped; it went on from t = {time} s\n")));
     }
 }
 
@@ -161,7 +162,7 @@ pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Res
     };
     let mut report = OutputError::from(breakdown.clone()).report();
     report.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.message.push_str(&format!("; {kept}")));
-    say::report(&report);
+    terminal::report(&report);
     Err(Failure::Errors)
 }
 

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use jabuka::sandbox::{self, Launch};
 
-use super::say;
+use super::terminal;
 
 /// Start a program that may read and write only the named files and folders, as far as the system can enforce it
 ///
@@ -35,7 +35,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: Arguments) -> ExitCode {
     let mut words = arguments.program.into_iter();
     let Some(program) = words.next() else {
-        say::result(&format!("{}\n", sandbox::enforced()));
+        terminal::result(&format!("{}\n", sandbox::enforced()));
         return ExitCode::SUCCESS;
     };
     let launch = Launch {
@@ -47,6 +47,6 @@ pub(super) fn run(arguments: Arguments) -> ExitCode {
         nice: arguments.nice,
     };
     let error = launch.run();
-    say::error(&format!("jabuka sandbox: {error}\n"));
+    terminal::error(&format!("jabuka sandbox: {error}\n"));
     ExitCode::from(error.code())
 }

@@ -8,7 +8,7 @@ use jabuka::diagnostic::Report;
 use jabuka::sandbox::{Confinement, Launcher};
 use jabuka::scene::{Options, Override};
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Command-line arguments that change a scene or grant it rights.
 #[derive(clap::Args)]
@@ -40,7 +40,7 @@ impl SceneArguments {
     pub(super) fn read_with(&self, path: &Path, overrides: &[Override]) -> Result<Scene, Failure> {
         let options = self.options(overrides);
         let scene = Scene::from_path_with(path, &options).map_err(|report| errors(&report))?;
-        say::report(&scene.warnings);
+        terminal::report(&scene.warnings);
         Ok(scene)
     }
 
@@ -78,8 +78,8 @@ impl SceneArguments {
 
 /// Prints the errors of a scene, and that nothing was written.
 fn errors(report: &Report) -> Failure {
-    say::report(report);
+    terminal::report(report);
     let (errors, s) = (report.errors(), if report.errors() == 1 { "" } else { "s" });
-    say::error(&format!("nothing was written: {errors} error{s}\n"));
+    terminal::error(&format!("nothing was written: {errors} error{s}\n"));
     Failure::Errors
 }

@@ -2,13 +2,13 @@
 
 use jabuka::scene::grammar;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Print a JSON Schema of scenes, with which editors check and complete scene files
 #[derive(clap::Args)]
 pub(super) struct Arguments {}
 
 pub(super) fn run(_: &Arguments) -> Result<(), Failure> {
-    say::json(&format!("{:#}\n", grammar::schema()));
+    terminal::json(&format!("{:#}\n", grammar::schema()));
     Ok(())
 }

@@ -9,7 +9,7 @@ use jabuka::diagnostic::{visible, visible_path};
 use jabuka::render::Status;
 use serde_json::json;
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Show which images are done, running, failed or missing
 ///
@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     loop {
         let status = read(&arguments.folder).map_err(|error| {
             let (folder, why) = (visible_path(&arguments.folder), visible(&error.to_string()));
-            say::error(&format!("error: the folder `{folder}`: {why}\n"));
+            terminal::error(&format!("error: the folder `{folder}`: {why}\n"));
             Failure::Errors
         })?;
         let text = match arguments.format {
@@ -56,9 +56,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         };
         if text != shown {
             match arguments.format {
-                Format::Json => say::json(&text),
-                Format::Text if redraw => say::in_place_of(shown.lines().count(), &text),
-                Format::Text => say::result(&text),
+                Format::Json => terminal::json(&text),
+                Format::Text if redraw => terminal::in_place_of(shown.lines().count(), &text),
+                Format::Text => terminal::result(&text),
             }
             shown = text;
         }

@@ -17,7 +17,7 @@ use super::progress::Progress;
 use super::render::{failed, render};
 use super::run_arguments;
 use super::scene_arguments::SceneArguments;
-use super::{Failure, interrupt, say};
+use super::{Failure, interrupt, terminal};
 
 /// Render the image of one moment of a scene
 #[derive(clap::Args)]
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = script_folder(&scene, view);
     let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder);
     let protected = protected.and_then(|protected| protected.and_folder(&folder.join("images")));
-    say::spared(protected.and_then(|protected| protected.check(&arguments.output)))?;
+    terminal::report_protected(protected.and_then(|protected| protected.check(&arguments.output)))?;
     let folder = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
@@ -74,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     progress.finish();
     let outcome = outcome?;
     if outcome.stopped {
-        say::error("stopped: there is no image\n");
+        terminal::error("stopped: there is no image\n");
         return Err(Failure::Interrupted);
     }
     if !outcome.failed.is_empty() {
@@ -84,7 +84,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         images.copy_out(&script.name, &arguments.output).map_err(|error| failed(&error))?;
     }
     let (shown, took) = (visible_path(&arguments.output), start.elapsed().as_secs_f64());
-    say::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
+    terminal::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
     Ok(())
 }
 
@@ -113,10 +113,10 @@ fn write_script(
     let folder = Folder::open(folder).map_err(|error| progress.failed(&error))?;
     progress.phase("writing");
     let written = output::write_moment(run, &folder, arguments.time);
-    progress.above(|| say::edits(&folder));
+    progress.above(|| terminal::edits(&folder));
     written.map_err(|error| progress.failed(&error))?;
     progress.finish();
-    say::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
     Ok(folder)
 }
 

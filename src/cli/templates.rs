@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use jabuka::diagnostic::{Code, Report, visible_path};
 
-use super::{Failure, say};
+use super::{Failure, terminal};
 
 /// Write the built-in templates into a folder, to change them and use them with `compile --templates`
 #[derive(clap::Args)]
@@ -17,10 +17,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let folder = &arguments.folder;
     let written = jabuka::emit::write_templates(folder).map_err(|error| {
         let message = format!("cannot write templates into `{}`: {error}", visible_path(folder));
-        say::report(&Report::of_error(Code::CannotWrite, message));
+        terminal::report(&Report::of_error(Code::CannotWrite, message));
         Failure::Errors
     })?;
-    say::result(&format!(
+    terminal::result(&format!(
         "{}: {written} templates, and README.md, which says what they see\n",
         visible_path(folder)
     ));

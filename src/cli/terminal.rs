@@ -55,7 +55,7 @@ pub(super) fn report(report: &Report) {
 }
 
 /// Prints the error of a check that found a protected file, and converts it to a [`Failure`].
-pub(super) fn spared<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
+pub(super) fn report_protected<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
     checked.map_err(|error| {
         report(&error.report());
         Failure::Errors
