@@ -22,7 +22,7 @@ use crate::simulate::Frame;
 pub(super) struct Block {
     style: Style,
     groups: Vec<Group>,
-    forms: Vec<Form>,
+    forms: Vec<TextTemplate>,
 }
 
 /// Bodies that are written as one object: all bodies of one plain material, or a single body with its own look.
@@ -43,7 +43,7 @@ struct Item {
 /// A text template for bodies that differ only in pose and name: the text before the pose, how the pose is written, and the text after the
 /// pose.
 #[derive(PartialEq)]
-struct Form {
+struct TextTemplate {
     before: String,
     place: Place,
     /// The text between the pose and the name of the body.
@@ -166,12 +166,12 @@ fn of_one_material(
     bodies: &[usize],
     meshes: &Meshes,
     style: Style,
-    forms: &mut Vec<Form>,
+    forms: &mut Vec<TextTemplate>,
 ) -> Group {
     let item = |&id: &usize| {
         let body = &scene.bodies[id];
         let (before, place, after) = shape(body, true, meshes, style);
-        let form = Form { before: format!("  {before}"), place, after: format!("{after} }} // ") };
+        let form = TextTemplate { before: format!("  {before}"), place, after: format!("{after} }} // ") };
         Item { id, form: number(form, forms), name: in_comment(body) }
     };
     Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()) }
@@ -184,10 +184,10 @@ fn single(
     id: usize,
     meshes: &Meshes,
     style: Style,
-    forms: &mut Vec<Form>,
+    forms: &mut Vec<TextTemplate>,
 ) -> Group {
     let material = body.material.map(|material| &materials[material]);
-    let mut group = |form: Form| {
+    let mut group = |form: TextTemplate| {
         let item = Item { id, form: number(form, forms), name: in_comment(body) };
         Group { bodies: vec![item], shared: None }
     };
@@ -195,7 +195,7 @@ fn single(
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {
         let before = format!("{plane}(transform {{ ");
         let place = Place::Matrix(DQuat::from_rotation_arc(DVec3::Y, normal));
-        return group(Form { before, place, after: " }) // ".to_owned() });
+        return group(TextTemplate { before, place, after: " }) // ".to_owned() });
     }
     // An object from the scene's POV-Ray code may look different after a rotation, so its orientation must be written.
     let uniform = material.is_none_or(|m| m.is_uniform) && !body.look.has_sdl();
@@ -214,7 +214,7 @@ fn single(
         Place::Centre | Place::Plane(_) => after.push_str(&usage),
     }
     after.push_str(" } // ");
-    group(Form { before, place, after })
+    group(TextTemplate { before, place, after })
 }
 
 /// Returns the name of a body, escaped for use in a `//` comment.
@@ -224,7 +224,7 @@ fn in_comment(body: &Body) -> Arc<str> {
 }
 
 /// Returns the index of a text template in `forms`. Adds the template if it is not among the latest ones.
-fn number(form: Form, forms: &mut Vec<Form>) -> usize {
+fn number(form: TextTemplate, forms: &mut Vec<TextTemplate>) -> usize {
     /// The number of latest templates that the search compares.
     const LATEST: usize = 16;
     if let Some(known) = forms.iter().enumerate().rev().take(LATEST).find(|(_, known)| **known == form) {

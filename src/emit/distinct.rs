@@ -4,7 +4,7 @@
 //! resolution of single precision. This module reports both as errors before a script is written.
 
 use super::EmitError;
-use super::unit::{Reach, reach};
+use super::unit::{LargestCoordinate, reach};
 use crate::diagnostic::{Code, Diagnostic, Report, Span};
 use crate::picture::{Placed, Plan, number};
 use crate::scene::{Camera, Scene};
@@ -63,7 +63,7 @@ fn indistinct(message: String, place: Option<Span>, label: &str) -> Diagnostic {
 }
 
 /// Returns the error for a `povray.unit` that is too large or too small for the scene. `None` if the unit is suitable.
-fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
+fn unit_of(scene: &Scene, reach: &LargestCoordinate, unit: f64) -> Option<Diagnostic> {
     scene.povray.unit?;
     let units = reach.metres / unit;
     if (UNITS[0]..UNITS[1]).contains(&units) {
@@ -77,7 +77,7 @@ fn unit_of(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
 
 /// Returns the error for the smallest of the bodies that POV-Ray would draw as a point or not at all. `None` if all bodies are large
 /// enough.
-fn body(scene: &Scene, reach: &Reach, unit: f64) -> Option<Diagnostic> {
+fn body(scene: &Scene, reach: &LargestCoordinate, unit: f64) -> Option<Diagnostic> {
     let bodies = scene.bodies.iter().enumerate();
     let too_small = bodies.filter_map(|(id, body)| {
         let shape = body.drawn();

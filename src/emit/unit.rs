@@ -40,7 +40,7 @@ fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
 }
 
 /// The largest coordinate of a scene, and what causes it.
-pub(super) struct Reach {
+pub(super) struct LargestCoordinate {
     /// The largest coordinate in a script of the scene, m, measured from the world's origin.
     pub(super) metres: f64,
     /// True if the position of the camera causes the largest coordinate, and not the bodies.
@@ -48,7 +48,7 @@ pub(super) struct Reach {
 }
 
 /// Computes the largest coordinate in the scripts of a scene, from the motion of all bodies and the camera.
-pub(super) fn reach(plan: &Plan) -> Reach {
+pub(super) fn reach(plan: &Plan) -> LargestCoordinate {
     let Bounds { min, max } = rounded_outward(plan.stage().whole);
     let farthest = |points: [glam::DVec3; 2], least: f64| {
         points.into_iter().map(|point| point.abs().max_element()).fold(least, f64::max)
@@ -56,7 +56,7 @@ pub(super) fn reach(plan: &Plan) -> Reach {
     let bodies = farthest([min, max], (max - min).length());
     let placed = plan.placed();
     let camera = farthest([placed.location(), placed.look_at()], parallel(plan));
-    Reach { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
+    LargestCoordinate { metres: bodies.max(camera), by_camera: camera > 1e3 * bodies }
 }
 
 /// Returns the larger edge of an orthographic camera's view, m. It is 0 for a perspective camera.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::materials::MaterialText;
 use super::names;
 use super::sdl::Style;
-use super::showing::Shows;
+use super::showing::NeededMacros;
 use super::stage::{self, CameraText, StageText};
 use crate::dynamics::{BodySnapshot, Shape};
 use crate::picture::Plan;
@@ -36,7 +36,7 @@ pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText
         axes => scene.bodies.iter().any(|body| {
             matches!(body.shape, Shape::Axes { .. }) || body.showing.axes.is_some()
         }),
-        shows => Value::from(Serde(Shows::of(scene))),
+        shows => Value::from(Serde(NeededMacros::of(scene))),
         ..Value::from(Serde(stage))
     }
 }

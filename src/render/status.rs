@@ -10,7 +10,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use super::batch::{InForce, SCRIPTS};
+use super::batch::{CurrentSettings, SCRIPTS};
 use super::files;
 use super::record::{Compare, Files, HIDDEN, Record, State, Verdict};
 use crate::diagnostic::visible;
@@ -69,7 +69,7 @@ pub struct Failed {
 }
 
 /// The paths and settings of a folder that contains scripts and their images.
-struct Place {
+struct FolderContents {
     scripts: PathBuf,
     images: PathBuf,
     frames: Vec<usize>,
@@ -86,7 +86,7 @@ impl Status {
     /// # Errors
     /// If [`Status::read`] fails.
     pub fn verified(folder: &Path) -> io::Result<Status> {
-        let place = Place::find(folder)?;
+        let place = FolderContents::find(folder)?;
         let mut status = Status::of(&place)?;
         let verdict = |&frame: &usize| {
             let name = place.name(frame);
@@ -111,10 +111,10 @@ impl Status {
     /// # Errors
     /// If the folder contains no scripts of jabuka's, or a file that the scripts read is missing.
     pub fn read(folder: &Path) -> io::Result<Status> {
-        Status::of(&Place::find(folder)?)
+        Status::of(&FolderContents::find(folder)?)
     }
 
-    fn of(place: &Place) -> io::Result<Status> {
+    fn of(place: &FolderContents) -> io::Result<Status> {
         let files = Files::read(&place.files).map_err(|(path, error)| {
             io::Error::new(error.kind(), format!("it needs `{}`: {error}", path.display()))
         })?;
@@ -209,14 +209,14 @@ impl Status {
     }
 }
 
-impl Place {
+impl FolderContents {
     /// Returns the name of a frame's script and image, without extension: `frame_0007`.
     fn name(&self, frame: usize) -> String {
         format!("frame_{frame:0width$}", width = self.digits)
     }
 
-    fn find(folder: &Path) -> io::Result<Place> {
-        let (scripts, job) = match InForce::read(folder)? {
+    fn find(folder: &Path) -> io::Result<FolderContents> {
+        let (scripts, job) = match CurrentSettings::read(folder)? {
             Some(job) => (folder.join(SCRIPTS), Some(job)),
             None => (folder.to_owned(), None),
         };
@@ -229,7 +229,7 @@ impl Place {
         if let Some(job) = job {
             let frames = (0..head.frames).filter(|frame| job.frames.contains(*frame)).collect();
             let film = Some((folder.join("film.mp4"), job.film));
-            return Ok(Place {
+            return Ok(FolderContents {
                 scripts,
                 images,
                 frames,
@@ -245,7 +245,16 @@ impl Place {
         let mut frames: Vec<usize> = found.into_iter().map(|(frame, _)| frame).collect();
         frames.dedup();
         let files = files::of_scripts(&scripts)?.into_iter().map(|file| scripts.join(file)).collect();
-        Ok(Place { scripts, images, frames, digits, options: None, files, film: None, unfinished_scripts })
+        Ok(FolderContents {
+            scripts,
+            images,
+            frames,
+            digits,
+            options: None,
+            files,
+            film: None,
+            unfinished_scripts,
+        })
     }
 }
 
@@ -281,7 +290,7 @@ impl Failed {
 }
 
 /// Returns true if the film exists and consists of these images, according to the digest that `render-video` has saved.
-fn is_made(film: &Path, how: &str, place: &Place) -> bool {
+fn is_made(film: &Path, how: &str, place: &FolderContents) -> bool {
     let mut hasher = Sha256::new();
     hasher.update(format!("{how}\n"));
     for frame in &place.frames {

@@ -31,7 +31,7 @@ pub(super) struct Palette {
 
 /// The default look of a body without a material.
 #[derive(Clone, Copy)]
-pub(super) enum Usual {
+pub(super) enum DefaultLook {
     /// A default color, by its index in the palette.
     Color(usize),
     /// The checkered pattern of the ground, for planes.
@@ -41,12 +41,12 @@ pub(super) enum Usual {
 impl Palette {
     /// Returns the default look of the next body in the order of the file. If a user adds a body at the end of the file, the colors of the
     /// other bodies stay the same.
-    pub(super) fn next(&mut self, shape: &Shape) -> Usual {
+    pub(super) fn next(&mut self, shape: &Shape) -> DefaultLook {
         if matches!(shape, Shape::Plane { .. }) {
-            return Usual::Checkered;
+            return DefaultLook::Checkered;
         }
         self.turns += 1;
-        Usual::Color((self.turns - 1) % COLORS.len())
+        DefaultLook::Color((self.turns - 1) % COLORS.len())
     }
 
     /// Returns the index of a library material in `materials`. Adds the material when it is first needed.
@@ -62,10 +62,10 @@ impl Palette {
     }
 
     /// Returns the index in `materials` of the material for a default look. Adds the material when it is first needed.
-    pub(super) fn material(&mut self, usual: Usual, materials: &mut Vec<Material>) -> usize {
+    pub(super) fn material(&mut self, usual: DefaultLook, materials: &mut Vec<Material>) -> usize {
         let made = match usual {
-            Usual::Color(number) => &mut self.colors[number],
-            Usual::Checkered => &mut self.checkered,
+            DefaultLook::Color(number) => &mut self.colors[number],
+            DefaultLook::Checkered => &mut self.checkered,
         };
         *made.get_or_insert_with(|| {
             materials.push(material(usual));
@@ -74,10 +74,10 @@ impl Palette {
     }
 }
 
-fn material(usual: Usual) -> Material {
+fn material(usual: DefaultLook) -> Material {
     match usual {
-        Usual::Checkered => Material { name: "checkered".to_owned(), look: Look::Checkered },
-        Usual::Color(number) => {
+        DefaultLook::Checkered => Material { name: "checkered".to_owned(), look: Look::Checkered },
+        DefaultLook::Color(number) => {
             let (name, color) = COLORS[number];
             Material { name: format!("palette {name}"), look: Look::Plain { color, finish: Finish::Glossy } }
         }

@@ -44,7 +44,7 @@ struct Names<'a> {
 
 /// The POV-Ray macros that a scene needs, as values for templates.
 #[derive(Serialize)]
-pub(super) struct Shows {
+pub(super) struct NeededMacros {
     /// True if bodies or joints have arrows.
     arrows: bool,
     /// True if springs are drawn as coils.
@@ -55,11 +55,11 @@ pub(super) struct Shows {
     trails: bool,
 }
 
-impl Shows {
-    pub(super) fn of(scene: &Scene) -> Shows {
+impl NeededMacros {
+    pub(super) fn of(scene: &Scene) -> NeededMacros {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
-        Shows {
+        NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),

@@ -18,22 +18,22 @@ const GENERATOR: &str = "jabuka";
 
 /// The digests of the files that jabuka wrote into a job folder. A file with another digest was edited.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Marks {
+pub(super) struct WrittenDigests {
     generator: String,
     /// The SHA-256 of each file in hexadecimal, by file name.
     files: BTreeMap<String, String>,
 }
 
-impl Default for Marks {
-    fn default() -> Marks {
-        Marks { generator: GENERATOR.to_owned(), files: BTreeMap::new() }
+impl Default for WrittenDigests {
+    fn default() -> WrittenDigests {
+        WrittenDigests { generator: GENERATOR.to_owned(), files: BTreeMap::new() }
     }
 }
 
-impl Marks {
+impl WrittenDigests {
     /// Reads the digests of the files in a job folder. `None` if jabuka did not make the folder.
-    pub(super) fn read(folder: &Path) -> Option<Marks> {
-        let marks: Marks = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
+    pub(super) fn read(folder: &Path) -> Option<WrittenDigests> {
+        let marks: WrittenDigests = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
         (marks.generator == GENERATOR).then_some(marks)
     }
 
@@ -46,7 +46,7 @@ impl Marks {
 /// Writes files into a job folder. An edited file that users may edit stays; its new text goes to a file `.new`. Any other edited file is
 /// renamed to `.old`.
 pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
-    let mut marks = Marks::read(folder.path()).unwrap_or_default();
+    let mut marks = WrittenDigests::read(folder.path()).unwrap_or_default();
     let mut edits = Edits::default();
     for text in texts {
         let path = folder.path().join(text.name);
@@ -108,7 +108,8 @@ mod tests {
     #[test]
     fn edits_are_not_lost() {
         let folder = tempfile::tempdir().unwrap();
-        let open = || Folder::open_marked(folder.path(), &|path| Marks::read(path).is_some()).unwrap();
+        let open =
+            || Folder::open_marked(folder.path(), &|path| WrittenDigests::read(path).is_some()).unwrap();
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         let texts = |version: &str| [text("render.sbatch", true, version), text("submit", false, version)];
         assert_eq!(write(&open(), &texts("1")).unwrap(), Edits::default());

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use copy::complete;
 pub use copy::{copy_scripts, size};
-pub(super) use settings::InForce;
+pub(super) use settings::CurrentSettings;
 pub use settings::{SETTINGS, Settings};
 pub use texts::Requirements;
 
@@ -66,10 +66,10 @@ impl JobFolder {
     /// # Errors
     /// If jabuka did not make the folder, another process writes to it, or it cannot be created or read.
     pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
-        let folder = Folder::open_marked(path, &|path| edits::Marks::read(path).is_some())?;
+        let folder = Folder::open_marked(path, &|path| edits::WrittenDigests::read(path).is_some())?;
         let job = JobFolder { folder };
         // The folder is marked as jabuka's at once, so that jabuka can open it again if this process is killed.
-        edits::Marks::read(path).unwrap_or_default().write(&job.folder)?;
+        edits::WrittenDigests::read(path).unwrap_or_default().write(&job.folder)?;
         Ok(job)
     }
 

@@ -66,7 +66,7 @@ pub struct Settings {
 
 /// The current settings of an existing job folder, with the user's changes from `local.conf`.
 #[derive(Clone, Debug)]
-pub(crate) struct InForce {
+pub(crate) struct CurrentSettings {
     pub(crate) frames: Selection,
     pub(crate) options: String,
     pub(crate) files: Vec<PathBuf>,
@@ -102,12 +102,12 @@ impl Settings {
     }
 }
 
-impl InForce {
+impl CurrentSettings {
     /// Reads the settings of a job folder. `None` if the folder has no settings file, so that it is not a job folder.
     ///
     /// # Errors
     /// If a settings file cannot be read or understood.
-    pub(crate) fn read(folder: &Path) -> io::Result<Option<InForce>> {
+    pub(crate) fn read(folder: &Path) -> io::Result<Option<CurrentSettings>> {
         let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
         values.extend(values_of_user(folder)?);
         let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
@@ -121,7 +121,7 @@ impl InForce {
         let frames =
             one("FRAMES")?.parse().map_err(|error| wrong(format!("FRAMES in its settings: {error}")))?;
         let scripts = folder.join("scripts");
-        Ok(Some(InForce {
+        Ok(Some(CurrentSettings {
             frames,
             options: one("OPTIONS")?.to_owned(),
             files: values
@@ -264,7 +264,7 @@ pub(super) mod tests {
                      -c:v libx264 -preset medium -crf 18|"
                 )
             );
-            let read = InForce::read(folder.path()).unwrap().unwrap();
+            let read = CurrentSettings::read(folder.path()).unwrap().unwrap();
             assert_eq!(read.frames.to_string(), "0-2,7");
             assert_eq!(read.options, settings.options);
             let scripts = folder.path().join("scripts");
@@ -280,7 +280,7 @@ pub(super) mod tests {
         fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
         fs::write(folder.path().join(OWN), "# mine\r\n\nOPTIONS=\"+W32 +H18\"\r\nLIMIT=010\nPOVRAY=$(x)/a b")
             .unwrap();
-        let read = InForce::read(folder.path()).unwrap().unwrap();
+        let read = CurrentSettings::read(folder.path()).unwrap().unwrap();
         assert_eq!(read.options, "+W32 +H18");
         let bash = read_by_bash(folder.path()).unwrap();
         assert!(bash.contains("|+W32 +H18|") && bash.contains("|10|$(x)/a b|"), "{bash}");
@@ -302,7 +302,7 @@ pub(super) mod tests {
             fs::write(folder.path().join(OWN), line).unwrap();
             let bash = read_by_bash(folder.path()).unwrap_err();
             assert!(bash.starts_with("test: local.conf, line 1") && bash.contains(said), "{bash}");
-            let rust = InForce::read(folder.path()).unwrap_err().to_string();
+            let rust = CurrentSettings::read(folder.path()).unwrap_err().to_string();
             assert!(rust.contains(said), "{rust}");
         }
         // In arithmetic, bash executes commands in the index of an array variable, so these values must be refused.

@@ -54,7 +54,7 @@ impl Meshes {
         path: PathBuf,
         span: Span,
         numbers: &[f64],
-        read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::Unreadable>,
+        read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::MeshError>,
     ) -> Result<Arc<Mesh>, String> {
         let bits = numbers.iter().map(|number| number.to_bits()).collect();
         if !self.files.iter().any(|(known, _)| *known == path) {
@@ -132,7 +132,7 @@ fn file(
     view: &View<'_>,
     context: &mut Context<'_>,
     numbers: &[f64],
-    read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::Unreadable>,
+    read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::MeshError>,
 ) -> Option<Arc<Mesh>> {
     let node = view.node("file")?;
     let asset = super::asset::asset(node, context.folder, context.trust).ok()?;

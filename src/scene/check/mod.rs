@@ -81,7 +81,7 @@ struct Context<'a> {
     is_partial: bool,
     /// The code and source span of each reported error. Copies of a body share one source text, and their common error is reported only
     /// once.
-    told: HashSet<(Code, Span)>,
+    reported: HashSet<(Code, Span)>,
     /// The number of copies with errors, by the name of the original body.
     wrong_copies: HashMap<String, usize>,
     /// The number of comparisons between unknown and known names that the check may still make.
@@ -129,7 +129,7 @@ impl Context<'_> {
             bodies_are_wrong: false,
             wrong_forces: HashSet::new(),
             is_partial: false,
-            told: HashSet::new(),
+            reported: HashSet::new(),
             wrong_copies: HashMap::new(),
             comparisons: 0,
             meshes: mesh::Meshes::default(),
@@ -182,14 +182,15 @@ impl Context<'_> {
             *self.wrong_copies.entry(original.to_owned()).or_default() += 1;
         }
         said.retain(|diagnostic| {
-            diagnostic.span().is_none_or(|span| !self.told.contains(&(diagnostic.code, span)))
+            diagnostic.span().is_none_or(|span| !self.reported.contains(&(diagnostic.code, span)))
         });
         if said.is_empty() {
             return;
         }
         let is_later = self.groups.original(name).is_some()
             && self.groups.ends(Collection::Body, name).is_some_and(|[first, _]| first != name);
-        self.told.extend(said.iter().filter_map(|diagnostic| Some((diagnostic.code, diagnostic.span()?))));
+        self.reported
+            .extend(said.iter().filter_map(|diagnostic| Some((diagnostic.code, diagnostic.span()?))));
         self.diagnostics.extend(said.into_iter().map(|diagnostic| match is_later {
             true => diagnostic.at(span, format!("in `{name}`")),
             false => diagnostic,

@@ -177,7 +177,7 @@ fn by_keyframes(
 fn has_room(places: usize, span: Option<Span>, context: &mut Context<'_>) -> bool {
     context.places = context.places.saturating_add(places);
     if context.places <= MAX_PLACES
-        || span.is_some_and(|span| context.told.contains(&(Code::TooManyCopies, span)))
+        || span.is_some_and(|span| context.reported.contains(&(Code::TooManyCopies, span)))
     {
         return context.places <= MAX_PLACES;
     }
@@ -261,7 +261,7 @@ fn by_trajectory(
     let Some(keys) = recording.rows.get(&Some(wanted.to_owned())).or_else(|| recording.rows.get(&None))
     else {
         let at = view.span("body").unwrap_or(span);
-        if context.told.contains(&(Code::CsvBody, at)) {
+        if context.reported.contains(&(Code::CsvBody, at)) {
             return None;
         }
         context.diagnostics.push(trajectory::no_rows(&recording, wanted, at));

@@ -87,7 +87,7 @@ impl Expander<'_> {
             Ok(value) => return Some(value),
             Err(errors) => errors,
         };
-        if !self.told.insert(span) {
+        if !self.reported.insert(span) {
             return None;
         }
         for error in errors {

@@ -30,7 +30,7 @@ impl Expander<'_> {
 
     /// Returns true if another copy has reported an error in this formula. The formula is then not evaluated again.
     pub(super) fn is_hopeless(&self, span: Span) -> bool {
-        self.copy.is_some() && self.told.contains(&span)
+        self.copy.is_some() && self.reported.contains(&span)
     }
 
     /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula that depends on the time as a compiled program.
@@ -116,7 +116,7 @@ impl Expander<'_> {
             let message = format!("expected a whole number, found {value}{}", self.in_copy());
             let error =
                 Diagnostic::error(Code::WrongType, message).at(node.span, "the value of this formula");
-            if self.told.insert(node.span) {
+            if self.reported.insert(node.span) {
                 self.diagnostics.push(error.help("`round`, `floor` and `ceil` give whole numbers"));
             }
             node.value = Value::Invalid;

@@ -20,7 +20,7 @@ impl Expander<'_> {
     /// Returns true, and reports an error, if the text is a number with a unit, such as `5 cm`.
     pub(super) fn has_unit(&mut self, text: &str, span: Span) -> bool {
         let Some((number, unit)) = units::quantity(text) else { return false };
-        if !self.told.insert(span) {
+        if !self.reported.insert(span) {
             return true;
         }
         let of = self.unit;
@@ -89,7 +89,7 @@ impl Expander<'_> {
     /// bodies are expanded, because its suggestion contains their locations.
     pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
         let asks = text.contains('.') && members(text).next().is_some();
-        if asks && self.told.insert(span) {
+        if asks && self.reported.insert(span) {
             self.of_bodies.push(OfBody { text: text.to_owned(), span, is_timed });
         }
         asks

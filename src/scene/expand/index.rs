@@ -76,7 +76,7 @@ impl Expander<'_> {
             };
             if value.trunc() != value {
                 let message = format!("expected a whole number, found {value}{}", self.in_copy());
-                if self.told.insert(place) {
+                if self.reported.insert(place) {
                     let error = Diagnostic::error(Code::WrongType, message).at(place, "an index is whole");
                     let help = "`round`, `floor` and `ceil` give whole numbers";
                     self.diagnostics.push(error.help(help));

@@ -164,7 +164,7 @@ impl Expander<'_> {
         };
         let pairs = format!("[{}]", items.iter().map(line).collect::<Vec<_>>().join(", "));
         let error = error.help(format!("for pairs, write `between = {pairs}`")).fix(list.span, pairs);
-        if self.told.insert(list.span) {
+        if self.reported.insert(list.span) {
             self.diagnostics.push(error.fix_is_said());
         }
         list.value = Value::Invalid;

@@ -60,7 +60,7 @@ pub(super) fn expand(
         of_defaults: HashSet::new(),
         is_default: false,
         variable_spans: HashMap::new(),
-        told: HashSet::new(),
+        reported: HashSet::new(),
         unit: "",
         of_bodies: Vec::new(),
         warned: HashSet::new(),
@@ -130,7 +130,7 @@ struct Expander<'a> {
     /// The source span of each variable's name.
     variable_spans: HashMap<String, Span>,
     /// The source spans whose errors have been reported. All copies of a body share the span of a formula, so its error is reported once.
-    told: HashSet<Span>,
+    reported: HashSet<Span>,
     /// The unit of the key that is being expanded. Empty for a key without a unit.
     unit: &'static str,
     /// The source spans of formulas that have been warned about because of the unit of an angle.

@@ -40,7 +40,7 @@ impl Expander<'_> {
         let Some((name, range)) = both.find(|(name, _)| self.scope.value(name).is_some()) else {
             return false;
         };
-        if self.told.insert(node.span) {
+        if self.reported.insert(node.span) {
             let at = place::in_string(self.raw(node.span), formula.text(), &range, node.span);
             let message = format!("`{name}` is a variable of the scene and a quantity of the body");
             let error = Diagnostic::error(Code::BadVariableName, message).at(at, "which of the two?");

@@ -13,7 +13,7 @@ use crate::scene::color::NAMES;
 ///
 /// The schema checks each key and value alone. Whether keys fit together and names exist is known only to the check of a scene.
 pub fn schema() -> Value {
-    let mut schema = table(&SCENE, Whole::No);
+    let mut schema = table(&SCENE, RequireKeys::No);
     // A table may lack a required key if `[defaults]` or an included file provides it. Required keys are checked only in a scene without
     // these.
     let by_itself =
@@ -27,7 +27,7 @@ pub fn schema() -> Value {
 
 /// Determines if the schema of a table demands the table's required keys.
 #[derive(Clone, Copy, PartialEq)]
-enum Whole {
+enum RequireKeys {
     Yes,
     No,
 }
@@ -60,7 +60,7 @@ fn requirements(spec: &TableSpec) -> Map<String, Value> {
     schema
 }
 
-fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
+fn table(spec: &TableSpec, whole: RequireKeys) -> Map<String, Value> {
     let properties: Map<_, _> =
         spec.keys.iter().map(|key| (key.name.to_owned(), property(key, whole))).collect();
     let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
@@ -69,7 +69,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
         "properties": properties,
         "additionalProperties": false,
     }));
-    if whole == Whole::Yes && !required.is_empty() {
+    if whole == RequireKeys::Yes && !required.is_empty() {
         schema.insert("required".to_owned(), json!(required));
     }
     match &spec.rule {
@@ -78,7 +78,7 @@ fn table(spec: &TableSpec, whole: Whole) -> Map<String, Value> {
             let pairs: Vec<_> = groups.iter().flat_map(|names| pairs(names)).collect();
             schema.insert("not".to_owned(), json!({ "anyOf": pairs }));
         }
-        Rule::ExactlyOne(names) if whole == Whole::No => {
+        Rule::ExactlyOne(names) if whole == RequireKeys::No => {
             let pairs: Vec<_> = pairs(names).collect();
             // A group with a single key yields no pairs, so nothing is excluded.
             if !pairs.is_empty() {
@@ -101,7 +101,7 @@ fn pairs(names: &'static [&'static str]) -> impl Iterator<Item = Value> {
     names.iter().enumerate().flat_map(with)
 }
 
-fn property(key: &KeySpec, whole: Whole) -> Value {
+fn property(key: &KeySpec, whole: RequireKeys) -> Value {
     let mut schema = kind(&key.kind, whole);
     let unit = if key.unit.is_empty() { String::new() } else { format!(", in {}", key.unit) };
     let default = match key.default.in_words() {
@@ -115,7 +115,7 @@ fn property(key: &KeySpec, whole: Whole) -> Value {
     schema.into()
 }
 
-fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
+fn kind(kind: &Kind, whole: RequireKeys) -> Map<String, Value> {
     match kind {
         // The list of materials serves for completion in editors. Every other name is valid, too, because scenes define materials.
         Kind::Reference(Collection::Material) => {
@@ -162,9 +162,9 @@ fn kind(kind: &Kind, whole: Whole) -> Map<String, Value> {
         }
         Kind::Choice(words) => object(json!({ "type": "string", "enum": words() })),
         // A list cannot be replaced by a formula, only its items can.
-        Kind::List { of, min, max } => list(self::kind(of, Whole::Yes), *min, *max),
+        Kind::List { of, min, max } => list(self::kind(of, RequireKeys::Yes), *min, *max),
         Kind::Table(spec) => table(spec, whole),
-        Kind::Partial(spec) => table(spec, Whole::No),
+        Kind::Partial(spec) => table(spec, RequireKeys::No),
         Kind::Named(spec) => object(json!({ "type": "object", "additionalProperties": table(spec, whole) })),
         Kind::Variables => object(json!({
             "type": "object",

@@ -6,7 +6,7 @@ use std::path::Path;
 use glam::DVec3;
 use png::{BitDepth, ColorType, Transformations};
 
-use super::{MOST_BYTES, Unreadable};
+use super::{MOST_BYTES, MeshError};
 use crate::dynamics::Mesh;
 use crate::scene::source::file;
 
@@ -19,13 +19,11 @@ const MOST_PIXELS: u64 = 1 << 22;
 ///
 /// POV-Ray's own height fields take less memory, but interpret colors, gamma and the edge of the image differently. With triangles, the
 /// image, the camera and the ground use the same surface.
-pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, Unreadable> {
+pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, MeshError> {
     let image = read(path)?;
     let [width, depth] = [image.width, image.levels.len() / image.width];
     if width < 2 || depth < 2 {
-        return Err(Unreadable::new(format!(
-            "{width} × {depth} pixels make no surface: 2 × 2 are the least"
-        )));
+        return Err(MeshError::new(format!("{width} × {depth} pixels make no surface: 2 × 2 are the least")));
     }
     #[allow(clippy::cast_precision_loss, reason = "the number of pixels is limited")]
     let part = |i: usize, count: usize| i as f64 / (count - 1) as f64 - 0.5;
@@ -52,17 +50,17 @@ struct Image {
     levels: Vec<f64>,
 }
 
-fn read(path: &Path) -> Result<Image, Unreadable> {
-    let not_png = |error: png::DecodingError| Unreadable::new(format!("it is no PNG: {error}"));
+fn read(path: &Path) -> Result<Image, MeshError> {
+    let not_png = |error: png::DecodingError| MeshError::new(format!("it is no PNG: {error}"));
     let mut decoder = png::Decoder::new(BufReader::new(file::open(path, MOST_BYTES)?));
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(not_png)?;
     let pixels = u64::from(reader.info().width) * u64::from(reader.info().height);
     if pixels > MOST_PIXELS {
         let most = MOST_PIXELS;
-        return Err(Unreadable::new(format!("it has {pixels} pixels, more than {most}: make it smaller")));
+        return Err(MeshError::new(format!("it has {pixels} pixels, more than {most}: make it smaller")));
     }
-    let length = reader.output_buffer_size().ok_or_else(|| Unreadable::new("it is too large"))?;
+    let length = reader.output_buffer_size().ok_or_else(|| MeshError::new("it is too large"))?;
     let mut bytes = vec![0; length];
     let info = reader.next_frame(&mut bytes).map_err(not_png)?;
     let wide = info.bit_depth == BitDepth::Sixteen;

@@ -20,7 +20,7 @@ pub(super) use heightfield::heightfield;
 
 /// The reason why a file cannot be read as a mesh.
 #[derive(Debug)]
-pub(super) struct Unreadable {
+pub(super) struct MeshError {
     /// The description of the error, as a clause for a message.
     pub(super) why: String,
     /// The number of the faulty line, counted from 1. `None` if the line is unknown.
@@ -45,22 +45,22 @@ const MOST_BYTES: u64 = 512 << 20;
 const MOST_VERTICES: usize = 1 << 31;
 
 /// Reads a mesh file (OBJ or STL). Merges vertices at the same position, so that adjacent triangles share vertices.
-pub(super) fn read(path: &Path) -> Result<Mesh, Unreadable> {
+pub(super) fn read(path: &Path) -> Result<Mesh, MeshError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (positions, triangles) = match ending.as_deref() {
         Some(OBJ) => obj::read(file::open(path, MOST_BYTES)?)?,
         Some(STL) => stl::read(file::open(path, MOST_BYTES)?)?,
-        _ => return Err(Unreadable::new("its name ends neither with `.obj` nor with `.stl`")),
+        _ => return Err(MeshError::new("its name ends neither with `.obj` nor with `.stl`")),
     };
     if let Some(far) = positions.iter().find(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
-        return Err(Unreadable::new(format!("a vertex is at {far}")));
+        return Err(MeshError::new(format!("a vertex is at {far}")));
     }
     if positions.len() >= MOST_VERTICES {
-        return Err(Unreadable::new(format!("it has {} vertices", positions.len())));
+        return Err(MeshError::new(format!("it has {} vertices", positions.len())));
     }
     let (vertices, triangles) = weld::weld(positions, triangles);
     if triangles.iter().all(|[a, b, c]| a == b || b == c || c == a) {
-        return Err(Unreadable::new("it has no triangles"));
+        return Err(MeshError::new("it has no triangles"));
     }
     let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     Ok(Mesh::new(&name, vertices, triangles))
@@ -78,23 +78,23 @@ pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
     }
 }
 
-impl Unreadable {
-    fn new(why: impl Into<String>) -> Unreadable {
-        Unreadable { why: why.into(), line: None }
+impl MeshError {
+    fn new(why: impl Into<String>) -> MeshError {
+        MeshError { why: why.into(), line: None }
     }
 
-    fn at(self, line: usize) -> Unreadable {
-        Unreadable { line: Some(line), ..self }
-    }
-}
-
-impl From<io::Error> for Unreadable {
-    fn from(error: io::Error) -> Unreadable {
-        Unreadable::new(error.to_string())
+    fn at(self, line: usize) -> MeshError {
+        MeshError { line: Some(line), ..self }
     }
 }
 
-impl fmt::Display for Unreadable {
+impl From<io::Error> for MeshError {
+    fn from(error: io::Error) -> MeshError {
+        MeshError::new(error.to_string())
+    }
+}
+
+impl fmt::Display for MeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
             Some(line) => write!(f, "line {line}: {}", self.why),

@@ -7,17 +7,17 @@ use glam::DVec3;
 use tobj::{LoadError, LoadOptions};
 
 use super::lines::{Lines, Place};
-use super::{Triangles, Unreadable};
+use super::{MeshError, Triangles};
 
 /// Reads the vertices and triangles of an OBJ file. Splits polygons into fans of triangles, and ignores points and lines.
-pub(super) fn read(file: File) -> Result<Triangles, Unreadable> {
+pub(super) fn read(file: File) -> Result<Triangles, MeshError> {
     let mut lines = Lines::new(file, only_geometry);
     let options =
         LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
     let no_materials = |_: &std::path::Path| Ok((Vec::new(), HashMap::new()));
     let models = tobj::load_obj_buf(&mut lines, &options, no_materials);
     let (models, _) = models.map_err(|error| {
-        let unreadable = Unreadable::new(reason(error));
+        let unreadable = MeshError::new(reason(error));
         // The parser looks up the vertices of faces after the last line, so an error in a vertex index has no line number.
         if is_of_a_line(error) { unreadable.at(lines.number) } else { unreadable }
     })?;

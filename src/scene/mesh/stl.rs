@@ -7,7 +7,7 @@ use glam::DVec3;
 use stl_io::create_stl_reader;
 
 use super::lines::{Lines, Place};
-use super::{Triangles, Unreadable};
+use super::{MeshError, Triangles};
 
 /// The size of the header of a binary STL file, in bytes. Its last four bytes are the number of triangles.
 const HEAD: usize = 84;
@@ -16,7 +16,7 @@ const TRIANGLE: u64 = 50;
 
 /// Reads the vertices and triangles of an STL file. Each triangle has its own three vertices. Ignores the normals, because they follow
 /// from the vertices.
-pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
+pub(super) fn read(mut file: File) -> Result<Triangles, MeshError> {
     let mut head = Vec::with_capacity(HEAD);
     (&mut file).take(HEAD as u64).read_to_end(&mut head)?;
     file.seek(SeekFrom::Start(0))?;
@@ -30,9 +30,9 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
             (Some(_), Some(claimed)) if claimed <= length => triangles(&mut Binary(file)),
             (Some(count), Some(_)) => {
                 let there = (length - HEAD as u64) / TRIANGLE;
-                Err(Unreadable::new(format!("it is cut off: it has {there} of {count} triangles")))
+                Err(MeshError::new(format!("it is cut off: it has {there} of {count} triangles")))
             }
-            _ => Err(Unreadable::new("it is too short for a binary STL, and does not begin with `solid`")),
+            _ => Err(MeshError::new("it is too short for a binary STL, and does not begin with `solid`")),
         };
     }
     let mut closed = false;
@@ -41,13 +41,13 @@ pub(super) fn read(mut file: File) -> Result<Triangles, Unreadable> {
 }
 
 /// Reads all triangles of an STL file with the crate `stl_io`.
-fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, Unreadable> {
+fn triangles<R: Read + Seek>(file: &mut R) -> Result<Triangles, MeshError> {
     let mut positions = Vec::new();
     for triangle in create_stl_reader(file)? {
         positions.extend(triangle?.vertices.map(|vertex| DVec3::from_array(vertex.0.map(f64::from))));
     }
     let count = u32::try_from(positions.len())
-        .map_err(|_| Unreadable::new(format!("it has {} triangles", positions.len() / 3)))?;
+        .map_err(|_| MeshError::new(format!("it has {} triangles", positions.len() / 3)))?;
     Ok((positions, (0..count / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()))
 }
 

@@ -74,7 +74,7 @@ fn binary_stl() -> Vec<u8> {
     bytes
 }
 
-fn read_bytes(name: &str, bytes: &[u8]) -> Result<Mesh, Unreadable> {
+fn read_bytes(name: &str, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();

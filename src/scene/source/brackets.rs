@@ -26,7 +26,7 @@ pub(super) struct Brackets {
 pub(super) fn look(text: &str, source: SourceId) -> Brackets {
     let tokens = toml_parser::Source::new(text).lex().into_vec();
     let found = Brackets { too_new: Vec::new(), unclosed: None, deep_keys: Vec::new() };
-    let mut looker = Looker { text, source, open: Vec::new(), key: None, found };
+    let mut looker = BracketChecker { text, source, open: Vec::new(), key: None, found };
     let mut see = |event: Event| looker.see(event);
     parse_document(&tokens, &mut RecursionGuard::new(&mut see, MAX_DEPTH), &mut ());
     looker.found
@@ -50,7 +50,7 @@ struct DottedKey {
     goes_on: bool,
 }
 
-struct Looker<'a> {
+struct BracketChecker<'a> {
     text: &'a str,
     source: SourceId,
     open: Vec<Open>,
@@ -58,7 +58,7 @@ struct Looker<'a> {
     found: Brackets,
 }
 
-impl Looker<'_> {
+impl BracketChecker<'_> {
     fn see(&mut self, event: Event) {
         let span = event.span();
         match event.kind() {

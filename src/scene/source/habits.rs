@@ -9,14 +9,14 @@ use crate::scene::grammar::unit_of_key;
 use crate::scene::units;
 
 /// The correction of a part of a line: its byte range in the line, the new text, and the explanation for the user.
-pub(super) struct Mended {
+pub(super) struct Correction {
     pub(super) range: Range<usize>,
     pub(super) text: String,
     pub(super) why: &'static str,
 }
 
 /// A corrected value as TOML, and the explanation for the user.
-type Better = (String, &'static str);
+type CorrectedValue = (String, &'static str);
 
 const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
 const LIST: &str = "a list stands in square brackets, with commas between its values";
@@ -28,7 +28,7 @@ const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` beg
 const HEADER: &str = "a dot stands between the parts of a header";
 
 /// Corrects a line that is not valid TOML. `None` if the intended text is unclear.
-pub(super) fn mend(line: &str) -> Option<Mended> {
+pub(super) fn mend(line: &str) -> Option<Correction> {
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
     if trimmed.starts_with('[') && trimmed.ends_with(']') && !trimmed.contains('=') {
@@ -56,10 +56,10 @@ pub(super) fn mend(line: &str) -> Option<Mended> {
     );
     let start = line.len() - line.trim_start().len();
     let end = line.trim_end().len();
-    (text != line[start..end]).then_some(Mended { range: start..end, text, why })
+    (text != line[start..end]).then_some(Correction { range: start..end, text, why })
 }
 
-fn header(content: &str, trimmed: &str) -> Option<Mended> {
+fn header(content: &str, trimmed: &str) -> Option<Correction> {
     let inner = trimmed.trim_matches(['[', ']']);
     let parts: Vec<&str> = inner.split(|c: char| c.is_whitespace() || matches!(c, ':' | '/' | '.')).collect();
     let parts: Vec<&str> =
@@ -68,7 +68,7 @@ fn header(content: &str, trimmed: &str) -> Option<Mended> {
         |part: &&str| part.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-'));
     let text = format!("[{}]", parts.join("."));
     let start = content.len() - content.trim_start().len();
-    (!parts.is_empty() && parts.iter().all(is_bare) && text != trimmed).then(|| Mended {
+    (!parts.is_empty() && parts.iter().all(is_bare) && text != trimmed).then(|| Correction {
         range: start..start + trimmed.len(),
         text,
         why: HEADER,
@@ -77,7 +77,7 @@ fn header(content: &str, trimmed: &str) -> Option<Mended> {
 
 /// Rewrites a value as TOML. `key` is the last part of the value's dotted key; it determines the unit. `None` if the intended value is
 /// unclear.
-fn value(raw: &str, key: &str) -> Option<Better> {
+fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
     let is_toml = |text: &str| parse_value(text, no_source()).is_ok();
     let cut = raw.trim_end_matches([';', ',']).trim_end();
     if cut.is_empty() {
@@ -151,7 +151,7 @@ fn number(text: &str) -> Option<String> {
 }
 
 /// Rewrites a list as TOML, whatever separates its items. `inner` is the text between the brackets.
-pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<Better> {
+pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<CorrectedValue> {
     let split = |by: &[char]| {
         let mut items = Vec::new();
         let mut start = 0;
@@ -191,7 +191,7 @@ pub(in crate::scene) fn items(list: &str) -> usize {
 }
 
 /// Rewrites an inline table as TOML. `inner` is the text between the braces, with `=` or `:` between keys and values.
-fn table(inner: &str) -> Option<Better> {
+fn table(inner: &str) -> Option<CorrectedValue> {
     let mut entries = Vec::new();
     let mut ends = top_level(inner, &[',']);
     ends.push(inner.len());

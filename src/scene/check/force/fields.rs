@@ -45,7 +45,7 @@ impl Reader<'_, '_> {
         let help = "there are `sphere`, `box` without `rounding`, `cylinder`, `cone`, `capsule`, `torus`, closed meshes, and compounds of these; \
                     with `on`, the force names the bodies that it carries";
         let error = || Diagnostic::error(Code::NoBuoyancy, message).at(span, why).help(help);
-        self.say(Code::NoBuoyancy, span, error);
+        self.report(Code::NoBuoyancy, span, error);
     }
 
     pub(super) fn dipoles(&mut self, view: &View<'_>) -> ForceKind {

@@ -70,7 +70,7 @@ impl Reader<'_, '_> {
         let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
         let place = in_string(raw, formula.text(), &error.range, span);
         let help = error.help;
-        self.say(error.code, span, || {
+        self.report(error.code, span, || {
             let diagnostic = Diagnostic::error(error.code, message).at(place, error.label);
             help.into_iter().fold(diagnostic, Diagnostic::help)
         });
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
             } else {
                 "of a body at rest, the force is −∂U/∂x, −∂U/∂y, −∂U/∂z; without `potential`, its work is counted"
             };
-            self.say(Code::WrongPotential, potential, || error.help(help));
+            self.report(Code::WrongPotential, potential, || error.help(help));
             return;
         }
         if let (false, Some(place)) = (is_compared, first)

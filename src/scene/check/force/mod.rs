@@ -31,7 +31,7 @@ struct Reader<'a, 'c> {
     softens: bool,
     /// The codes and source spans of the diagnostics reported for this force. The name of a body with a `repeat` stands for all copies of
     /// the body, and one diagnostic is enough.
-    told: HashSet<(Code, Span)>,
+    reported: HashSet<(Code, Span)>,
     context: &'a mut Context<'c>,
 }
 
@@ -57,7 +57,7 @@ pub(super) fn read(
             has_particles: false,
             lack: NO_CHARGE,
             softens: true,
-            told: HashSet::new(),
+            reported: HashSet::new(),
             context,
         };
         let emitters = reader.emitters_of(&view);
@@ -176,14 +176,14 @@ impl Reader<'_, '_> {
 
     /// Adds a diagnostic, unless one with the same code and span has been added for this force. The span of the force's own name may have
     /// several diagnostics.
-    fn say(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
-        if span == self.span || self.told.insert((code, span)) {
+    fn report(&mut self, code: Code, span: Span, diagnostic: impl FnOnce() -> Diagnostic) {
+        if span == self.span || self.reported.insert((code, span)) {
             self.context.diagnostics.push(diagnostic());
         }
     }
 
     fn no_effect(&mut self, message: impl FnOnce() -> String, span: Span, why: impl Into<String>) {
-        self.say(Code::NoEffect, span, || Diagnostic::warning(Code::NoEffect, message()).at(span, why));
+        self.report(Code::NoEffect, span, || Diagnostic::warning(Code::NoEffect, message()).at(span, why));
     }
 
     /// Returns the index of the body that `node` names. `None` if no body has this name; validation has already reported that error.

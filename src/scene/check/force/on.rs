@@ -115,7 +115,7 @@ impl Reader<'_, '_> {
     pub(super) fn named_twice(&mut self, body: usize, span: Span) {
         let name = &self.bodies[body].name;
         let error = || Diagnostic::error(Code::NamedTwice, format!("the body `{name}` is named twice"));
-        self.say(Code::NamedTwice, span, || error().at(span, "the second time"));
+        self.report(Code::NamedTwice, span, || error().at(span, "the second time"));
     }
 
     /// Warns that the force acts on no body. Does not warn if the scene has no bodies at all, or if the force acts on particles.

@@ -121,7 +121,7 @@ impl Reader<'_, '_> {
         if endless {
             let message = || format!("the plane `{name}` cannot act on other bodies: a plane is endless");
             let error = || Diagnostic::error(Code::PlaneActs, message()).at(span, "it has no centre");
-            self.say(Code::PlaneActs, span, error);
+            self.report(Code::PlaneActs, span, error);
         } else if !able {
             self.no_effect(|| format!("the force has no effect on `{name}`"), span, self.lack);
         }
@@ -159,7 +159,7 @@ impl Reader<'_, '_> {
                 true => "move one of them, or give the force a `softening`",
                 false => "move one of them",
             };
-            self.say(Code::SamePlace, span, || {
+            self.report(Code::SamePlace, span, || {
                 Diagnostic::error(Code::SamePlace, message()).at(span, "").help(help)
             });
         }

@@ -83,7 +83,7 @@ impl Reader<'_, '_> {
                 .at(span, "where its other end is")
                 .help("formulas of `i` set copies apart; if this is meant, write `rest_length = 0`")
         };
-        self.say(Code::SpringEnds, span, warning);
+        self.report(Code::SpringEnds, span, warning);
     }
 
     /// Reports a spring if its two ends are the same point, lie on the same body, or are both immovable.
@@ -94,20 +94,20 @@ impl Reader<'_, '_> {
             let error = || {
                 Diagnostic::error(Code::SpringEnds, message).at(second.span, "the same as the end before it")
             };
-            self.say(Code::SpringEnds, second.span, error);
+            self.report(Code::SpringEnds, second.span, error);
         } else if between[0].body().is_some() && between[0].body() == between[1].body() {
             let message = "both ends of the spring are on the same body";
             let error = || {
                 Diagnostic::error(Code::SpringEnds, message).at(second.span, "a rigid body does not stretch")
             };
-            self.say(Code::SpringEnds, second.span, error);
+            self.report(Code::SpringEnds, second.span, error);
         } else if !between.into_iter().any(moves) {
             let error = || {
                 let error = Diagnostic::error(Code::SpringEnds, "neither end of the spring can move");
                 let help = "one end at least must be a body that is not fixed";
                 error.at(first.span, "").at(second.span, "").help(help)
             };
-            self.say(Code::SpringEnds, first.span, error);
+            self.report(Code::SpringEnds, first.span, error);
         }
     }
 }

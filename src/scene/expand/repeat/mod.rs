@@ -92,7 +92,7 @@ impl Expander<'_> {
         all.reserve(number);
         let node = |value| Node { span, value };
         let mut sizes = Vec::new();
-        let mut keeper = Keeper::default();
+        let mut keeper = CopyCompressor::default();
         let scope = self.scope.clone();
         let before = self.work;
         for index in indices(&counts) {
@@ -173,7 +173,7 @@ impl Expander<'_> {
     pub(super) fn collisions(&mut self, counts: &[usize], name: &str, span: Span) {
         for letter in INDICES.into_iter().take(counts.len()) {
             let Some(&variable) = self.variable_spans.get(letter) else { continue };
-            if !self.told.insert(variable) {
+            if !self.reported.insert(variable) {
                 continue;
             }
             let message = format!("the variable `{letter}` has the name of an index");
@@ -214,7 +214,7 @@ impl Expander<'_> {
                 return;
             }
         };
-        let mut keeper = Keeper::default();
+        let mut keeper = CopyCompressor::default();
         for (copy, place) in copies.iter_mut().zip(places) {
             if let Some(table) = copy.node.table() {
                 let mut table = table.into_owned();
@@ -248,11 +248,11 @@ impl Expander<'_> {
 
 /// Stores the tables of copies compactly, as their differences from a few template tables.
 #[derive(Default)]
-struct Keeper {
+struct CopyCompressor {
     templates: Vec<Arc<Table>>,
 }
 
-impl Keeper {
+impl CopyCompressor {
     /// Returns the compact value for the table of a copy. If no template has the same keys, stores the whole table and uses it as a
     /// further template.
     fn keep(&mut self, table: Table) -> Value {
