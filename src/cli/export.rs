@@ -110,22 +110,22 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Usage("`--particles` makes a table, `.csv`".to_owned()));
     }
     if arguments.particles && scene.emitters.is_empty() {
-        return Err(Failure::Usage("this scene has no emitters, which send out particles".to_owned()));
+        return Err(Failure::Scene("this scene has no emitters, which send out particles"));
     }
     if arguments.events.is_some() && matches!(format, Format::Glb) {
         return Err(Failure::Usage("`--events` makes a table, `.csv`".to_owned()));
     }
     if arguments.events.is_some() && scene.simulation.contacts.is_none() {
         let message = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
-        return Err(Failure::Usage(message.to_owned()));
+        return Err(Failure::Scene(message));
     }
     if arguments.joints && scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
         let message =
             "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does";
-        return Err(Failure::Usage(message.to_owned()));
+        return Err(Failure::Scene(message));
     }
     if arguments.joints && scene.joints.is_empty() {
-        return Err(Failure::Usage("this scene has no joints".to_owned()));
+        return Err(Failure::Scene("this scene has no joints"));
     }
     let frames = scene.simulation.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));

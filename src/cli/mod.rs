@@ -81,6 +81,8 @@ enum Failure {
     Errors,
     /// The user has stopped the command by Ctrl-C. A message has been printed.
     Interrupted,
+    /// The scene lacks what the arguments ask for. The text describes what is missing and has not been printed yet.
+    Scene(&'static str),
     /// The arguments of the command are wrong. The text describes the mistake and has not been printed yet.
     Usage(String),
 }
@@ -126,6 +128,10 @@ pub(crate) fn main() -> ExitCode {
         Err(Failure::Errors) => ExitCode::from(1),
         // 130 is the exit code by which shells report that Ctrl-C has ended a command.
         Err(Failure::Interrupted) => ExitCode::from(130),
+        Err(Failure::Scene(message)) => {
+            terminal::error(&format!("error: {message}\n"));
+            ExitCode::from(1)
+        }
         Err(Failure::Usage(message)) => {
             terminal::error(&format!(
                 "error: {}\n\nFor more information, try '--help'.\n",
