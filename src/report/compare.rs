@@ -24,9 +24,8 @@ pub(super) struct Moment {
     pub(super) squares: Option<[f64; 2]>,
     /// The energy error of the run, J.
     pub(super) energy: f64,
-    /// The magnitudes of the changes of linear and angular momentum since the first frame: in the run, and in the run at half the
-    /// timestep.
-    pub(super) changed: [[f64; 2]; 2],
+    /// The magnitudes of the changes of linear and angular momentum in the run since its first frame.
+    pub(super) changed: [f64; 2],
     /// The mean-square differences between the run and a run from a slightly different start: of positions (m²), velocities (m²/s²) and
     /// orientations (rad²). `None` after the end of either run.
     pub(super) apart: Option<[f64; 3]>,
@@ -71,7 +70,7 @@ pub(super) struct Deviation {
 /// largest energies.
 struct Seen {
     before: Vec<Option<DVec3>>,
-    momenta: Option<[[DVec3; 2]; 2]>,
+    momenta: Option<[DVec3; 2]>,
     boxes: [Option<[DVec3; 2]>; 3],
     energy_at_half: EnergyError,
 }
@@ -131,13 +130,9 @@ impl Compared {
         self.see_ways(measured, seen, run);
         if let Some(half) = half {
             moment.off = Some(self.see_off(measured, [run, half]));
-            let [of_run, of_half] =
-                [run, half].map(|at| [at.balance.linear_momentum, at.balance.angular_momentum]);
-            let [first, first_of_half] = *seen.momenta.get_or_insert([of_run, of_half]);
-            moment.changed = [
-                [0, 1].map(|kind| (of_run[kind] - first[kind]).length()),
-                [0, 1].map(|kind| (of_half[kind] - first_of_half[kind]).length()),
-            ];
+            let now = [run.balance.linear_momentum, run.balance.angular_momentum];
+            let first = *seen.momenta.get_or_insert(now);
+            moment.changed = [0, 1].map(|kind| (now[kind] - first[kind]).length());
             let momenta = measured.momenta(run);
             self.momenta = [0, 1].map(|kind| self.momenta[kind].max(momenta[kind]));
             if let Some(quarter) = quarter {

@@ -17,6 +17,7 @@
 //! per frame are kept.
 
 mod compare;
+mod influence;
 mod lockstep;
 mod measure;
 mod neighbours;

@@ -141,6 +141,31 @@ fn momenta_are_told_from_what_acts_from_outside() {
     }
 }
 
+/// The contact forces of a settling body depend on the timestep, as errors do. Yet gravity and the ground change its momentum.
+#[cfg(feature = "time-stepping")]
+#[test]
+fn gravity_and_the_ground_change_the_momentum_of_bodies_that_settle() {
+    let text = "simulation = { duration = 1, gravity = [0, -9.81, 0], contacts = 'time-stepping' }\n\
+                [body.b]\nshape.box.size = [0.4, 0.2, 0.2]\nlocation = [0, 0.1, 0]\n\
+                repeat.grid = { count = [1, 4, 1], spacing = [0, 0.2, 0] }\n";
+    let (_, resting) = assessed(&scene(text), 1e-3);
+    for found in [resting.linear_momentum, resting.angular_momentum] {
+        assert_eq!(found, Conserved::Changed);
+    }
+}
+
+/// The forces of the tree are not exactly opposite, whatever the timestep.
+#[test]
+fn a_momentum_that_the_forces_do_not_conserve_drifts() {
+    let text = "simulation = { duration = 2, step = 0.01, integrator = 'velocity-verlet' }\n\
+                [body.star]\nrepeat = 60\nshape.sphere.radius = 0.01\nmass = 1\n\
+                location = ['uniform(-1, 1)', 'uniform(-1, 1)', 'uniform(-1, 1)']\n\
+                [force.g.gravitation]\nconstant = 0.01\nsoftening = 0.2\nopening_angle = 1\n";
+    let (_, cluster) = assessed(&scene(text), 1e-3);
+    let Conserved::Kept { drift } = cluster.linear_momentum else { panic!("{:?}", cluster.linear_momentum) };
+    assert!(drift > 1e-9 && drift < 0.1, "{drift}");
+}
+
 #[test]
 fn where_nothing_is_integrated_that_is_said() {
     let given = "[body.a]\nshape.sphere.radius = 0.1\nmotion.formula.location = ['t', 0, 0]\n";

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::compare::{Compared, Moment};
+use super::influence::OutsideInfluence;
 use super::lockstep::Ended;
 use super::measure::ComparedBodies;
 use super::neighbours::{Separation, parting};
@@ -69,7 +70,7 @@ pub(super) struct Curves {
 pub enum Conserved {
     /// The momentum of every body is zero during the whole run.
     Still,
-    /// External forces change the momentum: it changes equally at a smaller timestep.
+    /// Influences from outside change the momentum: gravity, fixed or guided bodies, drag and others.
     Changed,
     /// The momentum should be constant. Each change of it is an integration error.
     Kept {
@@ -221,6 +222,7 @@ impl Verdict {
         let broken = runs.iter().zip(&compared.ended);
         let broken = broken.filter_map(|(run, ended)| Some(Broken::of(run, ended.as_ref()?)));
         let accounts = Accounts::NAMES.into_iter().zip(compared.accounts.to_array());
+        let outside = OutsideInfluence::of(scene);
         let curves = Curves::of(compared, factor, energy);
         let ended = compared.ended[0].is_some();
         let (neighbours, megno) = parting(&curves.times, &curves.neighbours);
@@ -230,8 +232,8 @@ impl Verdict {
             accounts: accounts
                 .filter(|(_, held)| held.abs() > 1e-11 * compared.energy.largest_kinetic)
                 .collect(),
-            linear_momentum: conserved(compared, 0),
-            angular_momentum: conserved(compared, 1),
+            linear_momentum: conserved(compared, 0, outside.linear),
+            angular_momentum: conserved(compared, 1, outside.angular),
             size,
             error: bodies.first().map_or(0.0, |(error, _)| *error),
             bodies: bodies.into_iter().map(|(_, error)| error).collect(),
@@ -280,24 +282,20 @@ impl Verdict {
     }
 }
 
-/// Decides whether a run conserves a momentum (`kind`: 0 linear, 1 angular). A change by external forces is equally large at half the
-/// timestep; an integration error becomes smaller.
-fn conserved(compared: &Compared, kind: usize) -> Conserved {
-    /// Relative changes up to this limit count as errors, even if they are equally large at half the timestep.
+/// Decides whether a run conserves a momentum (`kind`: 0 linear, 1 angular). `is_changed` is true if an influence from outside changes it.
+/// The timestep cannot tell: the changes by impacts depend on it as errors do.
+fn conserved(compared: &Compared, kind: usize, is_changed: bool) -> Conserved {
+    /// Relative changes up to this limit count as errors, even if an influence from outside may act.
     const SMALL: f64 = 1e-9;
     let most = compared.momenta[kind];
     if most == 0.0 {
         return Conserved::Still;
     }
-    let near = |moment: &&Moment| moment.off.is_some_and(|off| off <= 0.1 * compared.size);
-    let largest = |run: usize, moments: &mut dyn Iterator<Item = &Moment>| {
-        moments.map(|moment| moment.changed[run][kind]).fold(0.0, f64::max)
-    };
-    let [of_run, of_half] = [0, 1].map(|run| largest(run, &mut compared.moments.iter().take_while(near)));
-    if of_run > SMALL * most && of_half > 0.75 * of_run {
+    let largest = compared.moments.iter().map(|moment| moment.changed[kind]).fold(0.0, f64::max);
+    if is_changed && largest > SMALL * most {
         return Conserved::Changed;
     }
-    Conserved::Kept { drift: largest(0, &mut compared.moments.iter()) / most }
+    Conserved::Kept { drift: largest / most }
 }
 
 impl AccurateUntil {
