@@ -11,7 +11,8 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// The energy drift, relative to the largest kinetic energy, beyond which the summary suggests `jabuka report`.
+/// The energy drift, relative to the energy of its scale, beyond which the summary suggests `jabuka report`. An energy that joints take is
+/// named beyond the same fraction.
 const DOUBTFUL: f64 = 0.01;
 
 /// Returns a summary of the written files and of the accuracy of the run. `path` is the path of the scene file.
@@ -69,7 +70,7 @@ pub(super) fn summary(
         contacts = survey
             .contacts
             .zip(scene.simulation.contacts)
-            .map(|(totals, law)| contacts(totals, law))
+            .map(|(totals, law)| contacts(totals, law, survey.drift_energy))
             .unwrap_or_default(),
         report = report(scene, path, survey.drift),
         bytes = bytes(written.bytes),
@@ -100,9 +101,9 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
 }
 
 /// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also the largest overlap of bodies
-/// and the largest error of joints.
-fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
-    let ContactTotals { impacts, lost, rubbed, penetration, joints } = totals;
+/// and the largest error of joints, with the energy that they take if it matters. `scale` is the energy that the drift is relative to, J.
+fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
+    let ContactTotals { impacts, lost, rubbed, penetration, joints, taken_by_joints } = totals;
     let taken =
         format!("impacts   {impacts}, which {}; friction {}\n", energy_taken(lost), energy_taken(rubbed));
     if law == ContactLaw::EventDriven {
@@ -110,6 +111,12 @@ fn contacts(totals: ContactTotals, law: ContactLaw) -> String {
     }
     let [depth, gap] = [penetration, joints].map(two_digits);
     let gap = if joints > 0.0 { format!("; joints {gap} m off at most") } else { String::new() };
+    let gap = match taken_by_joints {
+        taken if joints > 0.0 && taken.abs() > DOUBTFUL * scale => {
+            format!("{gap}, which {}", energy_taken(taken))
+        }
+        _ => gap,
+    };
     format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
 }
 
@@ -169,14 +176,18 @@ mod tests {
             ..ContactTotals::default()
         };
         let taken = "impacts   31415, which took 0.1235 J; friction took 0 J\n";
-        assert_eq!(contacts(totals, ContactLaw::EventDriven), taken);
+        assert_eq!(contacts(totals, ContactLaw::EventDriven, 1.0), taken);
         let added = ContactTotals { lost: -159.94, ..totals };
         let line = "impacts   31415, which added 159.9 J; friction took 0 J\n";
-        assert_eq!(contacts(added, ContactLaw::EventDriven), line);
+        assert_eq!(contacts(added, ContactLaw::EventDriven, 1.0), line);
         let depth = "contacts  bodies 0.0012 m within each other at most\n";
-        assert_eq!(contacts(totals, ContactLaw::TimeStepping), format!("{taken}{depth}"));
+        assert_eq!(contacts(totals, ContactLaw::TimeStepping, 1.0), format!("{taken}{depth}"));
         let joined = ContactTotals { joints: 2.5e-5, ..totals };
-        assert!(contacts(joined, ContactLaw::TimeStepping).ends_with("; joints 2.5e-5 m off at most\n"));
+        let said = |taken_by_joints: f64| {
+            contacts(ContactTotals { taken_by_joints, ..joined }, ContactLaw::TimeStepping, 1000.0)
+        };
+        assert!(said(-10.0).ends_with("; joints 2.5e-5 m off at most\n"));
+        assert!(said(284.04).ends_with("; joints 2.5e-5 m off at most, which took 284 J\n"));
         assert_eq!([percent(0.0), percent(-0.00123), percent(3e-17)], ["0 %", "-0.12 %", "3e-15 %"]);
         assert_eq!([bytes(999), bytes(1_000), bytes(123_456_789)], ["999 B", "1.0 kB", "123 MB"]);
     }

@@ -45,6 +45,8 @@ pub struct Survey {
     pub drift: f64,
     /// The energy that the drift is relative to.
     pub drift_scale: EnergyScale,
+    /// The amount of that energy, J.
+    pub drift_energy: f64,
     /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
@@ -68,6 +70,8 @@ pub struct ContactTotals {
     pub penetration: f64,
     /// The largest gap of a joint in any frame, m.
     pub joints: f64,
+    /// The energy removed by joints, J: when they hit limits, and in time stepping also when they give way.
+    pub taken_by_joints: f64,
 }
 
 impl ContactTotals {
@@ -186,11 +190,19 @@ impl<'a> Surveyor<'a> {
         if let Some(contacts) = &mut self.contacts {
             let accounts = &frame.balance.accounts;
             // The accounts are negative, since contacts remove energy. `0.0 - account` avoids a negative zero.
-            let [lost, rubbed] = [accounts.impacts, accounts.friction].map(|account| 0.0 - account);
+            let [lost, rubbed, taken_by_joints] =
+                [accounts.impacts, accounts.friction, accounts.limits].map(|account| 0.0 - account);
             let penetration = contacts.penetration.max(frame.penetration);
             self.gaps.add(scene, frame);
             let joints = self.gaps.largest();
-            *contacts = ContactTotals { impacts: frame.impacts.of_run(), lost, rubbed, penetration, joints };
+            *contacts = ContactTotals {
+                impacts: frame.impacts.of_run(),
+                lost,
+                rubbed,
+                penetration,
+                joints,
+                taken_by_joints,
+            };
         }
         self.error.add(&frame.balance);
     }
@@ -214,6 +226,7 @@ impl<'a> Surveyor<'a> {
         // A scene without bodies still has particle steps.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let law = scene.simulation.contacts;
+        let (drift_scale, drift_energy) = error.scale(law);
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
@@ -224,7 +237,8 @@ impl<'a> Surveyor<'a> {
             contacts: contacts.map(|contacts| contacts.rounded(error.largest_kinetic)),
             stretched: gaps.finish(scene),
             drift: error.drift(law),
-            drift_scale: error.scale(law).0,
+            drift_scale,
+            drift_energy,
             timestep: interval / f64::from(steps_per_frame),
             steps_per_frame,
         }
