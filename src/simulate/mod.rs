@@ -60,6 +60,7 @@ pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
 pub use moments::Moments;
 pub use overlap::Overlap;
+pub(crate) use overlap::touch_at_start;
 pub use particles::Swarm;
 pub use past::{Ghost, Past, TrailPath, TrailPoint};
 pub use reach::Reach;

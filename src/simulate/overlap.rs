@@ -1,4 +1,4 @@
-//! Detects bodies that move into each other in scenes without contacts.
+//! Detects bodies that move into each other in scenes without contacts, and bodies that touch at the start.
 
 mod grid;
 mod near;
@@ -12,7 +12,7 @@ use glam::{DQuat, DVec3};
 use self::near::Near;
 use super::Frame;
 use crate::dynamics::{Placed, Shape};
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 
 /// The tolerance: two bodies overlap if they still do after each shrinks by this fraction.
 const DEEP: f64 = 0.01;
@@ -127,14 +127,8 @@ impl<'a> Watch<'a> {
     fn meet(&self, frame: &Frame, i: usize, j: usize, scale: f64) -> bool {
         let placed = |i: usize| {
             let id = self.near.bodies[i].id;
-            frame.body(id).into_iter().flat_map(move |at| {
-                parts(&self.scene.bodies[id].shape).map(move |(shape, location, orientation)| Placed {
-                    shape,
-                    location: at.location + at.orientation * location,
-                    orientation: at.orientation * orientation,
-                    scale,
-                })
-            })
+            let shape = &self.scene.bodies[id].shape;
+            frame.body(id).into_iter().flat_map(move |at| placed(shape, (at.location, at.orientation), scale))
         };
         placed(i).any(|one| placed(j).any(|other| one.intersects(&other)))
     }
@@ -147,6 +141,30 @@ impl<'a> Watch<'a> {
             _ => OF_SHAPES * (parts(one).count() * parts(other).count()) as u64,
         }
     }
+}
+
+/// Returns true if two bodies touch or overlap at the start, as they are drawn. It is false for shapes that are not convex (meshes, rings).
+pub(crate) fn touch_at_start(one: &Body, other: &Body) -> bool {
+    /// The factor by which shapes are enlarged, so that shapes that just touch meet.
+    const NEAR: f64 = 1.0 + DEEP;
+    let shapes = [one, other].map(Body::drawn);
+    let [one, other] = [one, other].map(|body| (body.start.location, body.start.orientation));
+    let others: Vec<Placed<'_>> = placed(&shapes[1], other, NEAR).collect();
+    placed(&shapes[0], one, NEAR).any(|part| others.iter().any(|other| part.intersects(other)))
+}
+
+/// Returns the convex parts of a shape in the world, each enlarged by a factor. `location` (m) and `orientation` are those of its body.
+fn placed(
+    shape: &Shape,
+    (location, orientation): (DVec3, DQuat),
+    scale: f64,
+) -> impl Iterator<Item = Placed<'_>> {
+    parts(shape).map(move |(shape, at, turn)| Placed {
+        shape,
+        location: location + orientation * at,
+        orientation: orientation * turn,
+        scale,
+    })
 }
 
 /// Returns the convex parts of a shape, each with its pose in body axes.

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::{Part, PlannedShape, SpringSize, room_for};
 use crate::dynamics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
-use crate::simulate::{RequestedSizes, RequestedSlider, surface};
+use crate::simulate::{RequestedSizes, RequestedSlider, surface, touch_at_start};
 
 /// The default color of springs and joints.
 const STEEL: Color = Color([0.62, 0.64, 0.67]);
@@ -122,7 +122,17 @@ fn joint(
             add(PlannedShape::Rod { between, radius });
         }
         JointKind::Ball(_) | JointKind::Fixed(_) => {
-            arms(scene, between, look).for_each(&mut add);
+            let arms: Vec<PlannedShape> = arms(scene, between, look).collect();
+            // Bodies that touch are joined where they touch, and need no rods, unless the scene asks for them.
+            let is_usual = look == JointLook { radius: None, color: None };
+            if is_usual && matches!(joint.kind, JointKind::Fixed(_)) && touch(scene, between) {
+                if arms.len() == 2 {
+                    // The point of the joint is outside of both bodies.
+                    return;
+                }
+            } else {
+                arms.into_iter().for_each(&mut add);
+            }
             let radius = look.radius.unwrap_or_else(|| 0.56 * thinnest(scene, between));
             add(PlannedShape::Pin { at: between[0], radius });
         }
@@ -172,6 +182,14 @@ fn rod_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
 /// The default radius of a rope, m: a tenth of the half-thickness of the thinner body, but at most a hundredth of the rope's length.
 fn rope_radius(scene: &Scene, between: [Anchor; 2], length: f64) -> f64 {
     (0.1 * thinnest(scene, between)).min(length / 100.0)
+}
+
+/// Returns true if the two bodies of a joint touch or overlap at the start.
+fn touch(scene: &Scene, between: [Anchor; 2]) -> bool {
+    match between.map(|end| end.body().map(|id| &scene.bodies[id.index()])) {
+        [Some(one), Some(other)] => touch_at_start(one, other),
+        _ => false,
+    }
 }
 
 /// Rods from the centers of bodies to the point of a joint, for each body that does not contain this point.

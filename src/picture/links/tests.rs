@@ -86,3 +86,26 @@ fn a_rail_is_as_long_as_the_way_of_what_slides() {
         }
     }
 }
+
+/// A leg is glued below the corner of a table. The point of the joint is in the center of the leg, outside of the table.
+#[test]
+fn fixed_bodies_that_touch_need_no_rods() {
+    let scene = |height: f64| {
+        format!(
+            "[body.top]\nshape.box.size = [1.6, 0.08, 1]\nlocation = [0, 0.76, 0]\n
+             [body.leg]\nshape.box.size = [0.08, {height}, 0.08]\nlocation = [0.7, 0.36, 0.4]\n
+             [joint.glue.fixed]\nbetween = ['top', 'leg']"
+        )
+    };
+    let rods =
+        |text: &str| forms(text, 0).into_iter().filter(|form| matches!(form, LinkShape::Rod { .. })).count();
+    assert_eq!(rods(&scene(0.72)), 0, "they touch");
+    assert_eq!(rods(&scene(0.8)), 0, "they overlap");
+    assert_eq!(rods(&scene(0.5)), 1, "they are apart");
+    assert_eq!(rods(&(scene(0.72) + "\nlook.color = 'red'")), 1, "the scene asks for them");
+    let compound = "[body.ring]\nlocation = [0, 0, 0]\nmass = 1\n
+        shape.compound.parts = [{ sphere.radius = 0.1, location = [2, 0, 0] }, { sphere.radius = 0.1, location = [-2, 0, 0] }]\n
+        [body.ball]\nshape.sphere.radius = 0.5\nlocation = [2.6, 0, 0]\n[joint.glue.fixed]\nbetween = ['ring', 'ball']";
+    assert_eq!(rods(compound), 0, "a part touches");
+    assert_ne!(rods(&compound.replace("2.6", "2.9")), 0);
+}

@@ -30,7 +30,12 @@ pub(super) static JOINT: TableSpec = TableSpec {
             "The second body slides along an axis of the first, without rotation between them",
         )
         .also(&["prismatic", "rail"]),
-        KeySpec::new("fixed", Table(&FIXED), "The two move as one body").also(&["weld", "rigid", "glue"]),
+        KeySpec::new(
+            "fixed",
+            Table(&FIXED),
+            "The two move as one body; if they touch at the start, no rods are drawn",
+        )
+        .also(&["weld", "rigid", "glue"]),
         KeySpec::new("rod", Table(&ROD), "A massless rod keeps the distance of two points constant")
             .also(&["distance", "link", "bar", "stick"]),
         KeySpec::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
