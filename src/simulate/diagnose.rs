@@ -73,7 +73,8 @@ impl SimulateError {
                 "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
             ),
             SimulateError::Stuck(stuck) if stuck.depth.is_some() => Some(
-                "move them apart, or let them pass through each other: `collides = false`, or the same `collision_group`",
+                "move them apart, or join them, or let them pass through each other: `collides = false`, or the same \
+                 `collision_group`",
             ),
             SimulateError::Stuck(_) => Some(
                 "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
