@@ -80,6 +80,21 @@ fn an_asset_that_is_sdl_may_name_other_assets_and_what_comes_with_povray() {
     assert!(output.status.success(), "{}", stderr(&output));
 }
 
+#[test]
+fn an_error_in_a_file_that_is_included_and_an_asset_is_reported_once() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("parts.inc"), "#fopen F \"x\" write\n").unwrap();
+    for lists in [
+        "include = ['parts.inc']\nassets = ['parts.inc']",
+        "assets = ['parts.inc']\ninclude = ['./parts.inc']",
+    ] {
+        let scene = format!("[povray]\n{lists}\n[body.ball]\nshape.sphere.radius = 1\n");
+        fs::write(folder.path().join("scene.toml"), scene).unwrap();
+        let said = stderr(&compile(folder.path()));
+        assert_eq!(said.matches("`fopen`").count(), 1, "{said}");
+    }
+}
+
 fn compile(folder: &Path) -> Output {
     jabuka().current_dir(folder).args(["compile", "scene.toml", "-o", "out"]).output().unwrap()
 }

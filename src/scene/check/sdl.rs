@@ -25,7 +25,7 @@ const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 pub(super) struct Assets {
     /// The path of each file, by the file's name in SDL.
     files: HashMap<String, PathBuf>,
-    /// The names of the files that have been checked as SDL.
+    /// The names of the assets and include files that have been checked as SDL.
     read: HashSet<String>,
 }
 
@@ -71,12 +71,18 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
     }
 }
 
-/// Reports mistakes in the SDL of an include file. `span` is the source span that names the file in the scene.
+/// Reports mistakes in the SDL of an include file. `span` is the source span that names the file in the scene. Does nothing if the scene is
+/// not trusted and the file has been checked before, for example as an asset.
 pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     if context.trust {
         trusted(text, span, context);
-        return;
+    } else if context.assets.read.insert(asset::below(name).unwrap_or_default()) {
+        check_file(name, text, span, context);
     }
+}
+
+/// Reports mistakes in the SDL of a file of an untrusted scene. `span` is the source span that names the file in the scene.
+fn check_file(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
     let (refused, includes) = refusals(text, Where::Top, |name| context.assets.path(name).is_some());
     if !refused.is_empty() {
         let source = context.sources.add(name, text);
@@ -107,7 +113,7 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
     }
     match file::read(&path, MAX_BYTES) {
         // Replace invalid UTF-8: old include files have other encodings, which differ only in comments and strings.
-        Ok(bytes) => check_include(name, &String::from_utf8_lossy(&bytes), span, context),
+        Ok(bytes) => check_file(name, &String::from_utf8_lossy(&bytes), span, context),
         Err(error) => {
             let code = match error.kind() {
                 std::io::ErrorKind::FileTooLarge => Code::FileTooLarge,
