@@ -64,7 +64,8 @@ fn smoothness() -> Vec<&'static str> {
 pub(super) const BETWEEN_KEYFRAMES: KeySpec = KeySpec::new(
     "interpolation",
     Choice(smoothness),
-    "The motion between keyframes: smooth, starting and ending at rest, or straight at constant speed",
+    "The motion between keyframes: `smooth` starts and ends at rest, and may overshoot the keyframes; `linear` is straight \
+     at constant speed, and does not",
 )
 .default_word("smooth")
 .also(&["mode", "easing"]);
