@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::read::figure;
 use super::view::View;
-use super::{Context, contact, habits, look, mesh, motion, presence, shape, showing};
+use super::{Context, contact, corrections, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
@@ -39,7 +39,7 @@ pub(super) fn read(
     let mut bodies = Vec::with_capacity(root.bodies().len());
     for table in root.bodies() {
         let (name, span) = (table.name(), table.span());
-        if let Some(like) = bodies.last().filter(|_| context.is_hopeless(name)) {
+        if let Some(like) = bodies.last().filter(|_| context.has_too_many_wrong_copies(name)) {
             bodies.push(Body { name: name.clone(), ..Body::clone(like) });
             continue;
         }
@@ -258,7 +258,7 @@ pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context
         if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
             let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
             let error = Diagnostic::error(Code::MissingKey, message).at(span, format!("needs `{other}`"));
-            let (place, text) = habits::before(span, &format!("{other} = {value}"), context);
+            let (place, text) = corrections::before(span, &format!("{other} = {value}"), context);
             context.diagnostics.push(error.fix(place, text));
         }
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Context;
-use super::habits::{before, is_file};
+use super::corrections::{before, is_file};
 use super::read::figure;
 use super::stepping;
 use super::view::View;

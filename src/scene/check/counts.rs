@@ -1,7 +1,7 @@
 //! Computes the numbers of frames and timesteps of a scene, and checks their limits.
 
 use super::Context;
-use super::habits::{insertion, is_file};
+use super::corrections::{insertion, is_file};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::dynamics::Spring;

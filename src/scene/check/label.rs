@@ -246,7 +246,7 @@ impl Reader<'_, '_, '_> {
             let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
             if let Some(other) = words::of_run(word).filter(|_| own) {
                 let diagnostic = diagnostic.at(at, format!("did you mean `{other}`?"));
-                let diagnostic = self.mended(diagnostic, at, other, word.len());
+                let diagnostic = self.corrected(diagnostic, at, other, word.len());
                 self.context.diagnostics.push(diagnostic);
                 continue;
             }

@@ -6,13 +6,13 @@ mod braces;
 mod camera;
 mod consequence;
 mod contact;
+mod corrections;
 mod counts;
 mod effect;
 mod emitter;
 mod end;
 mod force;
 mod geometry;
-mod habits;
 mod joint;
 mod label;
 mod look;
@@ -162,7 +162,7 @@ impl Context<'_> {
 
     /// Returns whether the body `name` is one of many copies and a large number of these copies have errors. The check then skips the
     /// remaining copies.
-    fn is_hopeless(&self, name: &str) -> bool {
+    fn has_too_many_wrong_copies(&self, name: &str) -> bool {
         /// The number of copies with errors after which the remaining copies are skipped. Each copy may have different errors.
         const ENOUGH: usize = 1000;
         let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);

@@ -2,8 +2,8 @@
 
 use super::Context;
 use super::contact;
+use super::corrections::is_file;
 use super::counts::Counts;
-use super::habits::is_file;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};

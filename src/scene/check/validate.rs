@@ -1,7 +1,7 @@
 //! Compares the tree of a scene with the grammar. Reports all errors that can be found without interpreting the scene.
 
-use super::habits::Owner;
-use super::{Context, habits, read, sdl, suggest};
+use super::corrections::Owner;
+use super::{Context, corrections, read, sdl, suggest};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Bound, Collection, KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
@@ -18,16 +18,19 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     // The known keys that the unknown keys were meant to be. Do not report these known keys as missing.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
-    let kind = habits::meant_kind(table, spec, path);
+    let kind = corrections::meant_kind(table, spec, path);
     meant.extend(kind.iter().filter(|kind| kind.word.is_some()).map(|kind| kind.way[0]));
     let mut said = Vec::new();
     let has_unknown = table.entries.iter().any(|entry| spec.key(&entry.name.text).is_none());
-    let found =
-        if has_unknown { habits::together(table, spec, kind.as_ref(), path, context) } else { Vec::new() };
-    for together in found {
-        context.diagnostics.push(together.error);
-        meant.push(together.key);
-        said.extend(together.spans);
+    let found = if has_unknown {
+        corrections::key_groups(table, spec, kind.as_ref(), path, context)
+    } else {
+        Vec::new()
+    };
+    for group in found {
+        context.diagnostics.push(group.error);
+        meant.push(group.key);
+        said.extend(group.spans);
     }
     let mut is_something_else = false;
     for entry in table.entries.iter().filter(|entry| !said.contains(&entry.name.span)) {
@@ -39,10 +42,10 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
                 context.bodies_are_wrong |= matches!(key.name, "body" | "defaults" | "variables");
             }
         } else {
-            let nameless = if path == "the scene" { habits::nameless(entry, context) } else { None };
+            let nameless = if path == "the scene" { corrections::nameless(entry, context) } else { None };
             let (error, key) = match nameless {
                 Some((error, key)) => (error, Some(key)),
-                None => habits::unknown(entry, kind.as_ref(), table, spec, path, context),
+                None => corrections::unknown(entry, kind.as_ref(), table, spec, path, context),
             };
             context.forces_are_wrong |= path == "the scene" && key.is_none_or(|key| key == "force");
             is_something_else |= key.is_none();
@@ -51,12 +54,12 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
         }
     }
     if let Some(kind) = &kind {
-        habits::mend_word(kind, table, at, before, context);
+        corrections::correct_word(kind, table, at, before, context);
     }
     let is_whole = !context.is_partial;
     for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
         if !meant.contains(&key.name) {
-            let error = habits::mend_missing(missing_key(key, at, path), key, at, context);
+            let error = corrections::correct_missing(missing_key(key, at, path), key, at, context);
             context.diagnostics.push(error);
         }
     }
@@ -114,7 +117,7 @@ fn rule(
                     Some(span) => error.at(span, format!("{path} says none of them")),
                     None => error,
                 };
-                context.diagnostics.push(habits::mend_kind(error, table, spec, at, path, context));
+                context.diagnostics.push(corrections::correct_kind(error, table, spec, at, path, context));
             }
             entries => context.diagnostics.push(exclusive(entries, path)),
         },
@@ -123,7 +126,7 @@ fn rule(
 
 fn exclusive(entries: &[&Entry], path: &str) -> Diagnostic {
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
-    let message = format!("{} exclude each other in {path}", habits::quoted_and(&names));
+    let message = format!("{} exclude each other in {path}", corrections::quoted_and(&names));
     let error = Diagnostic::error(Code::ExclusiveKeys, message);
     // Treat the first key as right, and label the later keys as superfluous.
     let (first, rest) = (entries[0], &entries[1..]);
@@ -138,7 +141,7 @@ fn value(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, co
     }
     let before = context.diagnostics.len();
     of_kind(node, kind, entry, path, context);
-    habits::mend_value(before, node, kind, entry, context);
+    corrections::correct_value(before, node, kind, entry, context);
 }
 
 fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, context: &mut Context<'_>) {
@@ -199,7 +202,9 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
         Kind::Table(spec) => match node.as_table() {
             Some(inner) if is_known(inner, context) => {}
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
-            None => context.diagnostics.push(read::wrong_type(node, kind).help(habits::known_keys(spec))),
+            None => {
+                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)))
+            }
         },
         Kind::Partial(spec) => match node.as_table() {
             Some(inner) => {
@@ -209,7 +214,9 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
                 context.is_partial = false;
                 context.once(before, "", node.span);
             }
-            None => context.diagnostics.push(read::wrong_type(node, kind).help(habits::known_keys(spec))),
+            None => {
+                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)))
+            }
         },
         Kind::Variables => match node.as_table() {
             Some(inner) => {
@@ -258,7 +265,7 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
         let found = node.in_words();
         let message = format!("expected tables with names, as in `[{word}.NAME]`, found {found}");
         let error = Diagnostic::error(Code::WrongType, message).at(node.span, "");
-        context.diagnostics.push(habits::mend_array(error, node, word, context));
+        context.diagnostics.push(corrections::correct_array(error, node, word, context));
         return;
     };
     for entry in &tables.entries {
@@ -270,11 +277,12 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
         let path = format!("[{word}.{}]", as_key(shown));
         let before = context.diagnostics.len();
         match entry.node.table().as_deref() {
-            Some(inner) if context.is_hopeless(&entry.name.text) || is_known(inner, context) => {}
+            Some(inner)
+                if context.has_too_many_wrong_copies(&entry.name.text) || is_known(inner, context) => {}
             Some(inner) if !is_unnamed(entry, inner, spec) => {
                 table(inner, spec, Some(entry.name.span), &path, context);
                 let owner = Owner { table: inner, spec, at: entry.name.span, path: &path };
-                owner.mend_deep(before, context);
+                owner.correct_deep(before, context);
                 if word == "force" && context.has_errors(before) {
                     context.wrong_forces.insert(entry.name.text.clone());
                 }
@@ -289,7 +297,7 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
                 let error =
                     Diagnostic::error(Code::UnnamedTable, message).at(entry.name.span, label).help(help);
                 context.diagnostics.push(match sort {
-                    Some(sort) => habits::mend_unnamed(error, sort, entry, spec, context),
+                    Some(sort) => corrections::correct_unnamed(error, sort, entry, spec, context),
                     None => error,
                 });
             }
@@ -327,12 +335,12 @@ fn choice(node: &Node, kind: &Kind, words: &[&str], entry: Option<&Entry>, conte
                 [only] => format!("there is `{only}`"),
                 words => format!("there are {}", quoted(words)),
             };
-            if let ([only], true) = (words, habits::is_word_to_come(noun, word)) {
+            if let ([only], true) = (words, corrections::is_word_to_come(noun, word)) {
                 let error = error.at(node.span, "not built yet").help(known);
                 context.diagnostics.push(error.fix(node.span, format!("\"{only}\"")));
                 return;
             }
-            let other = habits::other_word(word, words);
+            let other = corrections::other_word(word, words);
             context.diagnostics.push(match other.or_else(|| suggest::nearest(word, words.iter().copied())) {
                 Some(near) => error
                     .at(node.span, format!("did you mean `{near}`?"))
@@ -403,7 +411,7 @@ fn reference(
     };
     context.diagnostics.push(match collection {
         Collection::Body | Collection::Target | Collection::Joint => error,
-        Collection::Material => habits::color_for_material(error, word, node, entry),
+        Collection::Material => corrections::color_for_material(error, word, node, entry),
     });
 }
 

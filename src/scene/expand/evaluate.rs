@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use super::repeat::{self, INDICES};
-use super::{Expander, habits, place};
+use super::{Expander, corrections, place};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::random::Stream;
 use crate::scene::expression::{Draw, ExpressionError, Formula, Resolved};
 
 impl Expander<'_> {
     /// Reports those errors in a formula of `[defaults]` that occur for every copy, such as unknown names. Evaluates nothing.
-    pub(super) fn look_over(&mut self, text: &str, span: Span) {
+    pub(super) fn check_default_formula(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
         INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
-        if let Some(formula) = self.keep(Formula::parse(text), text, span) {
-            self.keep(formula.resolve(&scope), text, span);
+        if let Some(formula) = self.ok_or_report(Formula::parse(text), text, span) {
+            self.ok_or_report(formula.resolve(&scope), text, span);
         }
     }
 
@@ -30,7 +30,7 @@ impl Expander<'_> {
         if let Some(known) = self.formulas.get(&span) {
             return Some(known.clone());
         }
-        let formula = Arc::new(self.keep(Formula::parse(text), text, span)?);
+        let formula = Arc::new(self.ok_or_report(Formula::parse(text), text, span)?);
         if self.copy.is_some() {
             self.formulas.insert(span, formula.clone());
         }
@@ -43,13 +43,13 @@ impl Expander<'_> {
             return None;
         }
         self.work += repeat::work_of_value(formula.text());
-        let resolved = self.keep(formula.resolve(&self.scope), formula.text(), span)?;
+        let resolved = self.ok_or_report(formula.resolve(&self.scope), formula.text(), span)?;
         let drawn = self.drawn(&resolved);
         let value = resolved.value(&drawn).map_err(|mut error| {
             error.message.push_str(&self.in_copy());
             vec![error]
         });
-        self.keep(value, formula.text(), span)
+        self.ok_or_report(value, formula.text(), span)
     }
 
     /// Draws the random numbers of a formula, in the order of their use. Each path of a key has its own, independent random stream.
@@ -77,7 +77,7 @@ impl Expander<'_> {
 
     /// Returns the value of `found`, or reports its errors at their positions in the scene's text and returns `None`. `text` is the
     /// formula and `span` is its source span.
-    pub(super) fn keep<T>(
+    pub(super) fn ok_or_report<T>(
         &mut self,
         found: Result<T, Vec<ExpressionError>>,
         text: &str,
@@ -96,7 +96,7 @@ impl Expander<'_> {
             let mut diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
             if let Some((key, motion)) = self.motion_meant(&text[error.range.clone()], span) {
                 diagnostic = diagnostic.fix(key, motion);
-            } else if let Some(number) = habits::without_decimal_comma(text) {
+            } else if let Some(number) = corrections::without_decimal_comma(text) {
                 diagnostic = diagnostic.fix(span, number);
             } else if let Some(fix) = error.fix.filter(|_| place != span) {
                 diagnostic = diagnostic.fix(place, fix);

@@ -13,7 +13,7 @@ impl Expander<'_> {
     /// Replaces a formula (a string) by its value. Leaves values of other types unchanged.
     pub(super) fn number(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
-        if self.is_hopeless(node.span)
+        if self.has_reported_error(node.span)
             || self.has_unit(text, node.span)
             || self.asks_for_body(text, node.span, false)
         {
@@ -21,7 +21,7 @@ impl Expander<'_> {
             return;
         }
         if self.is_default {
-            self.look_over(text, node.span);
+            self.check_default_formula(text, node.span);
             node.value = Value::Invalid;
             return;
         }
@@ -29,14 +29,14 @@ impl Expander<'_> {
     }
 
     /// Returns true if another copy has reported an error in this formula. The formula is then not evaluated again.
-    pub(super) fn is_hopeless(&self, span: Span) -> bool {
+    pub(super) fn has_reported_error(&self, span: Span) -> bool {
         self.copy.is_some() && self.reported.contains(&span)
     }
 
     /// Replaces a formula by its value, as [`Expander::number`] does, but keeps a formula that depends on the time as a compiled program.
     pub(super) fn timed(&mut self, node: &mut Node) {
         let Value::String(text) = &node.value else { return };
-        if self.is_hopeless(node.span)
+        if self.has_reported_error(node.span)
             || self.has_unit(text, node.span)
             || self.asks_for_body(text, node.span, true)
         {
@@ -63,10 +63,10 @@ impl Expander<'_> {
         self.scope.slot("t");
         let resolved = formula.resolve(&self.scope);
         self.scope.remove_slot("t");
-        let resolved = self.keep(resolved, formula.text(), span)?;
+        let resolved = self.ok_or_report(resolved, formula.text(), span)?;
         let resolved = resolved.with_draws(&self.drawn(&resolved));
         let read = self.timed_formulas.read(text, span, &resolved).map_err(|error| vec![error]);
-        let read = self.keep(read, formula.text(), span)?;
+        let read = self.ok_or_report(read, formula.text(), span)?;
         self.work += repeat::work_of_motion(&read);
         Some(read)
     }
@@ -88,14 +88,14 @@ impl Expander<'_> {
         self.scope.slot("t");
         let resolved = formula.resolve(&self.scope);
         self.scope.remove_slot("t");
-        let Some(resolved) = self.keep(resolved, &text, span) else { return };
+        let Some(resolved) = self.ok_or_report(resolved, &text, span) else { return };
         let changes = formula.names().any(|(name, _)| name == "t") || !resolved.draws().is_empty();
         if !changes {
             node.value = self.value_of(&formula, span).map_or(Value::Invalid, Value::Float);
             return;
         }
         let program = resolved.compile().map_err(|error| vec![error]);
-        let program = self.keep(program, &text, span);
+        let program = self.ok_or_report(program, &text, span);
         let drawn = program.map(|program| Arc::new(DrawnFormula::new(text, program)));
         node.value = drawn.map_or(Value::Invalid, Value::Drawn);
     }

@@ -31,7 +31,7 @@ impl Expander<'_> {
                 entries.into_iter().zip(&mut copies).partition(|(entry, _)| is_gear(entry));
             for (entry, copies) in others.into_iter().chain(gears) {
                 if is_many(&entry, spec) {
-                    self.below(key, |this| this.copies_of_link(entry, what, spec, copies));
+                    self.with_key(key, |this| this.copies_of_link(entry, what, spec, copies));
                 } else {
                     copies.push(entry);
                 }
@@ -48,7 +48,9 @@ impl Expander<'_> {
         let place = table.entries.iter().position(|entry| &*entry.name.text == "repeat");
         let mut repeat = place.map(|place| table.entries.remove(place));
         if let (Some(repeat), Some(key)) = (&mut repeat, spec.key("repeat")) {
-            self.below(&name, |this| this.below("repeat", |this| this.value(&mut repeat.node, &key.kind)));
+            self.with_key(&name, |this| {
+                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind))
+            });
         }
         let (count, because, letter) = match &repeat {
             Some(repeat) => (count_of(&repeat.node), repeat.node.span, repeat.name.span),
@@ -74,7 +76,7 @@ impl Expander<'_> {
             self.count_as(&[number]);
             let mut table = table.clone();
             self.copy = Some(copy.clone());
-            self.below(&copy, |this| this.table(&mut table, spec));
+            self.with_key(&copy, |this| this.table(&mut table, spec));
             self.copy = None;
             all.push(Entry {
                 name: Name { span: named, text: copy },

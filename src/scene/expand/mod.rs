@@ -3,12 +3,12 @@
 //! Where the grammar expects a number, a string is a formula. The computed value keeps the source span of the string, so later code
 //! handles numbers only. A formula with an error is reported and becomes [`Value::Invalid`].
 
+mod corrections;
 mod defaults;
 mod evaluate;
 mod formula;
 mod geometry;
 mod groups;
-mod habits;
 mod include;
 mod index;
 mod links;
@@ -136,7 +136,7 @@ struct Expander<'a> {
     /// The source spans of formulas that have been warned about because of the unit of an angle.
     warned: HashSet<Span>,
     /// The formulas that use the locations of bodies. Their errors are reported at the end of the expansion.
-    of_bodies: Vec<habits::OfBody>,
+    of_bodies: Vec<corrections::OfBody>,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
 
@@ -151,13 +151,13 @@ impl Expander<'_> {
             let entry = &mut table.entries[number];
             // A nested list, such as a vector in a list of points, has the unit of its key.
             let unit = std::mem::replace(&mut self.unit, key.unit);
-            self.below(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
+            self.with_key(&entry.name.text, |this| this.value(&mut entry.node, &key.kind));
             self.unit = unit;
         }
     }
 
     /// Calls `work` while `key` is appended to the current path.
-    fn below<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
+    fn with_key<T>(&mut self, key: &str, work: impl FnOnce(&mut Self) -> T) -> T {
         let length = self.path.len();
         if length > 0 {
             self.path.push('.');
@@ -214,7 +214,7 @@ impl Expander<'_> {
                     if entry.node.as_table().is_some_and(|inner| has_work(inner, spec))
                         && let Value::Table(inner) = &mut entry.node.value
                     {
-                        self.below(&entry.name.text, |this| this.table(inner, spec));
+                        self.with_key(&entry.name.text, |this| this.table(inner, spec));
                     }
                 }
             }

@@ -15,7 +15,10 @@ impl Expander<'_> {
         let Value::String(text) = &node.value else { return };
         let (text, span) = (text.clone(), node.span);
         node.value = Value::Invalid;
-        if self.is_hopeless(span) || self.has_unit(&text, span) || self.asks_for_body(&text, span, true) {
+        if self.has_reported_error(span)
+            || self.has_unit(&text, span)
+            || self.asks_for_body(&text, span, true)
+        {
             return;
         }
         let Some(formula) = self.parsed(&text, span) else { return };
@@ -28,7 +31,7 @@ impl Expander<'_> {
         self.scope.set_fields(names);
         let resolved = formula.resolve(&self.scope);
         self.scope.set_fields(&[]);
-        let Some(resolved) = self.keep(resolved, &text, span) else { return };
+        let Some(resolved) = self.ok_or_report(resolved, &text, span) else { return };
         let resolved = resolved.with_draws(&self.drawn(&resolved));
         self.work += super::repeat::work_of_value(&text);
         node.value = Value::OfBody(Arc::new(BodyFormula::new(text, span, resolved)));

@@ -60,7 +60,7 @@ impl Expander<'_> {
             let span = entry.node.span;
             let value = match &entry.node.value {
                 Value::String(text) if self.has_unit(text, span) => None,
-                Value::String(text) => match self.keep(Formula::parse(text), text, span) {
+                Value::String(text) => match self.ok_or_report(Formula::parse(text), text, span) {
                     Some(formula) => {
                         let (needs, state) = (Vec::new(), State::Untouched);
                         variables.push(Variable { name: name.clone(), span, formula, needs, state });
@@ -118,8 +118,8 @@ impl Expander<'_> {
             } else {
                 let mut value = None;
                 let formula = &variable.formula;
-                self.below("variables", |this| {
-                    this.below(&name, |this| value = this.value_of(formula, span));
+                self.with_key("variables", |this| {
+                    this.with_key(&name, |this| value = this.value_of(formula, span));
                 });
                 value
             };

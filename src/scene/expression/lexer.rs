@@ -3,8 +3,8 @@
 use crate::diagnostic::Code;
 use std::ops::Range;
 
+use super::corrections;
 use super::error::{ExpressionError, syntax};
-use super::habits;
 
 /// A token of a formula: a number, a name, an operator or a separator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,12 +56,12 @@ impl<'a> Lexer<'a> {
             (None, _) => (Token::End, 0),
             (Some(b'0'..=b'9'), _) | (Some(b'.'), Some(b'0'..=b'9')) => number(rest, start)?,
             (Some(b'a'..=b'z' | b'A'..=b'Z' | b'_'), _) => name(rest),
-            (Some(b'*'), Some(b'*')) => return Err(habits::symbol(rest, start)),
+            (Some(b'*'), Some(b'*')) => return Err(corrections::symbol(rest, start)),
             (Some(b'<'), Some(b'=')) => (Token::LessEqual, 2),
             (Some(b'>'), Some(b'=')) => (Token::GreaterEqual, 2),
             (Some(b'='), Some(b'=')) => (Token::Equal, 2),
             (Some(b'!'), Some(b'=')) => (Token::NotEqual, 2),
-            (Some(b'<'), Some(b'>')) => return Err(habits::symbol(rest, start)),
+            (Some(b'<'), Some(b'>')) => return Err(corrections::symbol(rest, start)),
             (Some(b'<'), _) => (Token::Less, 1),
             (Some(b'>'), _) => (Token::Greater, 1),
             (Some(b'+'), _) => (Token::Plus, 1),
@@ -73,8 +73,8 @@ impl<'a> Lexer<'a> {
             (Some(b'('), _) => (Token::Open, 1),
             (Some(b')'), _) => (Token::Close, 1),
             (Some(b','), _) => (Token::Comma, 1),
-            _ if rest.starts_with('°') => return Err(habits::degrees(self.text, start)),
-            _ => return Err(habits::symbol(rest, start)),
+            _ if rest.starts_with('°') => return Err(corrections::degrees(self.text, start)),
+            _ => return Err(corrections::symbol(rest, start)),
         };
         self.place = start + length;
         Ok((token, start..self.place))

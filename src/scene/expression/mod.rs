@@ -21,13 +21,13 @@
 //! All functions come from `libm` or are exact, so values have the same bits on every platform.
 
 mod angles;
+mod corrections;
 mod derive;
 mod emit;
 mod error;
 mod explain;
 mod fold;
 mod function;
-mod habits;
 mod lexer;
 mod lift;
 mod operation;

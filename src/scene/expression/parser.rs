@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use super::corrections;
 use super::error::{ExpressionError, error, syntax};
 use super::function::{FUNCTIONS, Function};
-use super::habits;
 use super::lexer::{Lexer, Token};
 use super::operation::{Binary, Unary};
 use crate::diagnostic::{Code, nearest};
@@ -311,7 +311,7 @@ fn combine(operator: Token, left: Id, right: Id) -> Part {
 fn unknown_function(word: &str, name: Range<usize>) -> ExpressionError {
     let error = error(Code::UnknownName, name, format!("there is no function `{word}`"));
     let folded = word.to_lowercase();
-    match (habits::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
+    match (corrections::function(&folded), nearest(word, FUNCTIONS.iter().map(|function| function.name))) {
         (Some(habit), _) => {
             // A correction is offered only if it is enough to replace the name of the function.
             let name = habit.strip_prefix("write `").and_then(|rest| rest.strip_suffix('`'));

@@ -2,8 +2,8 @@
 
 mod brackets;
 mod copied;
+pub(in crate::scene) mod corrections;
 pub(super) mod file;
-pub(in crate::scene) mod habits;
 mod load;
 mod overrides;
 mod shared;

@@ -5,7 +5,7 @@ use std::num::IntErrorKind;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::{Entry, Name, Node, Table, Value, brackets, habits, syntax, yaml};
+use super::{Entry, Name, Node, Table, Value, brackets, corrections, syntax, yaml};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
 /// Parses a text. Reports syntax errors as diagnostics, and returns a tree of the readable values.
@@ -35,7 +35,7 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
         if line.is_none() || line != last_line {
             let diagnostic = syntax::diagnose(error, text, source);
             diagnostics.push(match error.span() {
-                Some(range) => mended(diagnostic, range.start, text, source),
+                Some(range) => corrected(diagnostic, range.start, text, source),
                 None => diagnostic,
             });
         }
@@ -58,15 +58,15 @@ fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagno
 }
 
 /// Adds a fix with the corrected line, if the intended text is clear. `at` is the byte offset of the error.
-fn mended(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
+fn corrected(mut diagnostic: Diagnostic, at: usize, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, at);
     let is_duplicate = diagnostic.code == Code::DuplicateKey;
-    let Some(mended) = habits::mend(&text[line.clone()]).filter(|_| !is_duplicate) else {
+    let Some(corrected) = corrections::correct(&text[line.clone()]).filter(|_| !is_duplicate) else {
         return diagnostic;
     };
-    diagnostic.help = Some(mended.why.to_owned());
-    let (start, end) = (line.start + mended.range.start, line.start + mended.range.end);
-    diagnostic.fix(Span::new(source, start..end), mended.text)
+    diagnostic.help = Some(corrected.why.to_owned());
+    let (start, end) = (line.start + corrected.range.start, line.start + corrected.range.end);
+    diagnostic.fix(Span::new(source, start..end), corrected.text)
 }
 
 /// Returns the byte range of the line that contains the byte `at`, without its line break.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::habits;
+use super::corrections;
 use crate::scene::grammar::{Kind, SCENE};
 
 /// A line of YAML: its indentation, its key (`None` for a list item), and its value, which may be empty.
@@ -25,7 +25,7 @@ pub(super) fn to_toml(text: &str) -> Option<String> {
     for (number, line) in lines.iter().enumerate() {
         let Some(key) = line.key else {
             let keys: Vec<&str> = path.iter().map(|(_, key)| *key).collect();
-            let item = habits::scalar(line.value, keys.last()?)?;
+            let item = corrections::scalar(line.value, keys.last()?)?;
             match lists.last_mut().filter(|(path, _)| *path == keys) {
                 Some((_, items)) => items.push(item),
                 None => lists.push((keys, vec![item])),
@@ -36,7 +36,7 @@ pub(super) fn to_toml(text: &str) -> Option<String> {
         path.push((line.indent, key));
         let keys: Vec<&str> = path.iter().map(|(_, key)| *key).collect();
         if !line.value.is_empty() {
-            entries.push((keys, habits::scalar(line.value, key)?));
+            entries.push((keys, corrections::scalar(line.value, key)?));
         } else if lines.get(number + 1).is_some_and(|next| next.key.is_none()) {
             entries.push((keys, String::new()));
         }

@@ -83,7 +83,7 @@ impl Reader<'_, '_, '_> {
                 self.context.diagnostics.push(match other.or_else(near) {
                     Some(near) => {
                         let error = error.at(here, format!("did you mean `{near}`?")).help(known);
-                        self.mended(error, here, &near, end - at - 1)
+                        self.corrected(error, here, &near, end - at - 1)
                     }
                     None => error.at(here, "").help(known),
                 });
@@ -197,7 +197,7 @@ impl Reader<'_, '_, '_> {
         self.context.diagnostics.push(match near {
             Some(near) => {
                 let error = error.at(here, format!("did you mean `{near}`?")).help(known);
-                self.mended(error, here, near, measure.len())
+                self.corrected(error, here, near, measure.len())
             }
             None => error.at(here, "").help(known),
         });
@@ -205,7 +205,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Adds a fix that replaces a word of `length` bytes. In an escaped string, the span is the whole string, and no fix is added.
-    pub(super) fn mended(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
+    pub(super) fn corrected(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
         if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
     }
 }

@@ -68,7 +68,7 @@ impl Expander<'_> {
                 _ => item.as_number().filter(|number| number.is_finite())?.to_string(),
             };
             let place = format!("curve.at[{number}]");
-            programs.push(self.below(&place, |this| this.program(&text, item.span, &scope)));
+            programs.push(self.with_key(&place, |this| this.program(&text, item.span, &scope)));
         }
         let programs: Option<Vec<Program>> = programs.into_iter().collect();
         let programs: [Program; 3] = programs?.try_into().ok()?;
@@ -76,14 +76,14 @@ impl Expander<'_> {
     }
 
     fn program(&mut self, text: &str, span: Span, scope: &Scope) -> Option<Program> {
-        let formula = self.keep(Formula::parse(text), text, span)?;
+        let formula = self.ok_or_report(Formula::parse(text), text, span)?;
         if formula.names().any(|(name, _)| self.broken.contains(name)) {
             return None;
         }
-        let resolved = self.keep(formula.resolve(scope), text, span)?;
+        let resolved = self.ok_or_report(formula.resolve(scope), text, span)?;
         let drawn = self.drawn(&resolved);
         let compiled = resolved.with_draws(&drawn).compile().map_err(|error| vec![error]);
-        self.keep(compiled, text, span)
+        self.ok_or_report(compiled, text, span)
     }
 
     /// Samples the curve densely enough to measure its length. Reports an error and returns `None` if a point of the curve is not finite.
@@ -103,7 +103,7 @@ impl Expander<'_> {
                     let Some(mut error) = program.explain_non_finite(&[u]) else { continue };
                     error.message = format!("{} at u = {u}", error.message);
                     let text = item.as_str().unwrap_or_default();
-                    self.keep::<()>(Err(vec![error]), text, item.span);
+                    self.ok_or_report::<()>(Err(vec![error]), text, item.span);
                 }
                 return None;
             }

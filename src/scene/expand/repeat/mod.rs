@@ -59,7 +59,7 @@ impl Expander<'_> {
         for entry in std::mem::take(&mut bodies.entries) {
             if has_repeat(&entry) {
                 let name = entry.name.text.clone();
-                self.below("body", |this| this.copies(entry, &name, spec, &mut all));
+                self.with_key("body", |this| this.copies(entry, &name, spec, &mut all));
             } else {
                 all.push(entry);
             }
@@ -77,9 +77,11 @@ impl Expander<'_> {
         };
         let mut repeat = table.entries.remove(place);
         if let Some(key) = spec.key("repeat") {
-            self.below(name, |this| this.below("repeat", |this| this.value(&mut repeat.node, &key.kind)));
+            self.with_key(name, |this| {
+                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind))
+            });
         }
-        let pattern = self.below(name, |this| this.below("repeat", |this| this.pattern(&repeat, spec)));
+        let pattern = self.with_key(name, |this| this.with_key("repeat", |this| this.pattern(&repeat, spec)));
         let counts = pattern.as_ref().map(Pattern::counts);
         let counts = counts.filter(|counts| self.is_affordable(counts, "bodies", name, repeat.node.span));
         let mut is_known = counts.is_some();
@@ -104,7 +106,7 @@ impl Expander<'_> {
             self.count_as(&index[..counts.len()]);
             let mut table = table.clone();
             self.copy = Some(name.clone());
-            self.below(&name, |this| this.table(&mut table, spec));
+            self.with_key(&name, |this| this.table(&mut table, spec));
             self.copy = None;
             match &pattern {
                 Some(Pattern::Count(_)) | None => {}

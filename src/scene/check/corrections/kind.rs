@@ -23,7 +23,7 @@ pub(in crate::scene::check) struct MeantKind {
 
 impl MeantKind {
     /// Returns the path of keys from the table to the key `word` in the kind's inner table. `None` if the kind has no such key.
-    pub(super) fn way_to(&self, word: &str) -> Option<Vec<&'static str>> {
+    pub(super) fn path_to(&self, word: &str) -> Option<Vec<&'static str>> {
         let key = key_of(word, self.spec)?;
         Some(self.way.iter().copied().chain([key.name]).collect())
     }
@@ -129,7 +129,7 @@ pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
 }
 
 /// Adds the fix for a word that names a kind, such as `type = "sphere"`, to the diagnostics after the first `before`.
-pub(in crate::scene::check) fn mend_word(
+pub(in crate::scene::check) fn correct_word(
     meant: &MeantKind,
     table: &Table,
     at: Option<Span>,

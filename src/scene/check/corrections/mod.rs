@@ -2,6 +2,7 @@
 
 mod ends;
 mod joint;
+mod key_group;
 mod kind;
 mod launch;
 mod missing;
@@ -10,22 +11,21 @@ mod not_built;
 mod owner;
 mod table;
 mod text;
-mod together;
 mod unknown;
 mod value;
 mod vector;
 mod way;
 mod word;
 
-pub(super) use self::kind::{meant_kind, mend_word};
-pub(super) use self::missing::{insertion, mend_kind, mend_missing};
-pub(super) use self::nameless::{mend_array, mend_unnamed, nameless};
+pub(super) use self::kind::{correct_word, meant_kind};
+pub(super) use self::missing::{correct_kind, correct_missing, insertion};
+pub(super) use self::nameless::{correct_array, correct_unnamed, nameless};
 
+pub(super) use self::key_group::key_groups;
 pub(super) use self::owner::Owner;
 pub(super) use self::text::{before, is_file};
-pub(super) use self::together::together;
 pub(super) use self::unknown::{known_keys, unknown};
-pub(super) use self::value::{color_for_material, mend_value};
+pub(super) use self::value::{color_for_material, correct_value};
 pub(super) use self::word::other_word;
 
 pub(super) use self::not_built::is_word_to_come;

@@ -9,7 +9,7 @@ use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
 /// Adds fixes for a value of a wrong type or length to the diagnostics after the first `before`.
-pub(in crate::scene::check) fn mend_value(
+pub(in crate::scene::check) fn correct_value(
     before: usize,
     node: &Node,
     kind: &'static Kind,

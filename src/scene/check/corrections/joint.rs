@@ -1,9 +1,9 @@
 //! Corrects common mistakes in joints.
 
 use super::super::Context;
+use super::key_group::{KeyGroup, joined};
 use super::launch::find;
 use super::text::{header_end, raw, removal, whole};
-use super::together::{Together, joined};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Collection, Kind, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
@@ -50,7 +50,7 @@ pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
 }
 
 /// Corrects a hinge or a slider with a `stiffness` of its own: moves the stiffness and the damping into the joint's motor.
-pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let motor = spec.key("motor").filter(|motor| table.get(motor.name).is_none())?;
     let [value, _] = values(motor.kind.table()?)?;
     let is_value = |entry: &&Entry| entry.node.as_number().is_some();

@@ -1,10 +1,10 @@
 //! Corrects springs and joints that give each end by a key of its own, as other programs do.
 
 use super::super::Context;
+use super::key_group::{KeyGroup, joined};
 use super::key_of;
 use super::kind::MeantKind;
 use super::text::raw;
-use super::together::{Together, joined};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
@@ -52,13 +52,13 @@ pub(super) fn is_end(entry: &Entry) -> bool {
 }
 
 /// Reports keys that give the ends one by one, with a fix that replaces them by `between`. `None` if there are no such keys.
-pub(super) fn mend_ends(
+pub(super) fn correct_ends(
     table: &Table,
     spec: &'static TableSpec,
     meant: Option<&MeantKind>,
     path: &str,
     context: &Context<'_>,
-) -> Option<Together> {
+) -> Option<KeyGroup> {
     let (way, inner) = match meant {
         Some(meant) => (meant.way.as_slice(), meant.spec),
         None => (&[][..], spec),

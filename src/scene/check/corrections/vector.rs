@@ -3,7 +3,7 @@
 use super::super::Context;
 use super::launch;
 use super::text::raw;
-use crate::scene::source::{Node, Table, Value, habits};
+use crate::scene::source::{Node, Table, Value, corrections};
 use crate::scene::units;
 
 /// Returns the TOML list of `count` numbers that the user probably meant by a value of another type or length. `None` if there is no good
@@ -114,8 +114,8 @@ fn by_axis(table: &Table, unit: &str) -> Option<String> {
 
 /// Returns the TOML list of the numbers in a text with any separators. `None` if there are not exactly `count` numbers.
 fn listed(inner: &str, key: &str, count: usize) -> Option<String> {
-    let (text, _) = habits::list(inner, key)?;
+    let (text, _) = corrections::list(inner, key)?;
     let numbers =
         text.trim_matches(['[', ']']).split(", ").filter(|item| item.parse::<f64>().is_ok()).count();
-    (numbers == count && habits::items(&text) == count).then_some(text)
+    (numbers == count && corrections::items(&text) == count).then_some(text)
 }

@@ -45,16 +45,21 @@ impl Expander<'_> {
     /// Warns if a formula probably uses degrees in place of radians, or the reverse.
     pub(super) fn look_at_angles(&mut self, formula: &Formula, span: Span) {
         let text = formula.text();
-        let (range, message, label, mended) =
+        let (range, message, label, corrected) =
             if let Some(range) = formula.degrees_for_radians(|name| self.scope.value(name)) {
                 let angle = &text[range.clone()];
-                let mended = format!("rad({angle})");
-                (range, "sine, cosine and tangent take radians", format!("did you mean `{mended}`?"), mended)
+                let corrected = format!("rad({angle})");
+                (
+                    range,
+                    "sine, cosine and tangent take radians",
+                    format!("did you mean `{corrected}`?"),
+                    corrected,
+                )
             } else if self.unit == "degrees" && formula.is_in_radians() {
                 let degrees = text.strip_prefix("rad(").and_then(|rest| rest.strip_suffix(')'));
                 let degrees = degrees.filter(|inner| !inner.contains(['(', ')']));
-                let mended = degrees.map_or_else(|| format!("deg({text})"), str::to_owned);
-                (0..text.len(), "this angle is in degrees", format!("did you mean `{mended}`?"), mended)
+                let corrected = degrees.map_or_else(|| format!("deg({text})"), str::to_owned);
+                (0..text.len(), "this angle is in degrees", format!("did you mean `{corrected}`?"), corrected)
             } else {
                 return;
             };
@@ -63,7 +68,11 @@ impl Expander<'_> {
         }
         let place = super::place::in_string(self.raw(span), text, &range, span);
         let warning = Diagnostic::warning(Code::AngleUnit, message).at(place, label);
-        self.diagnostics.push(if place == span { warning } else { warning.fix(place, mended).fix_is_said() });
+        self.diagnostics.push(if place == span {
+            warning
+        } else {
+            warning.fix(place, corrected).fix_is_said()
+        });
     }
 
     /// Recognizes that a body's initial `location` or `orientation` uses the time `t`. Returns the source span of that key, and the key of
@@ -100,7 +109,7 @@ impl Expander<'_> {
     pub(super) fn report_of_bodies(&mut self, root: &Table) {
         let bodies = root.get("body").and_then(|entry| entry.node.as_table());
         for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {
-            let mut mended = text.clone();
+            let mut corrected = text.clone();
             let (mut all_known, mut moves) = (true, false);
             for (range, name, member) in members(&text).collect::<Vec<_>>().into_iter().rev() {
                 let body = bodies.and_then(|bodies| bodies.get(name)).and_then(|entry| entry.node.table());
@@ -109,7 +118,7 @@ impl Expander<'_> {
                     Some((place, is_formula)) => {
                         moves |= !is_formula;
                         let alone = range == (0..text.len());
-                        mended.replace_range(range, &if alone { place } else { format!("({place})") });
+                        corrected.replace_range(range, &if alone { place } else { format!("({place})") });
                     }
                     None => all_known = false,
                 }
@@ -128,9 +137,10 @@ impl Expander<'_> {
             } else {
                 format!("the formula by which `{name}` moves can be written here")
             };
-            let mended = if mended.parse::<f64>().is_ok() { mended } else { format!("\"{mended}\"") };
+            let corrected =
+                if corrected.parse::<f64>().is_ok() { corrected } else { format!("\"{corrected}\"") };
             let mut error = error.at(place, label);
-            error.fix.get_or_insert_default().edits.push(Edit { span, text: mended });
+            error.fix.get_or_insert_default().edits.push(Edit { span, text: corrected });
             self.diagnostics.push(error);
         }
     }

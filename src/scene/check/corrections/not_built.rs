@@ -13,7 +13,7 @@ pub(in crate::scene::check) struct NotBuilt {
     /// The key that the feature will have in the table or at the top level. Empty if no key is planned.
     pub(super) comes_with: &'static str,
     /// Whether the suggested fix removes the line with the unknown key.
-    pub(super) can_go: bool,
+    pub(super) is_removable: bool,
 }
 
 /// Returns the missing feature that has this key in other programs. `None` if jabuka has the feature, or if the key is not in the list.
@@ -35,7 +35,7 @@ static NOT_BUILT: &[NotBuilt] = &[
         words: &["start", "end", "lifetime", "birth", "death", "appears", "spawn"],
         help: "bodies are there from the first frame to the last; leave the line out",
         comes_with: "start",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a joint",
@@ -43,42 +43,42 @@ static NOT_BUILT: &[NotBuilt] = &[
         help: "there are `ball`, `hinge`, `slider`, `fixed`, `rod`, `rope`, `pulley` and `gear`; springs are forces, \
                `[force.NAME.spring]`, and a motor is a key of a hinge or a slider",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a hinge",
         words: &["damping", "friction"],
         help: "a joint has no friction of its own; `motor = { speed = 0, torque = 2 }` holds it with 2 N·m",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a hinge",
         words: &["spring"],
         help: "a spring at a hinge is a motor that gives way: `motor = { angle = 0, stiffness = 10, damping = 1 }`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a slider",
         words: &["spring"],
         help: "a spring at a slider is a motor that gives way: `motor = { position = 0, stiffness = 10, damping = 1 }`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a slider",
         words: &["damping", "friction"],
         help: "a joint has no friction of its own; `motor = { speed = 0, force = 2 }` holds it with 2 N",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a scene",
         words: &["emitter", "emitters", "particles", "particle_system", "fountain"],
         help: "there are no emitters yet: `repeat` in a body makes many of it, all there from the start",
         comes_with: "emitter",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a scene",
@@ -86,14 +86,14 @@ static NOT_BUILT: &[NotBuilt] = &[
         help: "there are no plots in pictures yet: `[label.NAME]` shows numbers, `jabuka preview` has plots, \
                and `jabuka export` writes tables",
         comes_with: "plot",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a scene",
         words: &["contact", "contacts", "collision", "collisions"],
         help: "it is a key of [simulation]: `contacts = \"event-driven\"`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a force",
@@ -101,14 +101,14 @@ static NOT_BUILT: &[NotBuilt] = &[
         help: "this force is not built yet; there are `constant`, `drag`, `spring`, `gravitation`, `coulomb`, \
                `lorentz`, `lennard_jones`, `buoyancy`, `dipoles`, `j2` and `formula`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a scene",
         words: &["units", "unit", "unit_system"],
         help: "all numbers are in SI units: metres, kilograms, seconds; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a body",
@@ -116,70 +116,70 @@ static NOT_BUILT: &[NotBuilt] = &[
         help: "`material = \"sun\"` glows, and `[light.NAME]` with `point.location` lights other bodies; leave the \
                line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a body",
         words: &["opacity", "alpha", "transparency", "transparent"],
         help: "`material = \"glass\"` is transparent; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a body",
         words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
         help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "the simulation",
         words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
         help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "the environment",
         words: &["air_resistance", "air_drag", "drag", "air", "damping", "linear_damping"],
         help: "the resistance of air is a force: `[force.air.drag]` with `linear` or `quadratic`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "the camera",
         words: &["zoom"],
         help: "a smaller `angle` shows things larger: it is 40 degrees without it; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "the camera",
         words: &["up", "roll", "sky", "right"],
         help: "the camera stays upright; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "the output",
         words: &["video", "film", "file", "filename", "format", "fps_video"],
         help: "`jabuka render SCENE --video FILE.mp4` makes a film; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "the output",
         words: &["quality", "antialias", "antialiasing"],
         help: "`jabuka render` takes `--quality`; leave the line out",
         comes_with: "",
-        can_go: true,
+        is_removable: true,
     },
     NotBuilt {
         of: "a body",
         words: &["pivot", "hinge", "joint", "attached_to", "parent", "constraint"],
         help: "what holds a body is a table of its own: `[joint.NAME.hinge]`, `ball`, `slider`, `rod`, `rope` or `fixed`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
     NotBuilt {
         of: "a scene",
@@ -187,6 +187,6 @@ static NOT_BUILT: &[NotBuilt] = &[
         help: "it is a joint: `[joint.NAME.rope]`, `pulley`, `gear`, or the key `motor` of a hinge; a soft spring is \
                a force, `[force.NAME.spring]`",
         comes_with: "",
-        can_go: false,
+        is_removable: false,
     },
 ];

@@ -4,7 +4,7 @@ use super::super::Context;
 use super::kind::MeantKind;
 use super::nameless::view;
 use super::text::{header_end, raw, removal, whole, whole_line};
-use super::way::{elsewhere, way};
+use super::way::{key_in_other_table, way};
 use super::{joint, not_built};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::{Rule, TableSpec, quoted};
@@ -34,7 +34,7 @@ pub(in crate::scene::check) fn unknown(
             "not built yet".to_owned()
         };
         let error = error.at(entry.name.span, label).help(thing.help);
-        let line = removal(whole(entry), context).filter(|_| thing.can_go);
+        let line = removal(whole(entry), context).filter(|_| thing.is_removable);
         return (line.into_iter().fold(error, |error, line| error.fix(line, "")), None);
     }
     if let Some(edits) = view(entry, spec, context) {
@@ -42,7 +42,7 @@ pub(in crate::scene::check) fn unknown(
         return (edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text)), None);
     }
     let Some(way) = way(entry, meant, table, spec) else {
-        let error = match elsewhere(entry, context) {
+        let error = match key_in_other_table(entry, context) {
             Some((way, fix)) if path.starts_with('[') => {
                 let error = error.at(entry.name.span, format!("did you mean `{way}`?"));
                 fix.into_iter().fold(error, |error, (span, text)| error.fix(span, text))
@@ -52,7 +52,7 @@ pub(in crate::scene::check) fn unknown(
         return (error, None);
     };
     let error = error.at(entry.name.span, format!("did you mean `{}`?", way.join(".")));
-    let error = mended(error, entry, &way, table, context);
+    let error = corrected(error, entry, &way, table, context);
     let error = rescaled(error, entry);
     (beside(error, meant, &way, table, spec), Some(way[0]))
 }
@@ -65,7 +65,7 @@ pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
 }
 
 /// Adds a fix that replaces the unknown key by the path `way`, or that moves its line.
-fn mended(
+fn corrected(
     error: Diagnostic,
     entry: &Entry,
     way: &[&'static str],

@@ -23,7 +23,7 @@ pub(super) fn way(
         let can = |key: &KeySpec| key.kind.table().is_some() || key.kind.takes(&entry.node.value);
         !is_table || key_at(way, spec).is_some_and(can)
     };
-    let of_kind = meant.and_then(|meant| meant.way_to(word)).filter(takes);
+    let of_kind = meant.and_then(|meant| meant.path_to(word)).filter(takes);
     if of_kind.is_some() {
         return of_kind;
     }
@@ -91,7 +91,10 @@ pub(super) fn key_at(way: &[&str], spec: &'static TableSpec) -> Option<&'static 
 
 /// Finds the table, such as `[simulation]`, to which an unknown key belongs. Returns the path of the key in that table, and the edits that
 /// move the entry.
-pub(super) fn elsewhere(entry: &Entry, context: &Context<'_>) -> Option<(String, Vec<(Span, String)>)> {
+pub(super) fn key_in_other_table(
+    entry: &Entry,
+    context: &Context<'_>,
+) -> Option<(String, Vec<(Span, String)>)> {
     let word = &*entry.name.text;
     let way = of_simulation(word).map(|key| vec!["simulation", key.name]);
     let way = way.or_else(|| suggest::deeper(word, &SCENE))?;

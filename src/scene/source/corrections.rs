@@ -28,7 +28,7 @@ const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` beg
 const HEADER: &str = "a dot stands between the parts of a header";
 
 /// Corrects a line that is not valid TOML. `None` if the intended text is unclear.
-pub(super) fn mend(line: &str) -> Option<Correction> {
+pub(super) fn correct(line: &str) -> Option<Correction> {
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
     if trimmed.starts_with('[') && trimmed.ends_with(']') && !trimmed.contains('=') {
@@ -163,7 +163,7 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<CorrectedValue> {
         items.retain(|item| !item.is_empty());
         items
     };
-    let mended = |items: Vec<&str>| items.iter().map(|item| value(item, key)).collect::<Option<Vec<_>>>();
+    let corrected = |items: Vec<&str>| items.iter().map(|item| value(item, key)).collect::<Option<Vec<_>>>();
     let decimal = |item: &&str| number(item).is_some();
     // In `0,5; 1,5` and `0,5, 1,5`, a comma before a space separates two values. Any other comma is a decimal comma.
     let spaced: Vec<&str> = inner.split(", ").map(str::trim).collect();
@@ -179,7 +179,7 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<CorrectedValue> {
     } else {
         (split(&[' ', '\t']), LIST)
     };
-    let items: Vec<String> = mended(items)?.into_iter().map(|(text, _)| text).collect();
+    let items: Vec<String> = corrected(items)?.into_iter().map(|(text, _)| text).collect();
     Some((format!("[{}]", items.join(", ")), why))
 }
 
@@ -285,12 +285,12 @@ mod tests {
             ("[body ball]", "[body.ball]"),
             ("[body: ball]", "[body.ball]"),
         ] {
-            let mended = mend(line).map(|mended| {
+            let corrected = correct(line).map(|corrected| {
                 let mut text = line.to_owned();
-                text.replace_range(mended.range, &mended.text);
+                text.replace_range(corrected.range, &corrected.text);
                 text
             });
-            assert_eq!(mended.as_deref(), Some(expected), "{line}");
+            assert_eq!(corrected.as_deref(), Some(expected), "{line}");
         }
     }
 
@@ -298,7 +298,7 @@ mod tests {
     fn what_is_toml_or_cannot_be_told_stays() {
         for line in ["a = 1", "a = [1, 2]", "[body.ball]", "# a: b", "a = \"b", "= 3", "a b c", "", "a = [1,"]
         {
-            assert!(mend(line).is_none(), "{line}: {:?}", mend(line).map(|mended| mended.text));
+            assert!(correct(line).is_none(), "{line}: {:?}", correct(line).map(|corrected| corrected.text));
         }
     }
 }

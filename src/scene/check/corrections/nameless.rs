@@ -133,7 +133,7 @@ fn best(table: &Table) -> Option<&'static str> {
 }
 
 /// Adds a fix to the error for a table of a collection that lacks its name, such as `[body]` instead of `[body.ball]`.
-pub(in crate::scene::check) fn mend_unnamed(
+pub(in crate::scene::check) fn correct_unnamed(
     error: Diagnostic,
     entry: &Entry,
     inner: &Entry,
@@ -163,7 +163,7 @@ pub(in crate::scene::check) fn mend_unnamed(
 
 /// Corrects an array of tables, `[[body]]`, to tables with names. The `name` in a table becomes the table's name. A table without a `name`
 /// gets an example name, with a number if there are several tables.
-pub(in crate::scene::check) fn mend_array(
+pub(in crate::scene::check) fn correct_array(
     error: Diagnostic,
     node: &Node,
     word: &str,

@@ -8,7 +8,7 @@ use crate::scene::grammar::{KeySpec, Kind, Rule, TableSpec};
 use crate::scene::source::Table;
 
 /// Adds a fix that inserts the missing key `key` with an example value into the table whose name is at the span `at`.
-pub(in crate::scene::check) fn mend_missing(
+pub(in crate::scene::check) fn correct_missing(
     error: Diagnostic,
     key: &KeySpec,
     at: Option<Span>,
@@ -31,7 +31,7 @@ pub(in crate::scene::check) fn mend_missing(
 
 /// Adds a fix to the error for a table that lacks a key for its kind, such as `sphere` in a `shape`. The fix inserts an example of the
 /// kind that has the table's name.
-pub(in crate::scene::check) fn mend_kind(
+pub(in crate::scene::check) fn correct_kind(
     error: Diagnostic,
     table: &Table,
     spec: &'static TableSpec,

@@ -21,7 +21,7 @@ pub(in crate::scene::check) struct Owner<'a> {
 impl Owner<'_> {
     /// Finds unknown keys of inner tables that are keys of this table, and adds fixes that move them. Changes the diagnostics after the
     /// first `before`.
-    pub(in crate::scene::check) fn mend_deep(&self, before: usize, context: &mut Context<'_>) {
+    pub(in crate::scene::check) fn correct_deep(&self, before: usize, context: &mut Context<'_>) {
         for number in before..context.diagnostics.len() {
             let error = &context.diagnostics[number];
             if error.code != Code::UnknownKey || error.fix.is_some() || error.labels.len() != 1 {

@@ -11,7 +11,7 @@ use crate::scene::source::{Entry, Table};
 use crate::scene::units;
 
 /// A group of unknown keys that together stand for one key of the scene language, such as `x`, `y` and `z` for `location`.
-pub(in crate::scene::check) struct Together {
+pub(in crate::scene::check) struct KeyGroup {
     /// The error that reports all unknown keys of the group, with its fix.
     pub(in crate::scene::check) error: Diagnostic,
     /// The source spans of the unknown keys in the group.
@@ -21,14 +21,14 @@ pub(in crate::scene::check) struct Together {
 }
 
 /// Finds groups of unknown keys in a table that each stand for one key of the scene language, such as `x`, `y` and `z` for `location`.
-pub(in crate::scene::check) fn together(
+pub(in crate::scene::check) fn key_groups(
     table: &Table,
     spec: &'static TableSpec,
     meant: Option<&MeantKind>,
     path: &str,
     context: &Context<'_>,
-) -> Vec<Together> {
-    let ends = ends::mend_ends(table, spec, meant, path, context);
+) -> Vec<KeyGroup> {
+    let ends = ends::correct_ends(table, spec, meant, path, context);
     let launch = launch(table, spec, path, context);
     let drag = drag(table, spec, path, context);
     let spring = joint::spring(table, spec, path, context);
@@ -57,7 +57,7 @@ pub(super) fn joined(
     line: String,
     path: &str,
     context: &Context<'_>,
-) -> Option<Together> {
+) -> Option<KeyGroup> {
     let (first, rest) = entries.split_first()?;
     let s = if rest.is_empty() { "" } else { "s" };
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
@@ -75,11 +75,11 @@ pub(super) fn joined(
         };
         error = error.at(entry.name.span, "").fix(gone, "");
     }
-    Some(Together { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
+    Some(KeyGroup { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
 }
 
 /// Corrects the speed and the launch angle of a body to its `velocity`.
-fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let key = spec.key("velocity").filter(|_| spec.key("angular_velocity").is_some())?.name;
     if table.get(key).is_some() {
         return None;
@@ -97,7 +97,7 @@ fn components(
     names: &[&str; 3],
     path: &str,
     context: &Context<'_>,
-) -> Option<Together> {
+) -> Option<KeyGroup> {
     let key = spec.key(key)?.name;
     if table.get(key).is_some() || names.iter().any(|name| spec.key(name).is_some()) {
         return None;
@@ -114,7 +114,7 @@ fn components(
 }
 
 /// Corrects the `width` and the `height` of images to their `size`.
-fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let key = spec.key("size").filter(|_| spec.key("layout").is_some())?.name;
     let (width, height) = (table.get("width")?, table.get("height")?);
     let line = format!("{key} = [{}, {}]", value(width, context)?, value(height, context)?);
@@ -122,7 +122,7 @@ fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
 }
 
 /// Corrects a number of timesteps or frames: computes the timestep or the frame rate from that number and the duration.
-fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     const STEPS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
     const FRAMES: [&str; 5] = ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
     let duration = spec.key("duration").filter(|_| spec.key("integrator").is_some())?.name;
@@ -149,7 +149,7 @@ fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<
 }
 
 /// Corrects `ring = 12, radius = 2` to `ring.count = 12, ring.radius = 2`: the user gave the count as the value of the kind.
-fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Together> {
+fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<KeyGroup> {
     let Rule::ExactlyOne(names) = &spec.rule else { return None };
     let kind = table
         .entries
@@ -172,7 +172,7 @@ fn counted(table: &Table, spec: &'static TableSpec, path: &str) -> Option<Togeth
         error.fix(entry.name.span, format!("{}.{}", key.name, it.name))
     };
     let spans = others.iter().map(|(entry, _)| entry.name.span).chain([kind.name.span]).collect();
-    Some(Together { error: others.iter().fold(error, fix), spans, key: key.name })
+    Some(KeyGroup { error: others.iter().fold(error, fix), spans, key: key.name })
 }
 
 /// Returns the source text of a number or a formula. `None` for other values.
@@ -182,7 +182,7 @@ fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
 }
 
 /// Corrects a drag coefficient, an area and a density of the air to the key `quadratic` of a drag force.
-fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<Together> {
+fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
     const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];
     const DENSITIES: [&str; 4] = ["density", "rho", "air_density", "fluid_density"];
