@@ -255,3 +255,16 @@ mod between_frames {
         assert!(reader.frame(11).is_err());
     }
 }
+
+#[test]
+fn bodies_that_overlap_at_the_start_may_be_joined() {
+    let text = "simulation = { duration = 0.1, contacts = 'event-driven', integrator = 'rk4' }\n\
+                [body.post]\nshape.sphere.radius = 0.5\nlocation = [0, 1, 0]\n\
+                [body.lever]\nshape.sphere.radius = 0.5\nlocation = [0.8, 1, 0]\n";
+    let first = |text: &str| Frames::new(&Scene::parse(text).unwrap()).next().unwrap().map(|_| ());
+    let said = first(text).unwrap_err().report().to_string();
+    assert!(said.contains("overlap-at-start") && said.contains("join them"), "{said}");
+    let joined = text.to_owned()
+        + "[joint.j.hinge]\nbetween = ['post', 'lever']\nat = [0.4, 1, 0]\naxis = [0, 0, 1]\n";
+    assert!(first(&joined).is_ok());
+}
