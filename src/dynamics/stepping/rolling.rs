@@ -15,7 +15,9 @@ use rapier3d_f64::prelude::{ContactPair, PhysicsWorld, RigidBodyHandle, TypedSha
 use super::joint::Joints;
 
 /// Bodies that rotate by a larger angle in a step, rad, get a corrected velocity.
-const ANGLE: f64 = 1e-3;
+const ANGLE: f64 = 0.005;
+/// Smaller differences of velocities are rounding errors, relative to the velocity.
+const ROUNDING: f64 = 1e-9;
 
 /// Finds the bodies whose velocities are corrected.
 pub(super) struct Rolling {
@@ -81,9 +83,12 @@ impl Rolling {
 /// velocity of the engine. A body that the engine pushes out of another one keeps it, too.
 fn between(velocity: DVec3, displacement: DVec3, largest: f64) -> DVec3 {
     let difference = displacement - velocity;
-    let Some(direction) = difference.try_normalize().filter(|_| difference.length() <= largest) else {
+    let squared = difference.length_squared();
+    // Rounding errors must not change the velocity of a body in free flight.
+    if squared <= ROUNDING * ROUNDING * velocity.length_squared() || squared > largest * largest {
         return velocity;
-    };
+    }
+    let direction = difference / squared.sqrt();
     let [now, moved] = [velocity, displacement].map(|vector| vector.dot(direction));
     velocity + (now.max(moved.min(0.0)) - now) * direction
 }
