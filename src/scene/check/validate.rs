@@ -203,7 +203,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
             Some(inner) if is_known(inner, context) => {}
             Some(inner) => table(inner, spec, at(node, entry), &inner_path(entry, path), context),
             None => {
-                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)))
+                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)));
             }
         },
         Kind::Partial(spec) => match node.as_table() {
@@ -215,7 +215,7 @@ fn of_kind(node: &Node, kind: &'static Kind, entry: Option<&Entry>, path: &str, 
                 context.once(before, "", node.span);
             }
             None => {
-                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)))
+                context.diagnostics.push(read::wrong_type(node, kind).help(corrections::known_keys(spec)));
             }
         },
         Kind::Variables => match node.as_table() {

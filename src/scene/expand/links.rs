@@ -49,7 +49,7 @@ impl Expander<'_> {
         let mut repeat = place.map(|place| table.entries.remove(place));
         if let (Some(repeat), Some(key)) = (&mut repeat, spec.key("repeat")) {
             self.with_key(&name, |this| {
-                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind))
+                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind));
             });
         }
         let (count, because, letter) = match &repeat {

@@ -78,7 +78,7 @@ impl Expander<'_> {
         let mut repeat = table.entries.remove(place);
         if let Some(key) = spec.key("repeat") {
             self.with_key(name, |this| {
-                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind))
+                this.with_key("repeat", |this| this.value(&mut repeat.node, &key.kind));
             });
         }
         let pattern = self.with_key(name, |this| this.with_key("repeat", |this| this.pattern(&repeat, spec)));
