@@ -31,7 +31,7 @@ impl Explanation {
         self.code.explanation().lines().next().unwrap_or_default().trim_start_matches("# ")
     }
 
-    /// Returns the example that causes the error: a scene, or commands after `$ `.
+    /// Returns the example that causes the error: a scene, or shell commands, each after the prompt `$ `.
     pub fn wrong(&self) -> String {
         self.example("\nWrong:\n")
     }

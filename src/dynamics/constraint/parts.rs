@@ -20,7 +20,7 @@ pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
 /// The vector d from one end to the other, with its length and derivatives. With u = d / |d|, the second derivative of the length is u·d''
 /// + (|d'|² − (u·d')²) / |d|.
 pub(super) struct EndToEndVector<'a> {
-    /// The distance |d| of the two ends, m.
+    /// The distance |d| between the two ends of the constraint, m.
     pub(super) length: f64,
     /// The part of |d|'' that does not depend on the accelerations of the bodies, m/s².
     pub(super) bias: f64,

@@ -130,8 +130,8 @@ mod tests {
         assert_eq!(impulses(&[bounce(0.0)], &[rate], &BALL)[0], DVec3::new(3.0, 0.0, 0.0));
     }
 
-    /// A unit square plate moves along its normal and tilts about two axes. Its four corners hit the ground alike, so each gets a quarter
-    /// of the impulse.
+    /// A unit square plate falls flat on the ground. It can move along its normal and tilt about two axes, so its four corners give more
+    /// equations than unknowns. Each corner gets a quarter of the impulse.
     #[test]
     fn places_that_imply_each_other_share_the_impulse() {
         let corners = [(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)];

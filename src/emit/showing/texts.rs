@@ -49,8 +49,8 @@ fn label(out: &mut String, text: &Text<'_>, y: &str, style: Style) {
     out.push_str(&format!("Label(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
 }
 
-/// Returns a vertical position in the image plane as an SDL expression. The positions of the upper and lower edge are known only when
-/// POV-Ray renders the picture.
+/// Returns a vertical position in the image plane as an SDL expression. It is an expression because the upper and lower edge of the image
+/// depend on the aspect ratio, which is known only when POV-Ray renders the image.
 fn height(y: Vertical, inset: impl Fn(f64) -> String) -> String {
     match y {
         Vertical::Middle(height) => short(height),

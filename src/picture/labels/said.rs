@@ -19,7 +19,7 @@ pub(super) struct Moment<'a> {
 }
 
 impl<'a> Moment<'a> {
-    /// The moment of a frame, with all values.
+    /// Returns the moment of a frame, at which all values of labels are known.
     pub(super) fn now(frame: &'a Frame) -> Moment<'a> {
         Moment {
             time: frame.time,
@@ -31,7 +31,7 @@ impl<'a> Moment<'a> {
         }
     }
 
-    /// The moment of a ghost, with the values of its body only.
+    /// Returns the moment of a ghost, at which only the values of its body are known.
     pub(super) fn then(ghost: &'a Ghost) -> Moment<'a> {
         Moment {
             time: ghost.time,

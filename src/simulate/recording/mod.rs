@@ -43,8 +43,9 @@ struct Contents {
     frames: Vec<u32>,
     /// The number of the first moment in each stored page.
     pages: Vec<u32>,
-    /// The bytes of the page that is not full yet, and the number of its first moment.
+    /// The encoded moments that do not fill a page yet.
     open: Vec<u8>,
+    /// The number of the first moment in `open`.
     first: usize,
 }
 

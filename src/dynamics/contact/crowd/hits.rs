@@ -59,7 +59,7 @@ impl Collider {
         }
     }
 
-    /// Returns true if the distances `ways` that two bodies can move, m, add up to at least their gap.
+    /// Returns true if two bodies can close the gap between them. `ways` holds the distance that each body can move, m.
     fn can_meet(&self, pair: &Pair, model: &Model, state: &State, ways: &[f64]) -> bool {
         let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { return false };
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));
