@@ -1,4 +1,4 @@
-//! Random numbers in scenes, of which each particle draws its own sample.
+//! Numbers of emitters in scenes. If such a number is random, each particle draws its own sample.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub struct DrawnFormula {
 }
 
 impl DrawnFormula {
-    /// Creates a formula from its text and its program. The program's input slot 0 is the time. The random numbers follow.
+    /// Creates a formula from its text and its program. Input 0 of the program is the time. The other inputs are the random numbers.
     pub(super) fn new(text: Arc<str>, program: Program) -> DrawnFormula {
         DrawnFormula { text, program }
     }

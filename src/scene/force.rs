@@ -58,7 +58,7 @@ pub enum ForceKind {
 }
 
 impl ForceKind {
-    /// Returns the forces as the dynamics need them. A chain of springs gives one force for each spring.
+    /// Returns the force as trait objects for the dynamics. A chain of springs gives one force for each spring.
     pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
         match self {
             ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],

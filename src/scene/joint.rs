@@ -33,7 +33,7 @@ pub struct Joint {
 pub enum JointKind {
     /// A ball joint: keeps two points together.
     Ball(Ball),
-    /// A hinge: keeps two points together, and an axis that both bodies share.
+    /// A hinge: keeps two points together, and keeps two axes parallel.
     Hinge(Hinge),
     /// A slider: lets one body move only along an axis of the other body.
     Slider(Slider),
@@ -87,8 +87,9 @@ impl JointKind {
         }
     }
 
-    /// Returns the constraint error of the joint, m: the distance between two points that should coincide, or the error of a length.
-    /// `body` returns the state of a body. `None` while a body of the joint is absent, and for pulleys and gears.
+    /// Returns the constraint error of the joint, m: the distance between two points that should coincide, the distance of a point from the
+    /// axis of its slider, or the error in the length of a rod or rope. `body` returns the state of a body. `None` while a body of the
+    /// joint is absent, and for pulleys and gears.
     pub fn gap(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<f64> {
         let ends = self.between().map(|end| match end {
             Anchor::Body { id, at } => body(id).map(|body| (body.point(at).0, body.orientation)),

@@ -79,8 +79,8 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
     Ok(Asset { name: copied_to, path })
 }
 
-/// Removes each `.` from a relative path. Returns an empty string for the folder itself, and `None` for an absolute path or a path with
-/// `..`.
+/// Removes each component `.` from a relative path. Returns an empty string for the path `.`, and `None` for an absolute path or a path
+/// with `..`.
 pub(super) fn below(name: &str) -> Option<String> {
     let mut parts = Vec::new();
     for part in Path::new(name).components() {

@@ -46,7 +46,7 @@ pub(super) fn read(
         let before = context.diagnostics.len();
         let body = table.look(|view| {
             let table = view.table("shape");
-            // If this copy has the same shape table as the body before, reuse the shape.
+            // If this body has the same shape table as the body read before it, reuse the shape.
             let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
             let shape = same.map(|last| last.shape.clone());
             let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
@@ -59,7 +59,7 @@ pub(super) fn read(
                 motion.map_or((None, own), |(motion, presence)| (Some(motion), presence));
             presence::never(name, view, &presence, simulation, context);
             if let Some(motion) = &motion {
-                // Rest lengths of springs are measured in the pose that the motion gives, not in the pose in the body's table.
+                // Take the initial pose from the motion, not from the body's table. Rest lengths of springs are computed from this pose.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
                 start = RigidBody { location, orientation, ..start };
             }

@@ -155,7 +155,7 @@ impl Context<'_> {
         self.files.push(Sha256::digest(bytes));
     }
 
-    /// Returns whether the diagnostics after the first `before` contain an error.
+    /// Returns whether the diagnostics from index `before` on contain an error.
     fn has_errors(&self, before: usize) -> bool {
         self.diagnostics[before..].iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
@@ -169,8 +169,8 @@ impl Context<'_> {
         !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
     }
 
-    /// Deduplicates the diagnostics after the first `before`, since all copies of a body have the same mistakes. Drops each diagnostic
-    /// with a code and span that have been reported before. `name` and `span` belong to the copy being checked.
+    /// Deduplicates the diagnostics from index `before` on, since all copies of a body have the same mistakes. Drops each diagnostic with a
+    /// code and span that have been reported before. `name` and `span` belong to the copy being checked.
     fn once(&mut self, before: usize, name: &str, span: Span) {
         if self.diagnostics.len() == before {
             return;

@@ -279,7 +279,7 @@ fn by_trajectory(
     if let Some((track, presence)) = context.tracks.get(&same) {
         return Some((BodyMotion::Track(track.clone()), presence.clone()));
     }
-    // The file's size limits the first track from these rows, so count only further tracks.
+    // The limit on the file's size already limits the first track that is made from these rows, so count only further tracks.
     let is_copied = !context.rows.insert(same.address);
     if is_copied && !has_room(keys.len(), Some(span), context) {
         return None;

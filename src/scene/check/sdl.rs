@@ -112,7 +112,7 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
         return;
     }
     match file::read(&path, MAX_BYTES) {
-        // Replace invalid UTF-8: old include files have other encodings, which differ only in comments and strings.
+        // Replace invalid UTF-8: old include files have other encodings. These differ from UTF-8 only in comments and strings.
         Ok(bytes) => check_file(name, &String::from_utf8_lossy(&bytes), span, context),
         Err(error) => {
             let code = match error.kind() {

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{METHODS, Motor, suitable_step};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings};
 
-/// The restitution from which a warning says that rebounds lose height.
+/// The smallest restitution for which a warning says that rebounds lose height.
 const ELASTIC: f64 = 0.9;
 
 /// The help text that suggests event-driven contacts.

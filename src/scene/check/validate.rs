@@ -251,7 +251,7 @@ fn inner_path(entry: Option<&Entry>, path: &str) -> String {
     if path == "the scene" {
         return format!("[{}]", entry.name.text);
     }
-    // Split at the first « of »: only keys of the grammar precede it, while the name after it is arbitrary.
+    // Split at the first occurrence of " of ": only keys of the grammar precede it, while the name after it is arbitrary.
     let table = match path.split_once("` of ") {
         Some((_, table)) if path.starts_with('`') => table,
         _ => path,

@@ -104,8 +104,8 @@ impl Expander<'_> {
         asks
     }
 
-    /// Reports all formulas that use locations of bodies. Suggests to write the initial coordinate, or the formula of the body's motion,
-    /// in place of each reference.
+    /// Reports all formulas that use locations of bodies. Suggests replacing each reference by the initial coordinate or by the formula of
+    /// the body's motion.
     pub(super) fn report_of_bodies(&mut self, root: &Table) {
         let bodies = root.get("body").and_then(|entry| entry.node.as_table());
         for OfBody { text, span, is_timed } in std::mem::take(&mut self.of_bodies) {

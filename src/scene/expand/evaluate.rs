@@ -9,7 +9,8 @@ use crate::random::Stream;
 use crate::scene::expression::{Draw, ExpressionError, Formula, Resolved};
 
 impl Expander<'_> {
-    /// Reports those errors in a formula of `[defaults]` that occur for every copy, such as unknown names. Evaluates nothing.
+    /// Reports those errors in a formula of `[defaults]` that occur in every table to which the default applies, such as unknown names.
+    /// Does not evaluate the formula.
     pub(super) fn check_default_formula(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
         INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
@@ -25,7 +26,8 @@ impl Expander<'_> {
         self.value_of(&formula, span)
     }
 
-    /// Parses the formula at a source span, or returns it from the cache that all copies share. Returns `None` after reporting an error.
+    /// Parses the formula at a source span, or returns it from the cache that all copies of a body, force or joint share. Returns `None`
+    /// after reporting an error.
     pub(super) fn parsed(&mut self, text: &str, span: Span) -> Option<Arc<Formula>> {
         if let Some(known) = self.formulas.get(&span) {
             return Some(known.clone());
@@ -52,7 +54,8 @@ impl Expander<'_> {
         self.ok_or_report(value, formula.text(), span)
     }
 
-    /// Draws the random numbers of a formula, in the order of their use. Each path of a key has its own, independent random stream.
+    /// Draws the random numbers of a formula, in the order of their use. Each value of the scene has its own, independent random stream,
+    /// derived from the path of its key.
     pub(super) fn drawn(&self, resolved: &Resolved) -> Vec<f64> {
         if resolved.draws().is_empty() {
             return Vec::new();

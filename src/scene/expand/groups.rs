@@ -28,7 +28,7 @@ pub(super) struct Group {
     pub(super) counts: Vec<usize>,
     /// The names of the copies; the last index varies fastest.
     pub(super) names: Vec<Arc<str>>,
-    /// True if the number of copies is known. If the scene gives it wrongly, every index is accepted, to avoid follow-up errors.
+    /// True if the number of copies is known. If the scene gives an invalid number, every index is accepted, to avoid follow-up errors.
     pub(super) is_known: bool,
 }
 

@@ -181,7 +181,8 @@ fn by_index(name: &str) -> String {
     }
 }
 
-/// Returns true if a force or a joint has to be copied: it has a `repeat`, also in the wrong table, or it names bodies by `i`.
+/// Returns true if a force or a joint has to be copied: it has a `repeat` (even one in the wrong table), or it names bodies or joints by
+/// the index `i`.
 fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     let Some(table) = entry.node.as_table() else { return false };
     let mut ends = Vec::new();

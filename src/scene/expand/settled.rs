@@ -15,8 +15,7 @@ pub(super) fn is_list(node: &Node) -> bool {
     matches!(node.value, Value::Array(_))
 }
 
-/// Returns true if a value contains neither formulas nor names of several bodies. All copies of a body share one instance of each of these
-/// values.
+/// Returns true if a value contains neither formulas nor names of several bodies. All copies of a body share one instance of such a value.
 pub(super) fn is_settled(node: &Node, kind: &Kind) -> bool {
     let is_number = |item: &Node| !matches!(item.value, Value::String(_) | Value::Invalid);
     match (kind, &node.value) {

@@ -271,7 +271,8 @@ impl Deriver {
         self.two(Binary::Divide, a, b)
     }
 
-    /// Returns the quotient a / b, or 0 where a is 0. This makes the derivative of √u, which is u'/(2√u), 0 where both u and u' are 0.
+    /// Returns the quotient a / b, or 0 where a is 0. With it, the derivative of √u, which is u'/(2√u), becomes 0 where both u and u' are
+    /// 0.
     fn quotient_or_zero(&mut self, a: Id, b: Id) -> Id {
         let (quotient, zero) = (self.quotient(a, b), self.constant(0.0));
         self.builder.choice(a, quotient, zero, self.range.clone())

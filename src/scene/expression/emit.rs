@@ -271,7 +271,7 @@ impl Emitter<'_> {
         true
     }
 
-    /// Returns the subexpression x and the instruction for `x*v + c`, if `a` and `b` are the operands of that form, and x is neither an
+    /// Returns the subexpression x and the instruction for `x*v + c`, if `operation` on `a` and `b` has that form, and x is neither an
     /// input nor a constant.
     fn horner(&self, operation: Binary, a: Id, b: Id) -> Option<(Id, I)> {
         let (sum, c) = match (operation, self.leaf(a), self.leaf(b)) {

@@ -74,7 +74,7 @@ pub(super) fn correct_ends(
     let mut entries: Vec<&Entry> = table.entries.iter().filter(is_end).collect();
     entries.sort_by_key(|entry| entry.name.span);
     if entries.len() > 2 {
-        // Keep a key that has another meaning in this table, such as the `anchor` of a hinge.
+        // Skip a key that has another meaning in this table, such as the `anchor` of a hinge.
         entries.retain(|entry| key_of(&entry.name.text, inner).is_none_or(|key| key.name == between.name));
     }
     let (first, second) = match entries.as_slice() {
@@ -106,8 +106,8 @@ fn end<'a>(node: &Node, context: &'a Context<'_>) -> &'a str {
     }
 }
 
-/// Returns the text of the list `between` if the user has given one end. The other end becomes another body, or a point of the world if
-/// there is no other body.
+/// Returns the text of the list `between` if the user has given only one end. The other end becomes another body, or a point of the world
+/// if there is no other body.
 pub(super) fn with_other_end(node: &Node, context: &Context<'_>) -> Option<String> {
     let (one, name) = match &node.value {
         Value::Array(items) => match items.as_slice() {

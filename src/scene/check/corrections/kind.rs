@@ -128,7 +128,7 @@ pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
     required.peek().is_none() || has_ends || required.any(is_said)
 }
 
-/// Adds the fix for a word that names a kind, such as `type = "sphere"`, to the diagnostics after the first `before`.
+/// Adds the fix for a word that names a kind, such as `type = "sphere"`, to the diagnostics from index `before` on.
 pub(in crate::scene::check) fn correct_word(
     meant: &MeantKind,
     table: &Table,

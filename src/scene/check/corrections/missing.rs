@@ -29,8 +29,8 @@ pub(in crate::scene::check) fn correct_missing(
     inserted(error, text, at, context)
 }
 
-/// Adds a fix to the error for a table that lacks a key for its kind, such as `sphere` in a `shape`. The fix inserts an example of the
-/// kind that has the table's name.
+/// Adds a fix to the error for a table that does not give its kind, such as a `shape` without `sphere` or any other kind. If the table has
+/// the name of a kind, as `[joint.hinge]` has, the fix inserts an example of this kind.
 pub(in crate::scene::check) fn correct_kind(
     error: Diagnostic,
     table: &Table,

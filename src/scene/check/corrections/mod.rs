@@ -33,7 +33,7 @@ pub(super) use self::not_built::is_word_to_come;
 use self::not_built::not_built;
 use crate::scene::grammar::{KeySpec, TableSpec, quoted};
 
-/// Returns the key of a table that has this name in jabuka or in other programs.
+/// Returns the key with this name in the grammar of a table. The name may also be one that other programs use for the key.
 fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static KeySpec> {
     let folded = word.to_lowercase();
     let is_it = |key: &&KeySpec| key.name == folded || key.also.contains(&folded.as_str());

@@ -19,8 +19,8 @@ pub(in crate::scene::check) struct Owner<'a> {
 }
 
 impl Owner<'_> {
-    /// Finds unknown keys of inner tables that are keys of this table, and adds fixes that move them. Changes the diagnostics after the
-    /// first `before`.
+    /// Finds unknown keys of inner tables that are keys of this table, and adds fixes that move them. Changes only the diagnostics from
+    /// index `before` on.
     pub(in crate::scene::check) fn correct_deep(&self, before: usize, context: &mut Context<'_>) {
         for number in before..context.diagnostics.len() {
             let error = &context.diagnostics[number];

@@ -39,7 +39,7 @@ pub(super) fn whole_line(entry: Span, context: &Context<'_>) -> Option<Span> {
     alone.then_some(Span { start, end, ..entry })
 }
 
-/// Returns the span to remove with an entry: its whole line, or in an inline table the entry and one comma.
+/// Returns the span that must be removed to remove an entry: its whole line, or, in an inline table, the entry and one comma.
 pub(super) fn removal(entry: Span, context: &Context<'_>) -> Option<Span> {
     whole_line(entry, context).or_else(|| {
         let text = &context.sources.get(entry.source).text;

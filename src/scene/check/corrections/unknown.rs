@@ -11,8 +11,8 @@ use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::units;
 
-/// Returns the error for an unknown key, with a fix if the correction is clear. Also returns the key of the table that was meant. The key
-/// is `None` if the table has no such key.
+/// Returns the error for an unknown key, with a fix if the correction is clear. Also returns the key that was probably meant. It is `None`
+/// if the table has no such key.
 pub(in crate::scene::check) fn unknown(
     entry: &Entry,
     meant: Option<&MeantKind>,
@@ -64,7 +64,7 @@ pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
     format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }
 
-/// Adds a fix that replaces the unknown key by the path `way`, or that moves its line.
+/// Adds a fix that replaces the unknown key by the path `way`, or that moves its line into the table to which the key belongs.
 fn corrected(
     error: Diagnostic,
     entry: &Entry,
@@ -84,7 +84,7 @@ fn corrected(
                     let text = format!("\n{} = {}", way[1..].join("."), raw(entry.node.span, context));
                     error.fix(line, "").fix(Span { start: end, end, ..line }, text)
                 }
-                // This fix only replaces the key. `mend_word` handles the word that names the shape.
+                // This fix only replaces the key. `correct_word` handles the word that names the shape.
                 (Value::String(_), ..) if way[0] == "shape" => {
                     error.fix(entry.name.span, way.join(".")).fix_is_said()
                 }
@@ -100,8 +100,8 @@ fn corrected(
     }
 }
 
-/// Also converts the value if the key means another measure of the same quantity. For example, a diameter is multiplied by 0.5 to give the
-/// radius.
+/// Extends the fix by a conversion of the value, if the unknown key means another measure of the same quantity. For example, a diameter is
+/// multiplied by 0.5 to give the radius.
 fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     let factor = match &*entry.name.text {
         "diameter" => "0.5",

@@ -8,7 +8,7 @@ use crate::scene::Color;
 use crate::scene::grammar::{Bound, Collection, Kind, unit_of_key};
 use crate::scene::source::{Entry, Node, Value};
 
-/// Adds fixes for a value of a wrong type or length to the diagnostics after the first `before`.
+/// Adds fixes for a value of a wrong type or length to the diagnostics from index `before` on.
 pub(in crate::scene::check) fn correct_value(
     before: usize,
     node: &Node,

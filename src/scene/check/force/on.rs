@@ -9,8 +9,8 @@ use crate::dynamics::BodyId;
 use crate::scene::Emitter;
 
 impl Reader<'_, '_> {
-    /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters without `on`. Springs, dipole
-    /// forces and forces with `between` act on no particles. Electric forces act on charged particles only.
+    /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters if the force has no `on`.
+    /// Springs, dipole forces and forces with `between` act on no particles. Electric forces act on charged particles only.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
         const KINDS: [&str; 10] = [
             "constant",
@@ -52,7 +52,7 @@ impl Reader<'_, '_> {
         on
     }
 
-    /// Returns the bodies in `on`, or all movable bodies without `on`. Warns of fixed bodies in `on`.
+    /// Returns the bodies in `on`, or all movable bodies if the force has no `on`. Warns of fixed bodies in `on`.
     pub(super) fn movable(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let moves = |i: usize| !bodies[i].start.fixed;
@@ -70,7 +70,8 @@ impl Reader<'_, '_> {
         named.into_iter().map(|(body, _)| BodyId::new(body)).collect()
     }
 
-    /// Returns the charged, movable bodies in `on`, or all such bodies without `on`. Warns of uncharged bodies in `on`.
+    /// Returns the charged, movable bodies in `on`, or all such bodies of the scene if the force has no `on`. Warns of uncharged bodies in
+    /// `on`.
     pub(super) fn charged(&mut self, view: &View<'_>) -> Vec<BodyId> {
         let bodies = self.bodies;
         let mut on = self.movable(view);

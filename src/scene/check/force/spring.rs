@@ -65,7 +65,7 @@ impl Reader<'_, '_> {
         );
     }
 
-    /// Warns of a spring between two copies with the same initial location. The rest length would be 0, which is hardly intended.
+    /// Warns of a spring between two copies with the same initial location. The rest length would be 0, which is probably not intended.
     fn copies_apart(&mut self, nodes: [&Node; 2], between: [Anchor; 2]) {
         let bodies = self.bodies;
         let is_copy = |end: &Anchor| {

@@ -26,8 +26,8 @@ use crate::scene::view::View;
 /// The variables that hold the indices of a copy along the first, second and third direction of the pattern.
 pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
 
-/// The maximum cost of all copies with formulas, in units of about ten bytes of memory. This cost takes a few seconds of time, and its
-/// memory fits into a typical computer.
+/// The maximum cost of all copies with formulas, in units of about ten bytes of memory. Copies of this cost take a few seconds to make, and
+/// fit into the memory of a typical computer.
 const MAX_WORK: u64 = 100_000_000;
 
 /// The cost of making one copy, not counting its formulas.
