@@ -1,4 +1,5 @@
-//! Decides which files a command may replace. Protected are the files that the command reads, and those in folders that jabuka manages.
+//! Decides which files a command may replace. The files that the command reads are protected, and so are the files in folders that jabuka
+//! manages.
 //!
 //! A file is identified by its device and inode, so symbolic links, hard links, `..`, and names that differ only in case are recognized as
 //! the same file.
@@ -25,7 +26,7 @@ pub struct ProtectedFiles {
     inputs: Vec<Input>,
     /// The names and identities of the scene's assets, which are copied into the folders of scripts.
     assets: Vec<(String, Option<Identity>)>,
-    /// The folders that the command fills with scripts and images. They may not exist yet.
+    /// The folders that the command fills with scripts and images. They need not exist yet.
     folders: Vec<PathBuf>,
     /// The files that the SDL of a trusted scene reads, by name. Relative names start from the folder of the scripts.
     named: Vec<(FileKind, String)>,

@@ -144,7 +144,8 @@ impl<'a> Run<'a> {
         self.emitter.script(frame)
     }
 
-    /// Returns the script of an image with motion blur. The exposure begins at its frame. `None` if the camera has no motion blur.
+    /// Returns the script of an image with motion blur. The exposure begins at the time of `exposure.frame`. `None` if the camera has no
+    /// motion blur.
     ///
     /// # Errors
     /// If the position of a body cannot be written, a template fails, or the recording cannot be read.

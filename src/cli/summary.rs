@@ -11,8 +11,8 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// The energy drift, relative to the energy of its scale, beyond which the summary suggests `jabuka report`. An energy that joints take is
-/// named beyond the same fraction.
+/// The energy error, as a fraction of the energy that [`EnergyScale`] names, above which the summary suggests `jabuka report`. The summary
+/// also gives the energy that joints take if it exceeds the same fraction.
 const DOUBTFUL: f64 = 0.01;
 
 /// Returns a summary of the written files and of the accuracy of the run. `path` is the path of the scene file.
@@ -86,7 +86,7 @@ fn particles(scene: &Scene) -> String {
     if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }
 }
 
-/// Returns the line with the energy error of a run. `drift` is relative to the energy of `scale`.
+/// Returns the line with the energy error of a run. `drift` is a fraction of the energy that `scale` names.
 pub(super) fn drift(drift: f64, scale: EnergyScale) -> String {
     format!("drift     {} of the {}\n", percent(drift), scale.name())
 }
@@ -100,8 +100,9 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
     format!("how right jabuka report {}{}\n", shell::path(path), set.collect::<String>())
 }
 
-/// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also the largest overlap of bodies
-/// and the largest error of joints, with the energy that they take if it matters. `scale` is the energy that the drift is relative to, J.
+/// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also returns the largest overlap of
+/// bodies, the largest error of joints, and the energy that joints take if it exceeds the fraction [`DOUBTFUL`] of `scale`. `scale` is the
+/// energy to which the energy error is relative, J.
 fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints, taken_by_joints } = totals;
     let taken =

@@ -54,7 +54,7 @@ pub(super) fn report(report: &Report) {
     write(std::io::stderr().lock(), &report.to_text(color));
 }
 
-/// Prints the error of a check that found a protected file, and converts it to a [`Failure`].
+/// If a check found a protected file, prints the error and converts it to a [`Failure`]. Passes on any other result.
 pub(super) fn report_protected<T>(checked: Result<T, CannotOverwrite>) -> Result<T, Failure> {
     checked.map_err(|error| {
         report(&error.report());

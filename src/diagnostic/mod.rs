@@ -137,7 +137,7 @@ impl Report {
         text::render(self, color)
     }
 
-    /// Returns the diagnostics as data for editors. Any format of serde can serialize them.
+    /// Returns the diagnostics as data for editors. They can be serialized in any format that serde supports.
     pub fn to_json(&self) -> Vec<Entry<'_>> {
         json::entries(self)
     }

@@ -7,7 +7,7 @@ const MAX_LENGTH: usize = 64;
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&folded, &candidate.to_lowercase());
-    // As in rustc, a third of the letters may differ, but at least one letter.
+    // As in rustc, up to a third of the letters may differ, or one letter in a word of fewer than three letters.
     let length = word.chars().count();
     let most = (length / 3).max(1);
     let comparable =

@@ -19,7 +19,7 @@ pub struct LibraryMaterial {
     pub pattern: Pattern,
     /// The index of refraction. `None` for an opaque material.
     pub ior: Option<f64>,
-    /// An approximation of the material for pictures without POV-Ray: the preview and exported models.
+    /// An approximation of the material for renderers other than POV-Ray: the preview, and programs that show exported models.
     pub plain: PlainLook,
 }
 

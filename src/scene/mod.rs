@@ -95,8 +95,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The surroundings: ground, sky and fog.
     pub environment: Environment,
-    /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. The number of bodies stands
-    /// for the ground.
+    /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. An index equal to the number
+    /// of bodies means the ground.
     pub pairs: Vec<[usize; 2]>,
     /// The labels in the picture, in the order of the file.
     pub labels: Vec<Label>,
@@ -171,7 +171,7 @@ impl Scene {
         self.warnings.sources.files()
     }
 
-    /// Reads and checks the text of a scene. Without a folder, such a scene cannot include other files of the user.
+    /// Reads and checks the text of a scene. Such a scene has no folder, so it cannot include other files of the user.
     ///
     /// # Errors
     /// All mistakes of the scene with their source positions.

@@ -89,8 +89,8 @@ impl<'a> View<'a> {
         self.node(name).is_some()
     }
 
-    /// Reads a value, or returns the default of the key. Returns `None` if the key takes several kinds of values and the value has another
-    /// kind.
+    /// Reads a value, or returns the default of the key. Returns `None` if the key takes several kinds of values and the function `read`
+    /// does not accept the kind of the value.
     fn read<T>(
         &self,
         name: &str,

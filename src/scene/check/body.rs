@@ -15,8 +15,8 @@ use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, Sim
 
 /// The keys for the initial velocities of a body.
 const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
-/// The keys for the moments of inertia and the constant loads of a body, which have no effect on a body that is fixed or has a given
-/// motion. [`super::effect`] checks the mass.
+/// The keys for the moments of inertia and the constant loads of a body. They have no effect on a body that is fixed or has a given motion.
+/// [`super::effect`] warns of a mass that has no effect.
 const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
 
 /// The parts of the body read before the current one. Copies of a body share these parts.
@@ -203,7 +203,7 @@ fn inertia_of_shape(
 ) -> DVec3 {
     let inertia = shape.inertia(mass);
     let wrong = inertia.to_array().into_iter().find(|moment| !moment.is_finite() || *moment <= 0.0);
-    // Skip a mesh without a volume, which has an error of its own.
+    // Skip a mesh without a volume: another error reports it.
     if let (Some(moment), false, Some(_)) = (wrong, fixed, shape.volume()) {
         let message = format!("the moment of inertia of `{name}` is {}", extreme(moment));
         let error = Diagnostic::error(Code::ImpossibleInertia, message);
@@ -302,8 +302,8 @@ fn material(
         context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
         return None;
     }
-    // Take a palette color for every body, even for one with a material. If a user gives one body a material, the other bodies keep their
-    // colors.
+    // Take a palette color for every body, even for one with a material. Then the other bodies keep their colors when a user gives one body
+    // a material.
     let usual = palette.next(shape);
     if let Some(table) = view.variant("material") {
         let look = super::material::look(&table, root, context);

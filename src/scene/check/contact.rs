@@ -16,8 +16,8 @@ const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
 /// The keys of a body that have an effect only if `simulation.contacts` is set.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
 
-/// The largest initial depth below the ground that counts as a rounding error, relative to the body's size and its largest coordinate. The
-/// dynamics tolerates the same overlap between bodies.
+/// The largest initial depth below the ground that counts as a rounding error, relative to the sum of the body's extent downwards and its
+/// largest coordinate. The dynamics tolerates the same overlap between bodies.
 const BELOW: f64 = 1e-9;
 
 /// Reads the contact law from `simulation.contacts`. `None` if the scene has no contacts.

@@ -1,7 +1,7 @@
 //! Replaces the formulas in a scene's tree by their values.
 //!
-//! Where the grammar expects a number, a string is a formula. The computed value keeps the source span of the string, so later code
-//! handles numbers only. A formula with an error is reported and becomes [`Value::Invalid`].
+//! Where the grammar expects a number, a string is a formula. The computed number replaces the string and keeps its source span, so later
+//! code handles numbers only. A formula with an error is reported and becomes [`Value::Invalid`].
 
 mod corrections;
 mod defaults;

@@ -32,8 +32,8 @@ impl Constants {
 }
 
 impl Resolved {
-    /// Returns the same formula with its constants as inputs, placed after the inputs for the variables, and without unused
-    /// subexpressions. The result has the same bits, because instructions on constants and on inputs do the same arithmetic.
+    /// Returns the same formula with its constants as inputs, placed after the inputs for the variables, and without unused subexpressions.
+    /// The values of both formulas have the same bits, because instructions on constants and on inputs do the same arithmetic.
     ///
     /// Small whole exponents stay constants, because each of them is computed by its own sequence of products.
     pub fn lifted(&self, constants: &mut Constants) -> Resolved {

@@ -75,8 +75,8 @@ impl Formula {
         &self.text
     }
 
-    /// Iterates over the variables and constants that the formula names, with their byte ranges. Repeated names are repeated; functions
-    /// are not included.
+    /// Iterates over the variables and constants that the formula names, with their byte ranges. A name that occurs several times is
+    /// returned several times. Functions are not included.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
         self.nodes.iter().filter_map(|node| match &node.part {
             Part::Name(range) => Some((&self.text[range.clone()], range.clone())),

@@ -10,8 +10,8 @@ use super::operation::{Binary, Ternary, Unary, whole_exponent, whole_power};
 use super::parser::Id;
 use super::resolve::{Resolved, Value};
 
-/// The number of lanes: sets of inputs that are evaluated at once. With 64 lanes, the columns of most formulas fit into the first-level
-/// cache.
+/// The maximum number of lanes. A lane is one set of inputs; a program evaluates all lanes at once. With 64 lanes, the columns of most
+/// formulas fit into the first-level cache.
 pub(in crate::scene) const LANES: usize = 64;
 
 pub(in crate::scene) type Column = [f64; LANES];

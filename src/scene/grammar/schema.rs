@@ -11,7 +11,7 @@ use crate::scene::color::NAMES;
 
 /// Returns a JSON Schema (draft 7) of scenes.
 ///
-/// The schema checks each key and value alone. Whether keys fit together and names exist is known only to the check of a scene.
+/// The schema checks each key and value alone. Only the check of a scene finds out whether keys fit together and whether names exist.
 pub fn schema() -> Value {
     let mut schema = table(&SCENE, RequireKeys::No);
     // A table may lack a required key if `[defaults]` or an included file provides it. Required keys are checked only in a scene without

@@ -15,10 +15,10 @@ const MOST_PIXELS: u64 = 1 << 22;
 
 /// Reads a PNG image, with 8 or 16 bits per channel, as a surface of the given size, m. Black is height 0 and white is height `size.y`.
 /// Each pixel gives a vertex, and each square of four neighboring pixels gives two triangles, so the surface keeps the full resolution of
-/// the image. A color counts by its luma (Rec. 709). Transparency is ignored.
+/// the image. The height at a colored pixel is given by the luma of its color (Rec. 709). Transparency is ignored.
 ///
 /// POV-Ray's own height fields take less memory, but interpret colors, gamma and the edge of the image differently. With triangles, the
-/// image, the camera and the ground use the same surface.
+/// rendered image shows the same surface from which jabuka computes the camera and the ground.
 pub(in crate::scene) fn heightfield(path: &Path, size: DVec3) -> Result<Mesh, MeshError> {
     let image = read(path)?;
     let [width, depth] = [image.width, image.levels.len() / image.width];

@@ -74,8 +74,8 @@ fn as_expected(line: &mut Vec<u8>, place: Place, closed: &mut bool) {
     }
 }
 
-/// A binary STL file that is read with a 0 as its first byte. The crate would read a file that begins with `solid` as text. It ignores the
-/// first bytes otherwise.
+/// A binary STL file that is read with a 0 as its first byte. The crate would read a file that begins with `solid` as text. Apart from
+/// that, the crate ignores the first bytes.
 struct Binary(File);
 
 impl Read for Binary {

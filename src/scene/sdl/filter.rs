@@ -102,7 +102,7 @@ pub fn refusals(text: &str, place: Where, is_asset: impl Fn(&str) -> bool) -> (V
     (first(filter.refusals), filter.includes)
 }
 
-/// Sorts the refused words by their positions in the text, and keeps the first [`MAX_REFUSALS`].
+/// Sorts the refusals by their positions in the text, and keeps the first [`MAX_REFUSALS`].
 fn first(mut refusals: Vec<Refusal>) -> Vec<Refusal> {
     refusals.sort_by_key(|refusal| refusal.range.start);
     refusals.truncate(MAX_REFUSALS);

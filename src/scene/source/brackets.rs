@@ -1,8 +1,8 @@
 //! Finds errors in brackets, quotes and dotted keys that the TOML parser does not report well.
 //!
-//! The parser accepts TOML 1.1, whose additions most editors do not support yet, so they are refused. If a bracket is never closed, the
-//! parser reads on to the end of the file and reports many lines; the only useful position is that of the bracket. The parser also refuses
-//! a key with too many parts, but does not report its position.
+//! The parser accepts TOML 1.1. This module refuses what TOML 1.1 adds to TOML 1.0, because most editors do not support it yet. If a
+//! bracket is never closed, the parser reads on to the end of the file and reports many lines; the only useful position is that of the
+//! bracket. The parser also refuses a key with too many parts, but does not report its position.
 
 use toml_parser::decoder::Encoding;
 use toml_parser::parser::{Event, EventKind, RecursionGuard, parse_document};

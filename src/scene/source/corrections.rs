@@ -250,7 +250,7 @@ fn no_source() -> crate::diagnostic::SourceId {
     Sources::default().add("", "")
 }
 
-/// Rewrites a YAML scalar or list as TOML. `key` is the last part of its key.
+/// Rewrites a YAML scalar or list as TOML. `key` is the last part of the dotted key that has this value.
 pub(super) fn scalar(raw: &str, key: &str) -> Option<String> {
     value(raw, key).map(|(text, _)| text)
 }

@@ -49,7 +49,7 @@ pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     Some(format!("[{point}, {point}]"))
 }
 
-/// Corrects a hinge or a slider with a `stiffness` of its own: moves the stiffness and the damping into the joint's motor.
+/// Corrects a hinge or a slider with a `stiffness` of its own: moves the stiffness and the damping into a new `motor` of the joint.
 pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let motor = spec.key("motor").filter(|motor| table.get(motor.name).is_none())?;
     let [value, _] = values(motor.kind.table()?)?;

@@ -78,7 +78,7 @@ pub(super) fn joined(
     Some(KeyGroup { error, spans: entries.iter().map(|entry| entry.name.span).collect(), key })
 }
 
-/// Corrects the speed and the launch angle of a body to its `velocity`.
+/// Replaces the speed and the launch angle of a body by the key `velocity`.
 fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let key = spec.key("velocity").filter(|_| spec.key("angular_velocity").is_some())?.name;
     if table.get(key).is_some() {
@@ -113,7 +113,7 @@ fn components(
     joined(&entries, key, &format!("`{key}` is a list"), line, path, context)
 }
 
-/// Corrects the `width` and the `height` of images to their `size`.
+/// Replaces the `width` and the `height` of images by the key `size`.
 fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     let key = spec.key("size").filter(|_| spec.key("layout").is_some())?.name;
     let (width, height) = (table.get("width")?, table.get("height")?);
@@ -181,7 +181,7 @@ fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
     is_value.then(|| raw(entry.node.span, context).to_owned())
 }
 
-/// Corrects a drag coefficient, an area and a density of the air to the key `quadratic` of a drag force.
+/// Replaces a drag coefficient, an area and a density of the air by the key `quadratic` of a drag force.
 fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
     const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
     const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];

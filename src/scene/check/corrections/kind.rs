@@ -1,4 +1,5 @@
-//! Guesses the kind of a shape, a force or a joint, such as `sphere`, if its keys stand outside of the table for this kind.
+//! Guesses the kind of a shape, a force or a joint, such as `sphere`, if the keys of the kind, such as `radius`, stand outside of the
+//! kind's table.
 
 use super::super::Context;
 use super::ends::is_end;

@@ -62,7 +62,8 @@ pub(super) fn as_table(
     }
 }
 
-/// Returns the TOML text of the entry that a word stands for: a choice, a color, a number with its unit, or a switch.
+/// Returns the TOML text of the entry that a user probably meant by a single word. The word is a choice, a color, a number with its unit,
+/// or the name of a switch.
 fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
     let find = |is: &dyn Fn(&KeySpec) -> bool| spec.keys.iter().find(|key| is(key));
     let is_choice = |key: &KeySpec| matches!(key.kind, Kind::Choice(words) if words().contains(&word));

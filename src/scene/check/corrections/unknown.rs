@@ -132,8 +132,8 @@ fn rescaled(error: Diagnostic, entry: &Entry) -> Diagnostic {
     }
 }
 
-/// Adds edits for other keys that the user meant for the same kind, such as `count` for a ring, although these keys are valid in the table
-/// itself.
+/// Adds to the fix edits of further keys that the user probably meant for the same kind, such as the `count` of a ring. No error reports
+/// these keys, because they are also valid in the table itself.
 fn beside(
     error: Diagnostic,
     meant: Option<&MeantKind>,

@@ -120,8 +120,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Returns sample points around the initial locations of the bodies, with zero velocity. Adds several times if the force depends on
-    /// time. The coordinates are not round numbers, at which a wrong formula might be right by chance.
+    /// Returns sample points around the initial locations of the bodies, with zero velocity. If the force depends on time, the list
+    /// contains each point at several times. The coordinates are not round numbers, at which a wrong formula might be right by chance.
     fn places(&self, law: &FormulaLaw, on: &[BodyId]) -> Vec<Quantities> {
         /// The direction and the length of the offset from the body to each sample point. Lengths are relative to the body's distance from
         /// the origin.
