@@ -6,8 +6,8 @@
 //! | --- | --- | --- |
 //! | [`scene`] | text → checked [`Scene`] | the scene language; reports every error at its position |
 //! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
-//! | [`simulate`] | scene → world → frames | the only place where a scene meets a world |
-//! | [`report`] | scene → accuracy of its run | how runs are compared; nothing that draws scenes |
+//! | [`simulate`] | scene → world → frames | how a scene becomes a world of bodies and forces |
+//! | [`report`] | scene → accuracy of its run | how runs are compared; nothing about drawing |
 //! | [`picture`] | frames → contents of their pictures | camera, lights, arrows, texts, in meters; no renderer |
 //! | [`emit`] | frames → scripts | POV-Ray's language; no forces and no integrators |
 //! | [`output`] | scripts → files | file names; complete files even if the process is killed |

@@ -104,8 +104,7 @@ pub struct Arrow {
 /// The body axes as they are drawn on a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyAxes {
-    /// The length of each drawn axis, m. `None` for twice the largest distance from the center to which the drawn body extends along an
-    /// axis.
+    /// The length of each drawn axis, m. `None` for twice the largest extent of the drawn body from its center along one of the axes.
     pub length: Option<f64>,
 }
 

@@ -21,7 +21,7 @@ pub(in crate::scene) struct View<'a> {
     table: Option<&'a Table>,
 }
 
-/// A named table, such as `[body.ball]`. If it is a copy made by `repeat`, its table is only made when it is read.
+/// A named table, such as `[body.ball]`. The table of a copy made by `repeat` is rebuilt only when it is read.
 #[derive(Clone, Copy)]
 pub(super) struct NamedTable<'a> {
     spec: &'static TableSpec,
@@ -38,7 +38,7 @@ impl<'a> NamedTable<'a> {
         self.entry.name.span
     }
 
-    /// Makes the table if it is a copy, and calls `work` with a view of the table.
+    /// Rebuilds the table if it belongs to a copy, and calls `work` with a view of the table.
     pub(super) fn look<T>(self, work: impl FnOnce(&View<'_>) -> T) -> T {
         let table = self.entry.node.table();
         work(&View { spec: self.spec, table: table.as_deref() })

@@ -1,4 +1,4 @@
-//! Reads `povray.assets`, the list of files in the scene's folder that the scene's raw SDL reads.
+//! Reads `povray.assets`, the list of files in the scene's folder that the scene's raw SDL (POV-Ray code) reads.
 
 use std::path::{Component, Path};
 

@@ -1,4 +1,5 @@
-//! Reports unmatched braces in raw SDL. POV-Ray would report them far from the cause, in the script around the SDL.
+//! Reports unmatched braces in raw SDL, the POV-Ray code of a scene. POV-Ray would report them far from the cause, in the script around the
+//! SDL.
 
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::sdl::{Token, Tokens};

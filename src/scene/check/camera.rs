@@ -49,7 +49,7 @@ fn camera(
 ) -> Camera {
     let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
     let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
-    // Takes the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
+    // Take the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
     let of = |key: &str| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
     for key in ["location", "look_at", "angle"] {
         motion::finite(tables[0].raw(key), simulation, context);
@@ -147,8 +147,8 @@ fn nobody(
     }
 }
 
-/// Returns the error for a shutter that is still open when the next frame begins. `None` if the shutter closes in time. `open` is in
-/// seconds.
+/// Returns the error for a shutter that is still open when the next frame begins. `None` if the shutter closes in time. `open` is the time
+/// for which the shutter is open, s.
 fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
     // The relative tolerance for a rounded number: at 30 frames per second, a user may write the interval as 0.0333 s.
     const TOLERANCE: f64 = 0.01;

@@ -44,8 +44,8 @@ impl Counts {
         self.frames() > MAX_FRAMES || self.steps() > MAX_STEPS
     }
 
-    /// Returns a suitable timestep, s: a hundredth of the shortest time scale of the initial state, but at most one frame. Without a time
-    /// scale, the timestep is a tenth of a frame.
+    /// Returns a suitable timestep, s: a hundredth of the shortest time scale of the initial state, but at most the time from one frame to
+    /// the next. If there is no time scale, the timestep is a tenth of that time.
     fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
         let shortest = shortest_time(bodies, forces);
         let step = if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 / self.frame_rate };

@@ -11,7 +11,8 @@ use crate::scene::source::Table;
 /// Reads the bounding radius and the orientation of bodies before the check. Reads each mesh file only once.
 pub(super) struct BodyReader<'a> {
     context: Context<'a>,
-    /// The shape table of the body read before, and the bounding radius of that shape. Copies share the shape table.
+    /// The shape table of the body read before, and the bounding radius of that shape. Copies of a body share one shape table, so its
+    /// radius is computed only once.
     last: Option<(Option<Table>, Option<f64>)>,
 }
 

@@ -89,7 +89,7 @@ struct Context<'a> {
     meshes: mesh::Meshes,
     /// The files that the scene's raw SDL may name.
     assets: sdl::Assets,
-    /// The files that trusted raw SDL names, each with its kind.
+    /// The kind and the name of each file that is named in trusted raw SDL.
     reads: Vec<(FileKind, String)>,
     diagnostics: Vec<Diagnostic>,
     /// All source texts of the scene. Spans of diagnostics point into these texts.

@@ -125,7 +125,7 @@ fn included(name: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-/// Adds the files that trusted SDL names to `reads`. Warns of file names that POV-Ray computes.
+/// Finds the files that are named in trusted SDL, and adds them to `reads`. Warns of file names that POV-Ray computes.
 fn trusted(text: &str, span: Span, context: &mut Context<'_>) {
     let mut is_computed = false;
     for file in files(text) {

@@ -33,7 +33,7 @@ pub(super) fn choose_step(
     (SimulationSettings { step, ..simulation }, Counts { step, ..counts })
 }
 
-/// Reports integrators and rolling friction, which time stepping does not support, and warns of nearly elastic surfaces.
+/// Reports rolling friction and all integrators that time stepping does not support, and warns of nearly elastic surfaces.
 pub(super) fn check(
     root: &View<'_>,
     simulation: &SimulationSettings,

@@ -74,7 +74,8 @@ impl Groups {
         self.bodies.get(original).is_some_and(|group| !group.is_known)
     }
 
-    /// Returns the names of the first and the last copy of a repeated body or joint. `name` is its own name or that of any copy.
+    /// Returns the names of the first and the last copy of a repeated body or joint. `name` is the name of the body or joint itself, or
+    /// that of any copy.
     pub(in crate::scene) fn ends(&self, of: Collection, name: &str) -> Option<[String; 2]> {
         let original = split(name).map_or(name, |(original, _)| original);
         let counts = self.counts(of, original)?;

@@ -227,7 +227,7 @@ impl Expander<'_> {
         }
     }
 
-    /// Expands each item of a list by `look`. If an item becomes invalid after a reported error, the whole list becomes
+    /// Expands each item of a list with the function `look`. If an item becomes invalid after a reported error, the whole list becomes
     /// [`Value::Invalid`].
     fn items(&mut self, node: &mut Node, look: impl Fn(&mut Self, &mut Node)) {
         let Value::Array(items) = &mut node.value else { return };

@@ -11,7 +11,7 @@ use super::parser::{Formula, Id, Part};
 use super::scope::{Binding, Scope};
 use crate::scene::units;
 
-/// The distribution of the random number that one `uniform` or `normal` in a formula needs.
+/// The distribution of a random number in a formula: uniform or normal.
 ///
 /// A formula draws no random numbers by itself. The caller passes a number for each `uniform` and `normal`, in the order of the text,
 /// after the inputs for the variables.

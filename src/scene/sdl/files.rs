@@ -70,7 +70,8 @@ pub(super) fn file<'a>(
         "sys" if before == Some(Token::Word("charset")) => None,
         _ if FILE_TYPES.contains(&word) => Some(named(FileKind::Image, range, after)),
         _ if IMAGE_BLOCKS.contains(&word) => match opens(&mut after, '{').then(|| after.clone().next()) {
-            // Either the image is computed by a function, or the image format comes first; the format then reads the file name.
+            // Either a function computes the image, or the keyword of an image format follows. In that case, the call for the format
+            // keyword returns the file name.
             Some(Some((Token::Word(next), _))) if next == "function" || FILE_TYPES.contains(&next) => None,
             Some(_) => Some(named(FileKind::Image, range, after)),
             None => unknown(FileKind::Image),

@@ -34,7 +34,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// Corrects the key `over` of a pulley that gives a single point instead of a list of two points.
+/// Corrects the value of the key `over` of a pulley, if the value is a single point instead of a list of two points.
 pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
     let point = match &node.value {
         Value::Array(items) => match items.as_slice() {
@@ -66,7 +66,7 @@ pub(super) fn spring(table: &Table, spec: &TableSpec, path: &str, context: &Cont
     joined(&entries, motor.name, &label, line + " }", path, context)
 }
 
-/// Returns the two keys of a motor that give its target: the angle or position, which a motor with a stiffness drives to, and the speed.
+/// Returns the two keys that can give the target of a motor: the key `angle` or `position`, and the key `speed`.
 fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     let key = |name: &str| spec.key(name).map(|key| key.name);
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])
@@ -97,7 +97,8 @@ pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diag
     })
 }
 
-/// Finds a joint in `[force.NAME]`, or a force in `[joint.NAME]`. Returns a label with the right table header, and the fix of the header.
+/// Recognizes a joint that stands in `[force.NAME]`, or a force that stands in `[joint.NAME]`. Returns the text of a label that shows the
+/// right table header, and the edit that corrects the header.
 pub(super) fn other_section(
     entry: &Entry,
     table: &Table,

@@ -52,7 +52,7 @@ fn collection(name: &str) -> Option<&'static TableSpec> {
     collections().find(|(key, _)| *key == name).map(|(_, spec)| spec)
 }
 
-/// Corrects a table whose header begins with a kind, such as `[drag]`, `[spring.left]` or `[sphere.ball]`.
+/// Corrects a table whose header begins with a kind of force, joint or shape, such as `[drag]`, `[spring.left]` or `[sphere.ball]`.
 fn of_a_kind(entry: &Entry, context: &Context<'_>) -> Option<(&'static str, Edits)> {
     let (word, table) = (&*entry.name.text, entry.node.as_table()?);
     let is_kind = |spec: &TableSpec| matches!(&spec.rule, Rule::ExactlyOne(kinds) if kinds.contains(&word));

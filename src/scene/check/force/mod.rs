@@ -133,7 +133,7 @@ impl Reader<'_, '_> {
         let softening = view.number("softening").unwrap_or_default();
         let (bodies, against) = self.pairs(view, softening, |_| true);
         let constant = view.number("constant").unwrap_or_default();
-        // With an opening angle of 0, there is no tree: the force is the exact sum over all pairs of bodies.
+        // With an opening angle of 0, no Barnes–Hut tree is used: the force is the exact sum over all pairs of bodies.
         let opening_angle = view.number("opening_angle").filter(|&angle| angle > 0.0);
         ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
     }

@@ -6,8 +6,8 @@ use crate::dynamics::Anchor;
 use crate::scene::check::end;
 use crate::scene::{Body, Joint, JointKind};
 
-/// Sets the initial velocity of each body with zero velocity that a hinge or a ball joint fastens to a fixed body or point. The velocity
-/// is ω × r, where r points from the joint to the body's location.
+/// Sets the initial velocity of each body that has zero velocity and is connected by a hinge or a ball joint to a fixed body or point. The
+/// velocity is ω × r, where ω is the body's angular velocity, and r points from the joint to the body's location.
 pub(in crate::scene::check) fn swing(joints: &[Joint], bodies: &mut [Body]) {
     for joint in joints {
         let between = match &joint.kind {

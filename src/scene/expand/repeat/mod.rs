@@ -38,7 +38,7 @@ pub(super) fn work_of_value(text: &str) -> u64 {
     25 + text.len() as u64
 }
 
-/// Returns the cost of a formula that depends on the time. It is stored as compiled programs for its value and its derivatives.
+/// Returns the cost of a formula that depends on the time. Such a formula is stored as compiled programs for its value and its derivatives.
 pub(super) fn work_of_motion(formula: &TimeFormula) -> u64 {
     100 + 10 * formula.operations()
 }

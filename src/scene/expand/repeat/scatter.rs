@@ -25,7 +25,7 @@ enum Volume {
     Cylinder { radius: f64, height: f64 },
 }
 
-/// The error that the volume has no free place for one of the copies.
+/// The error that one of the copies cannot be placed in the volume.
 pub(super) struct Full {
     /// The number of copies that were placed before the error.
     placed: usize,
@@ -63,8 +63,8 @@ impl Scatter {
         })
     }
 
-    /// Places copies at random. `sizes` are the radii of their bounding spheres, m. Tries random places for each copy until it overlaps no
-    /// earlier copy, so later copies never move earlier ones. `stream` gives each copy its own random stream.
+    /// Places copies at random. `sizes` are the radii of their bounding spheres, m. Tries random places for each copy until the copy
+    /// overlaps no earlier copy. Earlier copies are never moved. `stream` gives each copy its own random stream.
     pub(super) fn places(
         &self,
         sizes: &[Option<f64>],
