@@ -160,8 +160,8 @@ fn of_scripts(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Checks that a film can be made from images of this size (width, height in pixels) and at the frame rate of the scene, if it sets one.
-/// The film is the last step of a job, so errors are reported before the job is written.
+/// Checks that a film can be made from images of this size (width and height in pixels), and at the frame rate `rate` if the scene gives
+/// one. The film is the last step of a job, so errors are reported before the job is written.
 fn check_film(size: [u32; 2], rate: Option<f64>) -> Result<(), Failure> {
     let film = Film::new("film.mp4");
     let check = film.and_then(|film| film.check_size(size).and(rate.map_or(Ok(()), Film::check_rate)));

@@ -65,8 +65,7 @@ impl Products {
         self.film.is_some() || self.sheet.is_some()
     }
 
-    /// Makes the film and the contact sheet from the images of a sequence, of which only every n-th frame may have been rendered (`every`
-    /// is n).
+    /// Makes the film and the contact sheet from the images of a sequence. If only every n-th frame was rendered, `every` is n.
     #[allow(clippy::cast_precision_loss, reason = "numbers of frames are small")]
     pub(super) fn make(
         &self,

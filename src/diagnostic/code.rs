@@ -3,7 +3,8 @@
 /// Defines the enum [`Code`] from pairs of a variant and a name, and embeds the explanation of each code.
 macro_rules! codes {
     ($($variant:ident = $name:literal,)*) => {
-        /// The code of a diagnostic, such as `unknown-key`. Programs recognize an error by its code, and `jabuka explain` explains it.
+        /// The code of a diagnostic, such as `unknown-key`. Programs recognize an error by its code, and `jabuka explain` explains the
+        /// code.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code {
             $(#[doc = concat!("`", $name, "`")] $variant,)*

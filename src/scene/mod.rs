@@ -85,7 +85,7 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// The particle emitters, in the order of the file.
     pub emitters: Vec<Emitter>,
-    /// The materials: first those of the file in its order, then those of single bodies, the library and the palette.
+    /// The materials: first those of `[material.NAME]` in the order of the file, then those of single bodies, the library and the palette.
     pub materials: Vec<Material>,
     /// The main camera, from `[camera]`.
     pub camera: Camera,

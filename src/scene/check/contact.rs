@@ -101,7 +101,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    // A wrong value of `contacts` has its own error, so do not report the keys that need it.
+    // If the value of `contacts` is wrong, another error reports it. Do not also report the keys that need `contacts`.
     if simulation.contacts.is_none() && !table.has("contacts") {
         needed(root, &table, context);
     }

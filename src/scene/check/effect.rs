@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
 use crate::scene::{Body, Force, ForceKind};
 
-/// Warns of masses of fixed bodies that no gravitation acts on, and of charges and magnetic moments that no force acts on.
+/// Warns of the mass of a fixed body on which no gravitation acts, and of a charge or a magnetic moment on which no force acts.
 pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context: &mut Context<'_>) {
     let (mut attracts, mut electric) = (vec![false; bodies.len()], vec![false; bodies.len()]);
     let mut magnetic = vec![false; bodies.len()];

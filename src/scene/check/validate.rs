@@ -305,8 +305,8 @@ fn named(node: &Node, spec: &'static TableSpec, sort: Option<&Entry>, context: &
     }
 }
 
-/// Returns whether a table of a collection lacks its name and holds the values directly, such as `[body] shape.sphere…` instead of
-/// `[body.ball]`.
+/// Returns whether `entry` of a collection's table is a key of a member instead of a named member, such as `shape` directly below the
+/// header `[body]`. Then the header lacks a name, as in `[body.ball]`.
 fn is_unnamed(entry: &Entry, inner: &Table, spec: &TableSpec) -> bool {
     let Some(key) = spec.key(&entry.name.text) else { return false };
     let tables = match &key.kind {

@@ -8,7 +8,7 @@ use crate::scene::expression::Formula;
 use crate::scene::source::{Node, Table, Value};
 use crate::scene::units;
 
-/// A formula that uses the location of a body, which is an error.
+/// A formula that uses the location of a body. Such a formula is an error.
 pub(super) struct OfBody {
     text: String,
     span: Span,
@@ -94,8 +94,8 @@ impl Expander<'_> {
         (is_key && text[at.end..span.start].trim_start().starts_with('=')).then_some((at, motion))
     }
 
-    /// Returns true if a formula uses the location of a body, which is an error. Stores the formula; the error is reported after all
-    /// bodies are expanded, because its suggestion contains their locations.
+    /// Returns true if a formula uses the location of a body, which is an error. Stores the formula; the error is reported after all bodies
+    /// are expanded, because the suggested correction contains the locations of bodies.
     pub(super) fn asks_for_body(&mut self, text: &str, span: Span, is_timed: bool) -> bool {
         let asks = text.contains('.') && members(text).next().is_some();
         if asks && self.reported.insert(span) {

@@ -190,8 +190,9 @@ fn is_many(entry: &Entry, spec: &'static TableSpec) -> bool {
     table.get("repeat").is_some() || misplaced_repeat(table, spec).is_some() || !ends.is_empty()
 }
 
-/// Finds a `repeat` in a table of the force or joint that has no such key, such as `[joint.NAME.rope]`. The validation reports it. Copies
-/// are made as if it were in the right place, so that formulas with the index `i` cause no further errors.
+/// Finds a misplaced `repeat` in an inner table of the force or joint, such as `[joint.NAME.rope]`, which has no such key. The validation
+/// reports the mistake. Copies are made as if the `repeat` were in the right place, so that formulas with the index `i` cause no further
+/// errors.
 fn misplaced_repeat<'t>(table: &'t Table, spec: &'static TableSpec) -> Option<&'t Entry> {
     table.entries.iter().find_map(|entry| match &spec.key(&entry.name.text)?.kind {
         Kind::Table(inner) if inner.key("repeat").is_none() => entry.node.as_table()?.get("repeat"),

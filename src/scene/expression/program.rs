@@ -113,7 +113,7 @@ pub(super) enum Instruction {
     DivS { at: u8 },
     /// Sets the accumulator to `acc / stack[at]`.
     DivAcc { at: u8 },
-    // These instructions change only the accumulator, from its own value or also from stack entries.
+    // These instructions compute a new accumulator from the old one and, for some, from stack entries.
     Negate,
     Square,
     Cube,

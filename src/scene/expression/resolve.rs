@@ -78,7 +78,8 @@ impl Formula {
 }
 
 impl Resolved {
-    /// Returns the random numbers that an evaluation needs, in the order in which they follow the inputs for the variables.
+    /// Returns the distributions of the random numbers that an evaluation needs. The numbers follow the inputs for the variables in this
+    /// order.
     pub fn draws(&self) -> &[Draw] {
         &self.draws
     }

@@ -130,8 +130,8 @@ impl BracketChecker<'_> {
         }
     }
 
-    /// Handles the end of a list or an inline table. The parser gives an empty span for a closing bracket that is missing, which is
-    /// reported as an error.
+    /// Handles the end of a list or an inline table. For a missing closing bracket, the parser gives an empty span. Then the list or table
+    /// is reported as never closed.
     fn close(&mut self, span: toml_parser::Span, noun: &str, bracket: &str) {
         if let (Some(open), true) = (self.open.pop(), span.is_empty()) {
             self.unclosed(open.start..open.start + 1, noun, bracket);

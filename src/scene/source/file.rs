@@ -14,7 +14,7 @@ pub(in crate::scene) fn open(path: &Path, most: u64) -> io::Result<File> {
     accept(&std::fs::metadata(path)?, most)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Another file may have replaced the checked one. If it is a pipe, opening it must not block.
+    // Another file may have replaced the checked file meanwhile. If the new file is a pipe, opening it must not block.
     #[cfg(all(unix, feature = "render"))]
     {
         use std::os::unix::fs::OpenOptionsExt;

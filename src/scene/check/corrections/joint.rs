@@ -72,8 +72,8 @@ fn values(spec: &TableSpec) -> Option<[&'static str; 2]> {
     Some([key("angle").or_else(|| key("position"))?, key("speed")?])
 }
 
-/// Returns the missing line of a motor. The line gives a target value if the motor has a stiffness or a damping, and a speed if the motor
-/// has a maximum torque or force.
+/// Returns the line that is missing in the table of a motor. The line gives a target value if the motor has a stiffness or a damping, and a
+/// speed if the motor has a maximum torque or force.
 pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
     let [value, speed] = values(spec)?;
     let has = |names: [&str; 2]| names.iter().any(|name| table.get(name).is_some());

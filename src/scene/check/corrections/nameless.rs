@@ -132,7 +132,7 @@ fn best(table: &Table) -> Option<&'static str> {
     (count > 0).then_some(name)
 }
 
-/// Adds a fix to the error for a table of a collection that lacks its name, such as `[body]` instead of `[body.ball]`.
+/// Adds a fix to the error for a table that has the key of its collection but no name, such as `[body]` instead of `[body.ball]`.
 pub(in crate::scene::check) fn correct_unnamed(
     error: Diagnostic,
     entry: &Entry,

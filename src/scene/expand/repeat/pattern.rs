@@ -13,7 +13,7 @@ use crate::scene::view::View;
 
 /// The pattern in which the copies of a body are placed.
 pub(super) enum Pattern {
-    /// The number of copies, without a pattern. Each copy is at the location that its formulas of `i` give.
+    /// The number of copies, without a pattern. Formulas with the index `i` give the location of each copy.
     Count(usize),
     Grid {
         counts: Vec<usize>,
