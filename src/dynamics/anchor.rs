@@ -40,8 +40,8 @@ impl Anchor {
         matches!(self, Anchor::Body { at: DVec3::ZERO, .. })
     }
 
-    /// Returns the position of the end, world axes, m. The closure returns the position of a body and its rotation from body axes to world
-    /// axes.
+    /// Returns the position of the end, world axes, m. The closure `pose` returns the position of a body's center of mass (m) and the
+    /// rotation from body axes to world axes.
     #[must_use]
     pub fn place(self, pose: impl FnOnce(BodyId) -> (DVec3, DQuat)) -> DVec3 {
         match self {

@@ -6,8 +6,8 @@ use super::Shape;
 
 /// A rigid body at one moment, as it is added to a [`World`](super::World) and can be read back from it.
 ///
-/// All bodies have the same quantities: a sphere and an axes triad differ only in their inertia. A body without a force has zero force,
-/// and a body at rest has zero velocity.
+/// Bodies of all shapes have the same quantities: a sphere and a set of coordinate axes differ only in their inertia. A body on which no
+/// force acts has zero force, and a body at rest has zero velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidBody {
     /// The mass, kg. A body whose mass is not positive does not move.

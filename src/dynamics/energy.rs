@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(world.balance().drift, 0.0);
     }
 
-    /// If the changes were not booked, the drift would be as large as the energies that they bring in: 0.1 and more.
+    /// If the changes were not booked, the drift would be as large as the energy that each change brings in: at least 0.1.
     #[test]
     fn changes_by_hand_are_not_drift() {
         let mut world = World::new();

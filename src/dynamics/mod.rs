@@ -25,14 +25,14 @@
 //!
 //! # Tutorial
 //!
-//! Two bodies: a sphere and an axes triad. They differ only in their shapes, and so in their inertia. The sphere starts without a force,
-//! which is the same as zero force.
+//! The world has two bodies: a sphere and a set of coordinate axes. They differ only in their shapes, and so in their inertia. The sphere
+//! starts without a force, which is the same as zero force.
 //!
 //! ```
 //! use glam::DVec3;
 //! use jabuka::dynamics::{Method, RigidBody, Shape, World};
 //!
-//! // The closure knows the initial state; the world does not.
+//! // The closure builds a world in its initial state. The world itself does not store this state.
 //! let build = || {
 //!     let mut world = World::new();
 //!     let sphere = RigidBody::new(&Shape::Sphere { radius: 0.5 }, 1.0)
@@ -58,12 +58,12 @@
 //!
 //! let (mut world, sphere, axes) = run();
 //! assert_eq!(world.time(), 2.0);
-//! // x₀ + v t in the first second, with −½ a t² added in the second.
+//! // Without the push, the position would be x₀ + v t. After one second, the push has added −½ a t².
 //! assert!((world.location(sphere) - DVec3::new(24.0, 19.5, 0.0)).length() < 1e-12);
 //! // The axes have rotated by 2 rad about y.
 //! let x_arm = world.orientation(axes) * DVec3::X;
 //! assert!((x_arm.angle_between(DVec3::X) - 2.0).abs() < 1e-9);
-//! // Euler–Cromer's first-order error shows in the energy of the first half.
+//! // The energy error comes from the first second, which Euler–Cromer (a first-order method) computed.
 //! assert!(world.balance().drift.abs() < 1e-2);
 //!
 //! // To reset a world, build it again: the second run equals the first, bit for bit.
@@ -129,8 +129,8 @@ pub trait Dynamics: Send {
     /// Advances to time `t`, s. Afterwards [`time`](Self::time) is exactly `t`. Time cannot go back: a `t` that is not later (or not
     /// finite) changes nothing.
     ///
-    /// `see` receives a snapshot for each of `moments`: times (s) in ascending order, later than now and not later than `t`. They do not
-    /// affect the run: it is the same, bit for bit, without them.
+    /// `see` receives a snapshot for each of `moments`: times (s) in ascending order, later than now and not later than `t`. The moments do
+    /// not affect the run: without them, it is the same, bit for bit.
     ///
     /// # Errors
     /// If the run cannot continue, or if a body's position or velocity at one of the moments is not finite.
@@ -150,8 +150,8 @@ pub trait Dynamics: Send {
     /// Returns the number of integration steps so far.
     fn steps(&self) -> u64;
 
-    /// Returns the current state of the engine as bytes, from which [`resume`](Self::resume) continues with the same bits. `None` if the
-    /// engine cannot save its state. The impacts must have been taken before.
+    /// Returns the current state of the engine as bytes. A run that [`resume`](Self::resume) continues from these bytes is the same, bit
+    /// for bit, as an uninterrupted run. `None` if the engine cannot save its state. [`impacts`](Self::impacts) must be called first.
     fn checkpoint(&mut self) -> Option<Vec<u8>> {
         None
     }

@@ -28,7 +28,7 @@ pub struct Model {
     movable: Vec<bool>,
     /// For each body held at rest, its inverse mass and inverse moments of inertia. They return when the body is released.
     frozen: BTreeMap<usize, (f64, DVec3)>,
-    /// The indices of the bodies that no load moves: fixed, guided, absent, or held at rest.
+    /// The indices of the bodies that no load moves: fixed, absent, held at rest, or with a given motion.
     unmoved: Vec<usize>,
     /// The constants of absent bodies, one entry per body; `None` for present ones. The list ends at the last absent body, to save memory.
     away: Vec<Option<Box<Away>>>,
@@ -126,8 +126,8 @@ impl Model {
         self.focus.as_deref()
     }
 
-    /// Returns true if any force depends on velocities, or does work without a potential. Methods must then evaluate forces at more than
-    /// the positions.
+    /// Returns true if any force depends on velocities, or does work without a potential. Integration methods must then know the
+    /// velocities, not only the positions, when they evaluate forces.
     pub(super) fn depends_on_motion(&self) -> bool {
         !self.torqued.is_empty() || self.forces.iter().any(|force| force.depends_on_motion())
     }
@@ -266,7 +266,7 @@ impl Model {
         self.forces.push(force);
     }
 
-    /// Sets the shape of the first body that has none yet.
+    /// Sets the shape of the first body that has no shape yet.
     pub(super) fn push_shape(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
@@ -289,7 +289,8 @@ impl Model {
         }
     }
 
-    /// Returns the changes of velocity (m/s) and angular velocity (rad/s) of a body by an impulse and its moment about the center of mass.
+    /// Returns the changes of a body's velocity (m/s) and angular velocity (rad/s) that an impulse and its moment about the center of mass
+    /// cause.
     pub(super) fn respond(&self, i: usize, state: &State, (push, moment): (DVec3, DVec3)) -> (DVec3, DVec3) {
         let inverse_mass = self.inverse_mass[i];
         if inverse_mass == 0.0 {

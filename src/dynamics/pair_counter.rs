@@ -1,10 +1,10 @@
-//! A counter of pair interactions, from which progress bars advance within a step.
+//! A counter of pair interactions. It lets progress bars advance within a step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A counter of the computed interactions between pairs of bodies. One evaluation for a hundred thousand bodies takes seconds, so counting
-/// steps would be too coarse for a progress bar. Clones share one counter. A run does not depend on it.
+/// steps would be too coarse for a progress bar. Clones share one counter. The counter does not affect the run.
 #[derive(Clone, Debug, Default)]
 pub struct PairCounter(Arc<AtomicU64>);
 

@@ -15,7 +15,7 @@ pub struct Snapshot {
     pub reactions: Vec<Reaction>,
     /// The lasting contacts of bodies, in the order of the bodies' ids.
     pub contacts: Vec<ContactSnapshot>,
-    /// The largest penetration depth of two bodies, m; 0 if contacts are exact or if there are none.
+    /// The largest penetration depth of two bodies, m; 0 if no bodies touch, or if the engine lets no bodies penetrate each other.
     pub penetration: f64,
     /// The energies, the momenta, and the drift of the energy.
     pub balance: Balance,

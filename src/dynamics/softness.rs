@@ -4,7 +4,8 @@
 /// a quarter is the stiffest stable value.
 pub(super) const STIFFNESS: f64 = 0.25;
 
-/// Returns the longest step (s) with which bodies of a given thickness (m) stand firmly under gravity (m/s²). The step divides 1/240 s.
+/// Returns the longest step (s) with which bodies of a given thickness (m) stand firmly under gravity (m/s²). The step is 1/240 s divided
+/// by a power of two, at most by 32.
 ///
 /// A contact with the natural frequency ω is as soft as a spring of stiffness m ω². Under ten times its own weight, a body may sink in by
 /// 3 % of its thickness.

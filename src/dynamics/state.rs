@@ -13,18 +13,19 @@ pub struct State {
     pub location: Vec<DVec3>,
     /// The velocity of each body's center of mass, world axes, m/s.
     pub velocity: Vec<DVec3>,
-    /// The orientation of each body's principal axes of inertia, as a unit quaternion. It equals the rotation from body axes to world
-    /// axes, except for compounds and meshes. [`World::orientation`](super::World::orientation) is right for all bodies.
+    /// The orientation of each body's principal axes of inertia, as a unit quaternion. It equals the rotation from body axes to world axes,
+    /// except for compounds and meshes. [`World::orientation`](super::World::orientation) returns the rotation from body axes for all
+    /// bodies.
     pub orientation: Vec<DQuat>,
     /// The angular momentum of each body about its center of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,
-    /// The energy that forces without a potential, impacts and motors have brought in so far, J. It is integrated along with the motion,
-    /// so that energy balances to the accuracy of the method.
+    /// The energy that forces without a potential, impacts and motors have brought in so far, J. It is integrated along with the motion, so
+    /// that the error of the energy balance is as small as that of the method.
     pub accounts: Accounts,
 }
 
 /// The energy that forces without a potential, impacts and motors have brought in so far, J; negative if they removed energy. To add an
-/// account, add a field to this struct and to [`NAMES`](Self::NAMES), and extend the two functions that convert arrays.
+/// account, add a field to this struct and to [`NAMES`](Self::NAMES), and extend the two functions that convert to and from arrays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Accounts {
     /// The work of the forces without a potential, J: the integral of their power over time.
@@ -88,7 +89,7 @@ impl Accounts {
         self.to_array().into_iter().sum()
     }
 
-    /// The energy that impacts and friction have taken from the bodies so far, J; negative if they have added energy.
+    /// Returns the energy that impacts and friction have taken from the bodies so far, J; negative if they have added energy.
     #[must_use]
     pub fn taken_by_contacts(self) -> f64 {
         // The subtraction avoids a negative zero.

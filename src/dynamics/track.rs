@@ -269,8 +269,8 @@ mod tests {
         times.map(off).fold(0.0, f64::max)
     }
 
-    /// Halving the interval of the keys divides the error by 2ᵖ. The order p is 2 for linear interpolation, 3 for slopes of parabolas, 4
-    /// for known slopes.
+    /// Halving the time between keys divides the error by 2ᵖ. The order p is 2 for linear interpolation, 3 for slopes of parabolas, 4 for
+    /// known slopes.
     #[test]
     fn it_goes_through_its_keys_and_is_as_accurate_between_as_its_order_says() {
         use Interpolation::{Cubic, Linear};

@@ -50,21 +50,23 @@ pub struct World {
     collider: Option<Collider>,
     /// The bodies held at rest, with their contacts.
     rest: Rest,
-    /// The contacts of bodies in the crowd (the bodies that Moreau's scheme advances). Only filled in the copy of a world from which a
-    /// snapshot is taken.
+    /// The contacts of bodies in the crowd (the bodies that Moreau's scheme advances). Filled only in the copy of the world that is made
+    /// for a snapshot.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
     /// Working memory for the forces and torques at one moment.
     loads: Loads,
     /// The time at which the present step ends, s.
     end: f64,
-    /// True if the modes of all contacts are decided; false after a step in separate groups.
+    /// True if the modes of all contacts (such as sticking or sliding) are decided; false after a step that advanced groups of bodies
+    /// separately.
     is_decided: bool,
-    /// The contact solvers of the groups in the last step, one per group with contacts.
+    /// The contact solvers of the groups of bodies that the last step advanced separately, one per group with contacts.
     parts: Vec<Solver>,
-    /// The number of steps in which all bodies are advanced together, before groups are searched again.
+    /// The number of steps for which all bodies are still advanced together, before the world looks for separate groups again.
     together: u32,
-    /// The state at the start of the present piece of a step, to repeat the piece and to compute moments within it.
+    /// The state at the start of the present piece of a step. The piece is repeated from this state, and the states within it are computed
+    /// from it.
     before: State,
 }
 
@@ -396,7 +398,7 @@ impl Dynamics for World {
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
         let balance = self.balance();
-        // The modes are decided in a copy, because a snapshot must not change the world.
+        // The modes of the contacts are decided in a copy, because a snapshot must not change the world.
         let mut copy = self.decided();
         let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);

@@ -7,9 +7,10 @@ use super::{Force, Loads, Moment};
 
 /// Buoyancy of some bodies in a liquid at rest: F = −ρ V g acts at the centre of the submerged part of a body, whose volume is V.
 ///
-/// The potential is ρ |g| ∫ (level − h) dV over the submerged part: the energy that lifted the displaced liquid to its surface. The force
-/// and its torque about the centre of mass are minus the gradient of this potential. The surface stays flat, and its level stays the same.
-/// Source: Archimedes, *On Floating Bodies* I, prop. 5 and 6; L. D. Landau & E. M. Lifshitz, *Fluid Mechanics*, § 2.
+/// The potential is ρ |g| ∫ (level − h) dV over the submerged part, where h is the height of a point. It is the energy that lifted the
+/// displaced liquid to its surface. The force and its torque about the centre of mass are minus the gradient of this potential. The surface
+/// stays flat, and its level stays the same. Source: Archimedes, *On Floating Bodies* I, prop. 5 and 6; L. D. Landau & E. M. Lifshitz,
+/// *Fluid Mechanics*, § 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Buoyancy {
     /// The bodies that feel the buoyancy, each with its shape. Shapes whose submerged volume cannot be computed feel no force.

@@ -7,9 +7,9 @@ const MOST: f64 = 1_048_576.0;
 /// The bits of a key for each axis. [`MOST`] cells need one bit less; the extra bit leaves room for a border of cells on all sides.
 const BITS: u32 = 21;
 
-/// Points sorted by cells. A cell is a box whose edges are at least as long as the reach, so all points within reach of a point are in its
-/// own cell or in one of the 26 cells around it. The keys of neighbouring cells along x are consecutive, so the points of three such cells
-/// form one range.
+/// Points sorted by cells. A cell is a box whose edges are at least as long as the reach, the largest distance of a pair of near points. So
+/// all points within reach of a point are in the same cell or in one of the 26 cells around it. The keys of neighbouring cells along x are
+/// consecutive, so the points of three such cells form one range.
 ///
 /// Only cells with points take memory, so a single distant point costs nothing. The time is linear in the number of points, because a
 /// radix sort orders the keys.
@@ -75,8 +75,8 @@ impl Cells {
         }
     }
 
-    /// Calls `see` for each sorted point, several times, with ranges of later sorted points: in the point's own row of cells and in the
-    /// four rows ahead. The ranges contain all later points within reach, so each pair of near points occurs exactly once.
+    /// Calls `see` with each sorted point and a range of later sorted points: once for the point's own row of cells, and at most once for
+    /// each of the four rows ahead. The ranges contain all later points within reach, so each pair of near points occurs exactly once.
     pub(super) fn each(&self, mut see: impl FnMut(usize, std::ops::Range<usize>)) {
         let count = self.keys.len();
         // For each of the four rows, the search continues at the position that the previous cell has reached, because cells and their
@@ -106,8 +106,8 @@ impl Cells {
     }
 }
 
-/// Returns the key of the cell at `place`, in units of cell edges. The lowest bits hold x. Cell numbers start at 1, so that all neighbours
-/// of a cell have valid keys.
+/// Returns the key of the cell that contains `place`, a point in units of cell edges. The lowest bits hold x. Cell numbers start at 1, so
+/// that all neighbours of a cell have valid keys.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -149,7 +149,7 @@ impl Force for FormulaForce {
 #[inline]
 pub fn in_a_row(bodies: &[BodyId]) -> Option<Range<usize>> {
     let first = bodies.first()?.index();
-    // This loop has no early exit, because the compiler can vectorise it then.
+    // This loop has no early exit, so that the compiler can vectorise it.
     let off = bodies.iter().zip(first..).fold(0, |off, (body, i)| off | body.index() ^ i);
     (off == 0).then(|| first..first + bodies.len())
 }

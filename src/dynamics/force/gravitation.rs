@@ -23,8 +23,8 @@ pub struct Gravitation {
     /// The opening angle of the Barnes–Hut tree, above 0 and up to 1: the largest ratio of size to distance at which a group of bodies
     /// acts as a whole. With `None`, the forces are summed over all pairs of bodies.
     ///
-    /// The forces of the tree are not exactly opposite, and not exactly the gradient of its potential. So momentum and energy drift by
-    /// about the error of the forces, 4e-4 at an angle of 0.5.
+    /// With a tree, the forces that two bodies exert on each other are not exactly opposite, and the forces are not exactly minus the
+    /// gradient of the potential. So momentum and energy drift by about the relative error of the forces, 4e-4 at an angle of 0.5.
     pub opening_angle: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ impl Gravitation {
         }
     }
 
-    /// Returns the force between all pairs of bodies in a form that trees evaluate, with the opening angle `angle`.
+    /// Returns the gravitation between all pairs of bodies, to be computed by a tree with the opening angle `angle`.
     fn by_tree<'a>(&'a self, angle: f64, moment: &Moment<'a>) -> ByTree<'a> {
         ByTree { pairs: self.of(moment), angle, each: self.interactions(angle) }
     }

@@ -12,10 +12,10 @@ use super::{Force, Loads, Moment};
 /// The Lennard-Jones force between bodies. Any two bodies that are nearer than the cutoff r_c have the potential U(r) = u(r) − u(r_c) with
 /// u = 4ε ((σ/r)¹² − (σ/r)⁶). They repel each other below 2^(1/6) σ, and attract each other beyond that distance.
 ///
-/// The cutoff makes the time linear in the number of bodies. The shift −u(r_c) makes the potential continuous at the cutoff, so that the
-/// energy balances. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. With `smooth`, the force is shifted as well, U(r) =
-/// u(r) − u(r_c) − (r − r_c) u′(r_c), so that integration methods keep their order across the cutoff. Source: M. P. Allen & D. J.
-/// Tildesley, *Computer Simulation of Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
+/// The cutoff makes the computing time linear in the number of bodies. The shift −u(r_c) makes the potential continuous at the cutoff, so
+/// that the energy is conserved. The force still jumps by 0.039 ε/σ at the usual cutoff of 2.5 σ. With `smooth`, the force is shifted as
+/// well, U(r) = u(r) − u(r_c) − (r − r_c) u′(r_c), so that integration methods keep their order across the cutoff. Source: M. P. Allen & D.
+/// J. Tildesley, *Computer Simulation of Liquids*, 2nd ed. (2017), 1.2.1 and 5.2.3 (cells).
 ///
 /// The order in which the forces are summed depends only on the positions of the bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,8 +42,8 @@ struct WorkingMemory {
     force: [Vec<f64>; 3],
 }
 
-/// The present bodies with their properties. `bodies` and `places` hold the first group, then the second; `is_second` and `movable` follow
-/// the order of the cells.
+/// The present bodies with their properties. `bodies` and `places` hold the first group, then the second. `is_second` (true for bodies of
+/// the second group) and `movable` are in the order of the cells.
 #[derive(Debug, Default)]
 struct Sorted {
     bodies: Vec<BodyId>,
@@ -92,8 +92,9 @@ impl LennardJones {
         done
     }
 
-    /// Calls `see` for each two interacting bodies with their indices in the order of cells, the vector from the second to the first (m),
-    /// and its square. `see` returns the force on the first body. Calls `end` with each first body and the sum of these forces.
+    /// Calls `see` for each pair of interacting bodies with their indices in the order of cells, the vector from the second to the first
+    /// (m), and its square. `see` returns the force on the first body. After each range of second bodies, calls `end` with the first body
+    /// and the sum of these forces.
     #[inline]
     fn each_pair<S>(
         &self,

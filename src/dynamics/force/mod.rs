@@ -60,7 +60,7 @@ pub trait Force: Send + Sync {
     /// Constant contributions of fixed bodies are left out.
     fn potential(&self, moment: &Moment) -> f64;
 
-    /// Returns the account for the work of the part without a potential; `None` if there is no such part.
+    /// Returns the account for the work of the force's part without a potential; `None` if there is no such part.
     fn work_account(&self) -> Option<WorkAccount> {
         None
     }

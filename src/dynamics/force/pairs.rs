@@ -7,7 +7,7 @@ use super::{Loads, Moment};
 
 /// The number of bodies in a tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
 const TILE: usize = 128;
-/// The largest number of bodies for which tiles are not used: to copy one tile takes as long as to visit all pairs.
+/// The largest number of bodies for which tiles are not used: for so few bodies, copying a tile takes as long as visiting all pairs.
 const FEW: usize = 16;
 /// The number of interactions that are computed side by side, so that the compiler can vectorise the loop.
 const LANES: usize = 4;
@@ -260,8 +260,8 @@ impl Tile<'_> {
         sum
     }
 
-    /// Returns the sum Σ sᵢ / √(d² + ε²) over the first `bodies` bodies of the tile, where d is the vector from `at` to the body. Pairs of
-    /// bodies that cannot move are left out.
+    /// Returns the sum Σ sᵢ / √(d² + ε²) over the first `bodies` bodies of the tile, where d is the vector from `at` to the body. Pairs in
+    /// which neither body can move are left out; `movable` tells whether the body at `at` can.
     #[inline(always)]
     fn potential_of(&self, at: [f64; 3], movable: bool, bodies: usize, softening: f64) -> f64 {
         let mut lanes = [0.0; LANES];

@@ -194,8 +194,9 @@ mod tests {
         }
     }
 
-    /// The torque must be τ = −∂U/∂φ for rotations φ about each world axis, with the same tolerance as the forces. The end's position is
-    /// compared with the body's frame as well, because an error in the position would change the force and the potential alike.
+    /// The torque must be τ = −∂U/∂φ for rotations φ about each world axis, with the same tolerance as the forces. The position of the
+    /// spring's end is also compared with the pose of its body, because an error in this position would change the force and the potential
+    /// alike.
     #[test]
     fn the_torque_is_minus_the_gradient_of_the_potential_over_turns() {
         const H: f64 = 1e-5;

@@ -161,7 +161,7 @@ fn coefficients(u: f64) -> (f64, f64) {
     let phi = u.sqrt();
     let (sin, cos) = libm::sincos(phi);
     let c = 1.0 / u - (1.0 + cos) / (2.0 * phi * sin);
-    // The subtracted term of c is cot(φ/2) / 2φ. Its derivative by φ is converted to a derivative by u.
+    // The subtracted term of c is cot(φ/2) / 2φ. The derivative of c by φ is converted to a derivative by u.
     let half = libm::sin(0.5 * phi);
     let cot = libm::cos(0.5 * phi) / half;
     let by_phi = -2.0 / (u * phi) + 0.25 / (phi * half * half) + cot / (2.0 * u);

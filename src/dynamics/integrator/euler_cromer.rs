@@ -33,8 +33,8 @@ impl Integrator for EulerCromer {
     }
 
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
-        // With constraints, the velocity that leads to the position at the end of the step differs from the velocity that is kept there.
-        // So `Drift` would give wrong velocities.
+        // With constraints, the velocity that leads to the position at the end of the step differs from the velocity in the state at the
+        // end. So `Drift` would give wrong velocities.
         if system.is_constrained() { Box::new(Hermite::new(system, step)) } else { Box::new(Drift(step)) }
     }
 

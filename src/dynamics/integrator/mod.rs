@@ -24,11 +24,11 @@ pub(super) use splitting::drift_body;
 /// An integration method, which advances the state of bodies. The [`World`](super::World) keeps the time.
 pub trait Integrator: Send {
     /// Advances `state` from time `t` by one step of `dt` seconds. To evaluate forces at a later time, the method must call
-    /// [`System::arrive`] for that time. After the step, the caller places the guided bodies and satisfies the constraints.
+    /// [`System::arrive`] for that time. After the step, the caller places the bodies with a given motion and satisfies the constraints.
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State);
 
-    /// Returns the interpolated motion within the last step. The default uses quintic Hermite polynomials, which suit smooth methods of
-    /// order 2 and higher.
+    /// Returns the interpolated motion within the last step. The default uses quintic Hermite polynomials, which suit methods of order 2
+    /// and higher.
     fn dense<'a>(&self, system: &mut System<'_>, step: Step<'a>) -> Box<dyn DenseOutput + 'a> {
         Box::new(dense::Hermite::new(system, step))
     }
@@ -55,7 +55,7 @@ pub type TakeOver = fn(World, Accuracy) -> Box<dyn Dynamics>;
 pub struct Method {
     /// The name by which a scene selects the method.
     pub name: &'static str,
-    /// The order p of the method: half the step divides the error by 2ᵖ.
+    /// The order p of the method: halving the step divides the error by 2ᵖ.
     pub order: u32,
     /// Whether the method is symplectic. Its energy error then stays bounded over any time.
     pub symplectic: bool,
@@ -92,7 +92,7 @@ impl Method {
         Method::all().find(|method| method.name == name)
     }
 
-    /// Whether the method can only advance planets about a heavy body that nothing but gravitation moves.
+    /// Whether the method can only advance planets about a heavy body, moved by gravitation alone.
     #[must_use]
     pub fn is_planetary(&self) -> bool {
         self.name == frame_independent::WISDOM_HOLMAN.name

@@ -13,10 +13,11 @@ pub(in crate::dynamics) fn rate(orientation: DQuat, angular_velocity: DVec3) -> 
 
 /// Returns the orientation of a body after `dt` seconds of free rotation with the given angular momentum (world axes, kg m²/s).
 ///
-/// With m = Rᵀ L, the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃. Each of the three terms alone rotates the body uniformly about one of
-/// its own axes. A rotation by x for half the time, y half, z, y half, x half is a symmetric splitting: it is of second order, reversible
-/// and symplectic. It does not change L, so L is conserved exactly. Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997)
-/// 5840; Touma & Wisdom, Astron. J. 107 (1994) 1189.
+/// With the angular momentum m = Rᵀ L in body axes, the kinetic energy is m₁²/2I₁ + m₂²/2I₂ + m₃²/2I₃. Each of the three terms alone
+/// rotates the body uniformly about one of its own axes. These rotations are applied about x and y for half the time each, about z for the
+/// whole time, then about y and x for the other half. This splitting is symmetric, so it is of second order and reversible; it is also
+/// symplectic. It does not change L, so L is conserved exactly. Source: Dullweber, Leimkuhler & McLachlan, J. Chem. Phys. 107 (1997) 5840;
+/// Touma & Wisdom, Astron. J. 107 (1994) 1189.
 pub(in crate::dynamics) fn free(
     orientation: DQuat,
     angular_momentum: DVec3,

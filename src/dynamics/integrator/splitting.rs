@@ -36,7 +36,7 @@ pub(super) fn kick_again(model: &Model, [first, later]: [&Loads; 2], dt: f64, st
     }
 }
 
-/// Moves bodies without loads for `dt` seconds: x += v dt, and a free rotation.
+/// Moves the bodies for `dt` seconds as if no loads acted on them: x += v dt, and a free rotation.
 pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
     if let Some(bodies) = model.in_focus() {
         bodies.iter().for_each(|&i| drift_body(model, dt, state, i));
@@ -53,7 +53,7 @@ pub(super) fn drift(model: &Model, dt: f64, state: &mut State) {
     }
 }
 
-/// Moves body `i` without loads for `dt` seconds: x += v dt, and a free rotation.
+/// Moves body `i` for `dt` seconds as if no loads acted on it: x += v dt, and a free rotation.
 pub(in crate::dynamics) fn drift_body(model: &Model, dt: f64, state: &mut State, i: usize) {
     state.location[i] += dt * state.velocity[i];
     let angular_momentum = state.angular_momentum[i];

@@ -1,4 +1,5 @@
-//! Runge–Kutta steps of bodies that nothing can rotate. Only their positions and velocities need the full computation.
+//! Runge–Kutta steps of bodies on which no torque acts. Their angular momenta are constant, so only positions and velocities need the full
+//! computation.
 
 use std::ops::Range;
 
@@ -17,11 +18,12 @@ pub(super) struct Stage {
     pub(super) time: f64,
     /// The weight of the stage's slope in the result of the step.
     pub(super) weight: f64,
-    /// The duration from the start of the step to the next stage, s. The next stage follows from the start along this stage's slope.
+    /// The duration from the start of the step to the next stage, s. The next stage is reached from the start of the step along this
+    /// stage's slope.
     pub(super) next: f64,
 }
 
-/// Advances bodies that nothing can rotate, with working memory for a step. The results have the same bits as those of
+/// Advances bodies on which no torque acts. Holds the working memory for a step. The results have the same bits as those of
 /// [`Slope`](super::runge_kutta::Slope) and [`follow`](super::runge_kutta::follow).
 #[derive(Clone, Default)]
 pub(super) struct Straight {

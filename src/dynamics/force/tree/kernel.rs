@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Moments;
 
-/// The number of positions that are computed side by side, so that the compiler can vectorise the loop.
+/// The number of positions for which sums are computed side by side, so that the compiler can vectorise the loop.
 pub(super) const LANES: usize = 4;
 
 /// One number for each of several positions.
@@ -42,8 +42,9 @@ impl Source {
 /// A quantity that bodies and tree nodes contribute to at given positions: the force or the potential. `d` is the vector from the source
 /// to each position, and `square` is d² + ε².
 ///
-/// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε². This is the Taylor expansion of Σ
-/// m / √(|d − s|² + ε²) up to second order in s. The first order vanishes about the centre of mass.
+/// With the softening ε, a node's potential is ψ = M/R − tr Q / 2R³ + 3 dᵀQd / 2R⁵, where R² = d² + ε². This is the Taylor expansion of Σ m
+/// / √(|d − s|² + ε²) up to second order in s, the position of a mass m relative to the centre of mass. The terms of first order add up to
+/// zero.
 pub(super) trait Kernel {
     /// The type of the quantity at one position.
     type Sum: Copy + Default + Send;
