@@ -133,8 +133,8 @@ impl World {
         shapes.into_iter().for_each(|shape| self.model.push_shape(shape));
     }
 
-    /// Makes a body follow a given motion from now on. The body still acts on other bodies. Its kinetic energy and momentum are not
-    /// counted, and the guide that moves it does work.
+    /// Makes a body follow a given motion from now on. The body still acts on other bodies. The balance leaves out the body's kinetic
+    /// energy and momentum. The work of the body's guide, whatever makes it follow the motion, is added to the accounts.
     pub fn drive(&mut self, body: BodyId, motion: impl Motion + 'static) {
         self.follow(body, Arc::new(motion));
     }

@@ -26,7 +26,7 @@ struct VelocityVerlet {
     end: Loads,
     /// Whether `start` holds the loads at the present state, kept from the end of the last step.
     primed: bool,
-    /// The velocities at the start and in the middle of a step, if constraints change them within the step.
+    /// The velocities at the start (`begin`) and in the middle of a step; used only in steps with constraints.
     begin: Velocities,
     middle: Velocities,
 }

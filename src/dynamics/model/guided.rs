@@ -28,7 +28,7 @@ impl Model {
         self.motions.push((body, motion));
         self.movable[body] = true;
         self.inverse_mass[body] = 0.0;
-        // The inverse moments stay: the angular velocity is computed from them and the angular momentum.
+        // The inverse moments of inertia do not become 0, because the angular velocity is computed from them and the angular momentum.
         self.inverse_inertia[body] =
             self.inertia[body].map(|moment| if moment > 0.0 { 1.0 / moment } else { 0.0 });
     }

@@ -11,7 +11,7 @@ impl Model {
     /// Computes the sums of all forces and torques at `time`, s, and writes them to `loads`. Constraint forces are not included:
     /// [`System::evaluate`](super::super::System::evaluate) adds them.
     ///
-    /// The loads on bodies that do not move are zero, because the support of the body balances them.
+    /// The loads on a body that no load moves are zero, because whatever holds or guides the body balances them.
     pub fn evaluate(&self, time: f64, state: &State, loads: &mut Loads) {
         self.sum(time, state, loads);
         self.bear(state, loads);
@@ -66,11 +66,11 @@ impl Model {
         })
     }
 
-    /// Sets the loads to zero on bodies that no load moves: the support of a fixed body, or the guide of a body with a given motion, bears
-    /// them.
+    /// Sets the loads to zero on bodies that no load moves. The support of a fixed body bears its loads. The guide of a body with a given
+    /// motion, whatever makes it follow this motion, bears its loads and does work.
     pub(in super::super) fn bear(&self, state: &State, loads: &mut Loads) {
         for (i, _) in self.guided() {
-            // The guide of a body makes it follow its given motion. It exerts the opposite loads, so its work has the opposite sign.
+            // The guide exerts loads opposite to those on its body, so the guide's work has the opposite sign.
             let turning = loads.torque[i].dot(self.angular_velocity(i, state));
             loads.power.work -= loads.force[i].dot(state.velocity[i]) + turning;
         }

@@ -44,7 +44,7 @@ impl Compound {
         Compound { parts: parts.into(), volume, inertia, principal_axes }
     }
 
-    /// The parts of the compound, in a frame whose origin is the compound's centre of mass.
+    /// Returns the parts of the compound, in a frame whose origin is the compound's centre of mass.
     #[must_use]
     pub fn parts(&self) -> &[Part] {
         &self.parts

@@ -8,7 +8,7 @@ use super::{Mesh, Shape, cone_base};
 const MAX_STEPS: usize = 300;
 /// A point counts as lying on a surface if its distance is below this fraction of the size of the shape.
 const NEAR: f64 = 1e-12;
-/// The radius of the shafts of an axes triad, as a fraction of the length of an arm.
+/// The radius of the shaft of each arm of [`Shape::Axes`], as a fraction of the arm's length.
 const SHAFT: f64 = 0.03;
 
 impl Shape {

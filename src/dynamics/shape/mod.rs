@@ -93,7 +93,7 @@ pub enum Shape {
     },
 }
 
-/// The largest radius of an arm of an axes triad, as a fraction of the arm's length.
+/// The largest radius of an arm of [`Shape::Axes`], as a fraction of the arm's length.
 const ARM_RADIUS: f64 = 0.078;
 
 impl Shape {
@@ -257,7 +257,7 @@ impl Shape {
     /// thickness is too small.
     #[must_use]
     pub fn half_thickness(&self) -> Option<f64> {
-        // This is the radius of the shafts of an axes triad, as a fraction of an arm's length.
+        // This is the radius of the shaft of each arm of the axes, as a fraction of the arm's length.
         const SHAFT_RADIUS: f64 = 0.03;
         Some(match *self {
             Shape::Sphere { radius } => radius,

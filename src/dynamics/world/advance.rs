@@ -1,4 +1,4 @@
-//! Advancing a world in time: steps, births and deaths of bodies, and moments within steps.
+//! Advancing a world in time: steps, births and deaths of bodies, and snapshots within steps.
 
 use super::super::{Snapshot, State, Step, System};
 use super::World;
@@ -6,7 +6,7 @@ use super::event::Counts;
 use super::picture::picture;
 
 /// An interval that exceeds a whole number of steps by less than this fraction gets no further step. Decimal fractions have rounding
-/// errors, and 0.1 s are ten steps of 0.01 s.
+/// errors, but 0.1 s must still be ten steps of 0.01 s.
 const STEP_TOLERANCE: f64 = 1e-9;
 
 /// Returns the smallest number of equal steps that divide an interval (s), if no step may exceed `longest` (s). At least 1, at most
@@ -116,8 +116,8 @@ impl World {
         if self.calendar.next().is_none_or(|next| next > t) {
             self.advance_evenly(t, moments, see);
         } else if self.model.is_given() {
-            // If all motions are given, intermediate steps are not needed. One step for each birth would make n bodies cost n². A copy of
-            // the world advances to the moments.
+            // If all motions are given, intermediate steps are not needed. With one step for each birth, the time would grow with the
+            // square of the number of bodies. The snapshots are taken from a copy of the world, which advances to each moment.
             let mut copy = None;
             for &moment in moments {
                 let ahead = copy.get_or_insert_with(|| self.clone());
@@ -203,7 +203,7 @@ impl World {
             self.step_from(begin, dt, within, see);
         }
         self.time = t;
-        // Guided bodies are placed at the exact time, without the rounding error of the steps.
+        // Bodies with a given motion are placed for the exact time, without the rounding error of the steps.
         if reached.to_bits() != t.to_bits() {
             self.model.place(t, &mut self.state);
         }

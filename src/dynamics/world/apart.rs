@@ -1,7 +1,8 @@
 //! Steps in which separate groups of bodies are advanced one after another.
 //!
-//! An event ends a piece of a step for all bodies that are advanced together. With many separate contacts, each event would take the time
-//! of all bodies. Bodies without contacts therefore make the step in one piece, and each group with events makes it in its own pieces.
+//! An event ends a piece of a step for all bodies that are advanced together. With many separate contacts, each event would start a new
+//! piece for all of these bodies. Bodies without contacts therefore make the step in one piece, and each group with events makes the step
+//! in its own pieces.
 
 use super::World;
 use crate::dynamics::constraint::Solver;
@@ -11,10 +12,11 @@ use crate::dynamics::{Snapshot, State};
 /// All bodies are advanced together if there are fewer groups than this.
 const GROUPS: usize = 4;
 
-/// The largest number of times that a step is made, each time with larger groups, because bodies of two groups have met.
+/// The largest number of attempts at a step. Each new attempt has larger groups, because bodies of different groups have met in the last
+/// attempt.
 const ATTEMPTS: u32 = 8;
 
-/// After a step with too few groups, all bodies are advanced together for this many steps before groups are searched again.
+/// After a step with too few groups, all bodies are advanced together for this many steps before the world looks for groups again.
 const TOGETHER: u32 = 8;
 
 impl World {
@@ -38,7 +40,7 @@ impl World {
         self.integrator.discontinuity();
         self.fly(t, dt);
         let flown = self.state.clone();
-        // Pairs of bodies from different groups that have met. In the next attempt, they share a group.
+        // Pairs of bodies from different groups that have met. In the next attempt, both bodies of a pair are in the same group.
         let mut met = Vec::new();
         for attempt in 0..ATTEMPTS {
             let Some(collider) = &mut self.collider else { break };
@@ -75,8 +77,8 @@ impl World {
     ///
     /// # Errors
     ///
-    /// If a strong impact may have thrown a body into another group, restores the state. Returns the pairs of bodies that may have met, as
-    /// far as they are known.
+    /// If a strong impact may have thrown a body into another group. The state is then restored, and the error lists the pairs of bodies
+    /// that may have met, as far as they are known.
     fn advance_groups(
         &mut self,
         t: f64,
@@ -137,8 +139,8 @@ impl World {
         Ok(())
     }
 
-    /// Returns a copy of the world in which the modes of all contacts are decided, for snapshots. `None` if they are decided in this
-    /// world.
+    /// Returns a copy of the world in which the modes of all contacts are decided, for snapshots. `None` if they are already decided in
+    /// this world.
     pub(super) fn decided(&self) -> Option<World> {
         let is_crowded = self.collider.as_ref().is_some_and(Collider::is_crowded);
         if self.is_decided && !is_crowded {

@@ -1,5 +1,5 @@
-//! Bodies in the crowd (the bodies that Moreau's scheme advances), because their events would not end within a step or because no
-//! consistent contact forces were found.
+//! The crowd: the bodies that Moreau's scheme advances, because their events would not end within a step, or because no consistent contact
+//! forces were found for them.
 
 use super::World;
 use super::event::Event;
@@ -71,7 +71,7 @@ impl World {
         is_new
     }
 
-    /// Ends Moreau's scheme at the end of a step, unless the bodies stay under it for further steps.
+    /// Takes all bodies out of the crowd at the end of a step, unless they stay in the crowd for further steps.
     pub(super) fn disperse(&mut self, t: f64) {
         let Some(collider) = self.collider.as_mut().filter(|collider| collider.is_crowded()) else { return };
         let places = match collider.end_course(&self.model, t, &mut self.state) {
@@ -114,8 +114,8 @@ mod tests {
     use super::*;
 
     /// A ball in the crowd (the bodies that Moreau's scheme advances) approaches a wall at 1 m/s and hits it within a part of the step. It
-    /// rebounds at that moment, with the speed of Newton's law, and the impact is recorded. Without forces, the result equals the closed
-    /// form to within rounding errors.
+    /// rebounds at that moment, with the speed that Newton's law of restitution gives, and the impact is recorded. Without forces, the
+    /// result equals the closed form to within rounding errors.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {

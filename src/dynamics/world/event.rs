@@ -7,7 +7,8 @@ const CHANGES: u32 = 10_000;
 /// all of them in one step.
 const IMPACTS: u32 = 4_000_000;
 
-/// After this many events at the same instant, Moreau's scheme advances their bodies until the end of the step.
+/// After this many consecutive events at the same instant, or this many consecutive quick mode changes, Moreau's scheme advances their
+/// bodies until the end of the step.
 const STAY: u32 = 10;
 
 /// A mode change counts as quick if the piece before it is shorter than this fraction of the remaining step.
@@ -22,7 +23,7 @@ const AT_ONCE: u32 = 1_000;
 /// An event that ends a piece of a time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Event {
-    /// A constraint row, given by its index, changes its mode: a rope becomes taut, a contact opens, friction begins to slide.
+    /// A constraint row, given by its index, changes its mode: a rope becomes taut, a contact opens, a contact begins to slide.
     Row(usize),
     /// Two bodies, given by their indices, touch.
     Touch([usize; 2]),

@@ -46,7 +46,8 @@ impl World {
         let Self { model, state, before, solver, collider, .. } = self;
         let (first, bodies) =
             collider.as_mut()?.first_touch(model, (before, state), dt, solver.contacts())?;
-        // At `early` the bodies still separate; at `late` they approach. A rebound can be lower than the rounding error of the gap.
+        // At `early` the bodies still separate; at `late` they approach. The rate of the gap tells which is the case. The gap itself
+        // cannot, because a rebound can be lower than the rounding error of the gap.
         let (mut early, mut late, mut length) = (0.0, first, first);
         for _ in 0..TOUCHES {
             self.try_step(t, length);
@@ -161,7 +162,7 @@ impl World {
         }
         self.decide(t);
         if have_changed {
-            // A remaining gap would close within the next step, even if that is very short.
+            // Any remaining gap is closed now, because it would otherwise close within the next step, which may be very short.
             self.solver.close_gaps(&self.model, t, &mut self.state);
         }
         has_struck

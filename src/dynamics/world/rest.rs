@@ -1,7 +1,8 @@
 //! Bodies at rest on each other, which are held in place until something disturbs them.
 //!
-//! As long as its contacts are followed, a heap at rest takes as much time as a falling one. Once all bodies of a group have rested for
-//! some steps, they are held in place: like fixed bodies, but with their weight. A touch or a change of forces releases them.
+//! As long as the contacts of a heap at rest are followed, it takes as much computing time as a falling heap. Once all bodies of a group
+//! have rested for some steps, they are held in place like fixed bodies. Snapshots still show their contact forces. A touch or a change of
+//! forces releases them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use crate::dynamics::{ContactSnapshot, Loads, System};
 const CALM: u32 = 8;
 
 /// A body is at rest if its speed is below this fraction of the largest closing speed so far, or of the typical change of velocity by
-/// forces within a step.
+/// forces within a step, whichever is larger.
 const STILL: f64 = 1e-8;
 
 /// The factor by which a body at rest may move faster if Moreau's scheme has advanced it.
@@ -98,8 +99,9 @@ impl World {
         self.meet_at_rest(t);
     }
 
-    /// Holds groups of bodies that Moreau's scheme brought to rest. Sweeps find their contact forces as well. To decide by events which of
-    /// a heap's many contacts push would take long, and would often fail.
+    /// Creates the held groups of bodies that Moreau's scheme brought to rest. Their contact forces are found by sweeps over the contacts,
+    /// as in this scheme. The event-driven solver would have to decide which of a heap's many contacts push. This would take long, and
+    /// would often fail.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         self.is_decided &= islands.is_empty();
         let make = |bodies: BTreeSet<usize>| {
@@ -114,7 +116,8 @@ impl World {
         islands.into_iter().map(make).collect()
     }
 
-    /// Holds groups of bodies whose contacts are handled by events. Their contact forces are those of the decided modes.
+    /// Creates the held groups of bodies whose contacts are handled by events. Their contact forces follow from the decided modes of the
+    /// contacts.
     fn seen_as_decided(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         if islands.is_empty() {
             return Vec::new();

@@ -5,7 +5,8 @@ use glam::DVec3;
 /// The number of vertices in a block. Consecutive vertices of a file are mostly close to each other.
 const VERTICES_OF_A_BLOCK: usize = 64;
 
-/// The bounding boxes of blocks of consecutive vertices. With these boxes, the search for the farthest vertex visits only a few blocks.
+/// The bounding boxes of blocks of consecutive vertices. With these boxes, the search for the farthest vertex in a direction visits the
+/// vertices of only a few blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blocks(Vec<Around>);
 

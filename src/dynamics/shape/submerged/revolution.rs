@@ -54,9 +54,9 @@ impl Profile {
 
     /// Returns the part of the section below the plane up·p = height.
     ///
-    /// A slice at y is a disk or a ring. The plane leaves all of it, nothing, or a segment. The integral is split where one case changes
-    /// into another. Near these places, it behaves like a power 3/2, so the substitution a + (b − a) τ² (3 − 2τ) makes it smooth in τ. A
-    /// ball or a torus becomes smooth at its ends if an angle replaces y.
+    /// A slice at y is a disk or a ring. The part of a slice below the plane is the whole slice, nothing, or a segment. The integral over y
+    /// is split where one case changes into another. Near these places, the integrand behaves like a power 3/2 of the distance, so the
+    /// substitution a + (b − a) τ² (3 − 2τ) makes it smooth in τ. A ball or a torus becomes smooth at its ends if an angle replaces y.
     pub(super) fn below(&self, up: DVec3, height: f64) -> Submerged {
         let across = (up.x * up.x + up.z * up.z).sqrt();
         let mut ends = [self.span[0]; 6];
