@@ -42,8 +42,8 @@ struct Sweep {
 }
 
 impl Anderson {
-    /// Creates an accelerator from the values before the first sweep. The squared norm of a change is the sum of its squares with these
-    /// weights.
+    /// Creates an accelerator from the values before the first sweep. The squared norm of a change is the sum of its components' squares,
+    /// each times its entry of `weights`.
     pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
         Anderson {
             scale: weights.iter().map(|weight| weight.sqrt()).collect(),

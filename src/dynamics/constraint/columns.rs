@@ -1,4 +1,4 @@
-//! The changes of all bodies' velocities by a unit impulse along each constraint row.
+//! The changes of all bodies' velocities under a unit impulse along each constraint row.
 
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use super::member::Member;
 use super::solver::Solver;
 use super::{Direction, Law};
 
-/// The columns of M⁻¹ Jᵀ, one per constraint row, including the reactions of the joints: the velocity changes by a unit impulse along the
-/// row.
+/// The columns of M⁻¹ Jᵀ, one per constraint row, including the reactions of the joints. A column holds the velocity changes of the bodies
+/// under a unit impulse along its row.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Columns {
     changes: Vec<Change>,
@@ -18,7 +18,7 @@ pub(super) struct Columns {
     weights: Vec<f64>,
 }
 
-/// The velocity change of one body by a unit impulse along a constraint row.
+/// The velocity change of one body under a unit impulse along a constraint row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Change {
     pub(super) member: usize,
@@ -33,8 +33,8 @@ impl Columns {
         self.weights.clear();
     }
 
-    /// Appends the velocity changes of the next constraint row. `weight` is the change of the row's own rate c' by a unit impulse along
-    /// it.
+    /// Appends the velocity changes of the next constraint row. `weight` is the change of the row's own rate c' under a unit impulse along
+    /// this row.
     pub(super) fn push(&mut self, changes: impl Iterator<Item = Change>, weight: f64) {
         let start = self.changes.len();
         self.changes
@@ -43,17 +43,18 @@ impl Columns {
         self.weights.push(weight);
     }
 
-    /// Returns the velocity changes of the bodies by a unit impulse along a constraint row.
+    /// Returns the velocity changes of the bodies under a unit impulse along a constraint row.
     pub(super) fn of(&self, row: usize) -> &[Change] {
         &self.changes[self.rows[row].clone()]
     }
 
-    /// Returns the change of each constraint row's own rate c' by a unit impulse along it, one entry per row; 0 for rows of joints.
+    /// Returns the change of each constraint row's own rate c' under a unit impulse along this row, one entry per row; 0 for rows of
+    /// joints.
     pub(super) fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// Adds the velocity changes by an impulse along a constraint row to the members' velocities.
+    /// Adds the velocity changes under an impulse along a constraint row to the members' velocities.
     #[inline]
     pub(super) fn apply(&self, row: usize, impulse: f64, members: &mut [Member]) {
         for change in self.of(row) {
@@ -64,7 +65,7 @@ impl Columns {
 }
 
 impl Solver {
-    /// Computes the velocity changes by a unit impulse along each constraint row, including the reactions of the joints. The columns of
+    /// Computes the velocity changes under a unit impulse along each constraint row, including the reactions of the joints. The columns of
     /// the joints' own rows stay empty.
     pub(super) fn find_columns(&mut self) {
         let mut columns = std::mem::take(&mut self.columns);
@@ -82,7 +83,7 @@ impl Solver {
         self.columns = columns;
     }
 
-    /// Appends the velocity changes by a unit impulse along a constraint row when joints are active. The reactions of the joints move
+    /// Appends the velocity changes under a unit impulse along a constraint row when joints are active. The reactions of the joints move
     /// other bodies as well.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
@@ -106,7 +107,7 @@ impl Solver {
         columns.push(moved.iter().enumerate().map(change), weight);
     }
 
-    /// Appends the velocity changes by a unit impulse along a constraint row when no joint is active: only the bodies of this row move.
+    /// Appends the velocity changes under a unit impulse along a constraint row when no joint is active: only the bodies of this row move.
     fn push_free_column(&self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let directions = &self.jacobian[structure.directions_of(row)];

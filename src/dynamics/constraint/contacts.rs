@@ -51,8 +51,8 @@ impl Solver {
             && self.contacts.iter().zip(contacts).all(|(own, other)| Arc::ptr_eq(own, other))
     }
 
-    /// Merges the contacts and histories of other solvers into this one. The modes of the constraint rows must then be
-    /// [decided](Self::decide) again.
+    /// Replaces the contacts of this solver by those of other solvers, and merges their histories into its own. The modes of the constraint
+    /// rows must then be [decided](Self::decide) again.
     pub(in crate::dynamics) fn unite(&mut self, parts: &[Solver]) {
         let mut contacts = Vec::new();
         for part in parts {
@@ -97,7 +97,7 @@ impl Solver {
     }
 
     /// Closes the gaps of all contacts, also of those that were open or sliding. Limits of joints are corrected only where they are
-    /// passed.
+    /// exceeded.
     pub(in crate::dynamics) fn close_all(&mut self, model: &Model, t: f64, state: &mut State) {
         if self.is_idle(model) {
             return;

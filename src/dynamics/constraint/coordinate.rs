@@ -39,7 +39,7 @@ impl Coordinate {
         self.zero.is_some()
     }
 
-    /// Returns the coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure returns the snapshot of a body.
+    /// Returns the coordinate and its rate: rad (from −π to π) and rad/s, or m and m/s. The closure `body` returns the snapshot of a body.
     /// Returns `None` while a body of the joint is absent.
     pub fn seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<[f64; 2]> {
         let mut all = [Member::default(); 2];

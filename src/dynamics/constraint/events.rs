@@ -22,7 +22,8 @@ impl Solver {
     }
 
     /// Returns the distance of a state from the next event, in units of the event's tolerance, and the constraint row that causes this
-    /// event. The distance is 1 where a stop (c ≥ 0) just touches, and negative once an event has happened. `loads` is working memory.
+    /// event. For an open inequality c ≥ 0, the distance is 1 at c = 0. It is negative once an event has happened. `loads` is working
+    /// memory.
     pub(in crate::dynamics) fn margin(
         &mut self,
         model: &Model,

@@ -16,7 +16,8 @@ use super::{Law, jacobian};
 /// A slip counts as slow if friction could stop it within this number of steps.
 const SLOWLY: f64 = 2.0;
 
-/// When several contact points share friction by their normal forces, each weight is limited to this factor above or below the mean.
+/// When several contact points share friction in proportion to their normal forces, each weight is limited to this factor above or below
+/// the mean.
 const UNLIKE: f64 = 10.0;
 
 /// Two directions count as nearly equal if the cosine of the angle between them exceeds this value.
@@ -43,8 +44,8 @@ pub(super) struct FrictionPair {
     pub(super) heading: DVec2,
     /// True if the contact has just begun to slide, and its slip velocity is still zero.
     pub(super) is_beginning: bool,
-    /// True if friction can stop the slip within the step. The friction then keeps its direction until the slip ends. Otherwise the slip
-    /// would change its sign endlessly.
+    /// True if friction can stop the slip within [`SLOWLY`] steps. The friction then keeps its direction until the slip ends. If it turned
+    /// with the slip, the slip would change its sign endlessly.
     pub(super) is_slow: bool,
     /// True if the two bodies also touch at other contact points.
     pub(super) is_shared: bool,
@@ -96,8 +97,8 @@ impl FrictionPair {
         grips
     }
 
-    /// Returns true if the friction keeps its previous direction: the bodies touch at several points, friction could reverse the slip
-    /// within a step of `span` seconds, and the slip's direction has hardly changed. Rounding errors of the directions would otherwise
+    /// Returns true if the friction keeps its previous direction: the bodies touch at several points, friction could stop the slip within
+    /// [`SLOWLY`] steps of `span` seconds, and the slip's direction has hardly changed. Rounding errors of the directions would otherwise
     /// grow from step to step.
     fn keeps_heading(&self, slip: DVec2, span: f64) -> bool {
         self.is_shared
@@ -131,8 +132,8 @@ impl Solver {
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             let slip = grip.of(&rates);
             let speed = slip.length();
-            // A contact whose slip begins or ends keeps the friction direction found before, even after the slip has ended. The forces
-            // then stay smooth until the step is repeated up to that moment.
+            // A contact whose slip begins or ends keeps the friction direction found before, even after the slip has ended. The forces then
+            // stay smooth until the step is repeated up to the moment at which the slip begins or ends.
             let goes_on = speed > slow && slip.dot(grip.heading) > 0.0;
             if !grip.is_beginning && !grip.is_slow && !grip.keeps_heading(slip, self.span) {
                 grip.push = if goes_on { -slip / speed } else { -grip.heading };

@@ -138,8 +138,9 @@ impl Island {
 
 impl Solver {
     /// Finds the contact impulses by Gauss–Seidel sweeps over each island, and applies them to the velocities of the members. `unknown`
-    /// holds the initial impulses before the call and the result after it. The rates of contacts may fall to `goals`. Friction is included
-    /// if `with_friction` is true.
+    /// holds the initial impulses before the call and the result after it. `goals` holds one rate per constraint row: the rate of a normal
+    /// row may fall to its goal, and friction drives the rate of a tangent row towards its goal. Friction is included if `with_friction` is
+    /// true.
     pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, tolerance: f64) {
         let mut velocities: Vec<DVec3> =
             self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();

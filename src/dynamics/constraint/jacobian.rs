@@ -100,8 +100,8 @@ pub(super) fn book(rates: impl Iterator<Item = f64>, impulses: &[f64], state: &m
     }
 }
 
-/// Applies the impulses Jᵀ Λ to the bodies. A body with a given motion keeps its velocity; its guide absorbs the impulse, and the work of
-/// this is booked.
+/// Applies the impulses Jᵀ Λ to the bodies. A body with a given motion keeps its velocity: its guide, whatever makes it follow the motion,
+/// absorbs the impulse. The work of the guide is booked.
 pub(super) fn push(
     structure: &Structure,
     jacobian: &[Direction],

@@ -1,4 +1,4 @@
-//! The last contact forces, from which the next sweeps start.
+//! The last contact forces, from which the next Gauss–Seidel sweeps start.
 
 use std::collections::BTreeMap;
 

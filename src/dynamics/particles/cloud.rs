@@ -92,8 +92,8 @@ impl Cloud {
         &self.alive
     }
 
-    /// Returns the time from which a cloud must be computed to be complete at time `t`, s. At this time, the oldest particle is born that
-    /// can still live at `t`.
+    /// Returns the time from which a cloud must be computed to be complete at time `t`, s. The oldest particle that can still live at `t`
+    /// is born at this time.
     #[must_use]
     pub fn needed_from(source: &ParticleSource, t: f64) -> f64 {
         (t - source.longest_life).max(source.births.start)

@@ -1,4 +1,4 @@
-//! The obstacles of particles: bodies, and the ground, that move between two frames.
+//! The obstacles of particles: the ground, and bodies with their motion between two frames of the animation.
 
 use std::sync::Arc;
 
@@ -165,7 +165,7 @@ impl Scenery {
         })
     }
 
-    /// Writes all parts to `found` that may come closer to a box than `within` (m) between the times `begin` and `end` (s).
+    /// Writes to `found` all parts of obstacles that may come closer to a box than `within` (m) between the times `begin` and `end` (s).
     pub(super) fn near(
         &self,
         [low, high]: [DVec3; 2],

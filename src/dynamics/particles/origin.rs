@@ -6,8 +6,8 @@ use super::{Triangles, surface};
 use crate::dynamics::Shape;
 use crate::random::Stream;
 
-/// The region in which particles are born, relative to the centre of mass of the body that carries the source, in body axes. Without such
-/// a body, in world axes. The distribution in a disc, in a box or on a surface is uniform.
+/// The region in which particles are born, relative to the centre of mass of the body that carries the source, in body axes. If no body
+/// carries the source, the region is in world axes. The distribution in a disc, in a box or on a surface is uniform.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
     /// A single point, m.

@@ -13,7 +13,8 @@ pub struct RecordedMotion {
     end: f64,
     from: BodySnapshot,
     to: BodySnapshot,
-    /// The actual rotation relative to a rotation with the constant first angular velocity, world axes: rotation axis times angle, rad.
+    /// The actual rotation of the body, relative to a rotation at the constant angular velocity of `from`. World axes, rotation axis times
+    /// angle, rad.
     rest: DVec3,
 }
 

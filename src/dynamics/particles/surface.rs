@@ -23,8 +23,8 @@ pub fn has_surface(shape: &Shape) -> bool {
     )
 }
 
-/// Draws a random point on the surface of a shape, in the axes of the shape. Returns the point (m) and the unit normal at this point. For
-/// a shape without such a surface, the point is the origin.
+/// Draws a random point on the surface of a shape, in the axes of the shape. Returns the point (m) and the unit normal at this point. If
+/// [`has_surface`] is false for the shape, the point is the origin.
 pub(super) fn place(shape: &Shape, random: &mut Stream) -> (DVec3, DVec3) {
     match *shape {
         Shape::Sphere { radius } => {
