@@ -63,7 +63,7 @@ impl Solver {
             self.settle(model, t, state);
             return;
         }
-        // A violated stop (inequality c ≥ 0) corrects the positions only, not the velocities.
+        // A violated stop (inequality c ≥ 0) is held while positions and velocities are corrected.
         for ((mode, law), row) in self.modes.iter_mut().zip(&self.laws).zip(&self.rows) {
             if *law == Law::Inequality && row.violation < 0.0 {
                 *mode = Mode::Held;
@@ -312,8 +312,8 @@ impl Solver {
     }
 }
 
-/// Returns the number of rounds that update all sticking or starting contacts together, in a problem of `n` constraint rows. Later rounds
-/// change one contact at a time. Large problems get fewer such rounds.
+/// Returns the number of rounds that update all contacts that stick or begin to slide together, in a problem of `n` constraint rows. Later
+/// rounds change one contact at a time. Large problems get fewer such rounds.
 fn together(n: usize) -> usize {
     (3_000 / n.max(1)).clamp(30, 300)
 }

@@ -38,8 +38,8 @@ struct Rebound {
 
 impl Solver {
     /// Applies the impulses of all contacts that close within `part` seconds after `time`. [`prepare_sweeps`](Self::prepare_sweeps) must
-    /// have run before. The rates of stops may fall to `goals`. For a contact that rebounds, this function sets the goal to 0, so its
-    /// bodies approach no further in this substep.
+    /// have run before. The rates of stops (inequalities c ≥ 0) may not fall below their `goals`. For a contact that rebounds, this
+    /// function sets the goal to 0, so its bodies approach no further in this substep.
     pub(in crate::dynamics) fn strike_all(
         &mut self,
         model: &Model,
@@ -81,8 +81,8 @@ impl Solver {
         self.least.get(row).copied().unwrap_or(0.0)
     }
 
-    /// Returns the contacts that close within `part` seconds and fast enough to rebound. A contact does not rebound if the loads would
-    /// undo this within about one more part, unless its restitution is 1.
+    /// Returns the contacts that close within `part` seconds and fast enough to rebound. A contact does not rebound if the loads would undo
+    /// the rebound within about another `part` seconds, unless its restitution is 1.
     fn rebounds(
         &self,
         (model, loads): (&Model, &Loads),

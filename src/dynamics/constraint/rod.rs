@@ -1,4 +1,4 @@
-//! A rod: it keeps the distance of two points constant.
+//! A rod: it keeps the distance between two points constant.
 
 use super::super::Anchor;
 use super::member::End;

@@ -1,4 +1,4 @@
-//! A rope: it keeps the distance of two points from exceeding the rope's length.
+//! A rope: it keeps the distance between two points from exceeding the rope's length.
 
 use super::super::Anchor;
 use super::member::End;

@@ -10,8 +10,8 @@ use super::solver::{FAILURE, Solver};
 /// An equation holds if its error is at most this fraction of its scale: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
 
-/// The largest number of iterations of a projection. Each iteration reduces the error at least by the square of the rotation angle in a
-/// step, so a projection that needs more does not converge.
+/// The largest number of iterations of a projection. Each iteration multiplies the error by at most the square of the rotation angle in a
+/// step. So a projection that needs more iterations does not converge.
 const ITERATIONS: usize = 60;
 
 /// With friction, the projection stops if the remaining error exceeds this fraction of the error in the iteration before.

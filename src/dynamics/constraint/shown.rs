@@ -1,4 +1,4 @@
-//! The contact forces that frames show for bodies advanced by Moreau's scheme.
+//! The contact forces on bodies that Moreau's scheme advances, as snapshots show them.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time starts with the forces found the
-/// time before.
+/// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces
+/// found the time before.
 const ROUNDS: usize = 10;
 
 impl Solver {

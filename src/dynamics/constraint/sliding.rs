@@ -22,7 +22,7 @@ impl Solver {
         }
         self.solve();
         let base = self.unknown.clone();
-        // Each column holds the change of all multipliers λ by a normal force of 1 at one sliding contact.
+        // Each column holds the changes of all multipliers λ under a normal force of 1 at one sliding contact.
         let mut columns = Vec::with_capacity(normals.len());
         for pushed in &pushes {
             let mut push = vec![0.0; base.len()];

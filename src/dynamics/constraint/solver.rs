@@ -76,7 +76,7 @@ pub(in crate::dynamics) struct Solver {
     pub(super) unknown: Vec<f64>,
     /// The smallest impulse of each constraint row, for inequalities (stops) that rebound. Empty if all are 0.
     pub(super) least: Vec<f64>,
-    /// The velocity changes by a unit impulse along each constraint row, which Gauss–Seidel sweeps use.
+    /// The velocity changes of the bodies under a unit impulse along each constraint row. Gauss–Seidel sweeps use them.
     pub(super) columns: Columns,
     /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
     pub(super) warm: LastForces,
@@ -101,7 +101,7 @@ impl Solver {
     /// Discards the layout of the constraints. Must be called whenever bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;
-        // The old constraint rows must not act any more, nor their work be booked.
+        // The old constraint rows must not act any more, and their work must not be booked.
         self.has_modes = false;
         self.modes.clear();
         self.grips.clear();

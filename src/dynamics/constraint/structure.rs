@@ -47,7 +47,7 @@ impl Place {
     }
 }
 
-/// A constraint that shares bodies with another constraint, whose matrix blocks it therefore couples to.
+/// A constraint that shares bodies with another one. The matrix J M⁻¹ Jᵀ therefore has blocks that couple the two constraints.
 #[derive(Clone, Debug)]
 pub(super) struct Neighbour {
     /// The index of the neighboring constraint in the order of elimination.

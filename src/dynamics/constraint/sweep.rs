@@ -46,8 +46,8 @@ impl Solver {
     }
 
     /// Applies the impulses of contacts, limits and motors to the bodies, and books their work. [`prepare_sweeps`](Self::prepare_sweeps)
-    /// must have run at these positions. The rates of stops (inequalities c ≥ 0) may fall to `goals`. Friction reduces slip velocities to
-    /// the `goals` of its constraint rows.
+    /// must have run at these positions. The rates of stops (inequalities c ≥ 0) may not fall below their `goals`. Friction reduces slip
+    /// velocities to the `goals` of its constraint rows.
     pub(in crate::dynamics) fn push_all(
         &mut self,
         model: &Model,
@@ -94,8 +94,8 @@ impl Solver {
     }
 
     /// Returns the target rate of each constraint row for the middle of a time interval: the mean of the present rate and `goals`, the
-    /// target at the end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than
-    /// its goal stops at once.
+    /// target at the end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than its
+    /// goal slows down to the goal at once.
     pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
         let middle = |(row, &goal): (usize, &f64)| {
             let middle = 0.5 * (goal + self.rate_of(row));
@@ -266,7 +266,7 @@ impl Solver {
         (next - before).length() * weight
     }
 
-    /// Returns the absolute change of the next constraint row's rate by a unit impulse along this row.
+    /// Returns the absolute change of the next constraint row's rate under a unit impulse along this row.
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];

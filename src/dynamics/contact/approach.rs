@@ -47,7 +47,7 @@ pub(super) fn places(
     let [a, b] = solids;
     let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
     if !has_one(a, b) && !has_one(b, a) {
-        // No pair of points is closer than the closest points. A pair that seems to be lies on the far side of an edge.
+        // No pair of points is closer than the closest points. A pair that seems closer lies on the far side of an edge.
         let slack = SLACK * a.size().min(b.size());
         let others = touches(a, poses[0], b, poses[1], within);
         let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
@@ -95,7 +95,7 @@ impl Approach<'_> {
                     is_stuck |= is_touched && rate <= self.slight;
                 }
             }
-            // Bodies that touch without approaching, or approach endlessly, are passed in small steps.
+            // If the bodies touch without approaching, or approach endlessly, the search goes on in small time steps.
             time += if is_stuck { safe.max(PART * end) } else { safe };
             if time.is_nan() || time >= end {
                 return None;

@@ -21,7 +21,8 @@ const START: f64 = 0.25;
 /// Two convex parts with at most this many pairs of features are compared without a guess by GJK.
 const FEW: usize = 16;
 
-/// The closest points of two solids, with their gap and normal. For overlapping solids, the points of the smallest separating motion.
+/// The closest points of two solids, with their gap and normal. For overlapping solids, these are the points of deepest penetration: the
+/// smallest motion that separates the solids moves one point onto the other.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct ClosestPoints {
     /// The gap, m. For overlapping solids, it is minus the penetration depth.

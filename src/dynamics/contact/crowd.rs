@@ -1,7 +1,8 @@
 //! The crowd: bodies that have too many contact events in a step, so Moreau's scheme advances them.
 //!
-//! Some bodies hit, grip and release each other too often to follow each event: a chain that falls on a floor, a heap that settles.
-//! Moreau's scheme advances them to the end of the step. If this happens repeatedly, they stay in the crowd for some more steps.
+//! Some bodies hit, grip and release each other so often that it would take too long to follow each event: a chain that falls on a floor, a
+//! heap that settles. Moreau's scheme advances such bodies to the end of the step. Bodies to which this happens repeatedly stay in the
+//! crowd for some more steps.
 
 mod heap;
 mod hits;
@@ -116,7 +117,7 @@ impl Collider {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Returns true if all bodies of the crowd (the bodies that Moreau's scheme advances) remain so for the next step. `places` are the
+    /// Returns true if all bodies of the crowd (the bodies that Moreau's scheme advances) remain in it for the next step. `places` are the
     /// contacts of the crowd.
     pub(in crate::dynamics) fn crowd_stays(&self, places: &[Arc<LastingContact>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
@@ -208,7 +209,7 @@ impl Collider {
 
     /// Updates the crowd (the bodies that Moreau's scheme advances) at the beginning of a step of `dt` seconds. Counts down the further
     /// steps of the bodies being advanced, drops bodies in free flight, and adds bodies that touch the remaining ones or may hit them.
-    /// Returns true if the crowd has more bodies than remained.
+    /// Returns true if bodies were added to the remaining ones.
     pub(in crate::dynamics) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
