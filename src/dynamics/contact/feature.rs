@@ -11,8 +11,8 @@ pub(super) struct Feature {
     pub(super) patch: Patch,
     pub(super) outline: Outline,
     pub(super) normals: Normals,
-    /// True for an edge or a corner between the triangles of a mesh that is flat or concave. A face is always nearer there, so such a
-    /// feature makes no contact.
+    /// True for a flat or concave edge or corner between the triangles of a mesh. A face is always nearer there, so such a feature makes no
+    /// contact.
     pub(super) is_seam: bool,
 }
 
@@ -46,7 +46,7 @@ pub(super) enum Normals {
 }
 
 impl Feature {
-    /// Creates a feature that can make contacts, unlike a seam: a flat or concave edge between triangles.
+    /// Creates a feature that can make contacts. A seam (a flat or concave edge or corner between triangles) cannot.
     pub(super) fn new(patch: Patch, outline: Outline, normals: Normals) -> Feature {
         Feature { patch, outline, normals, is_seam: false }
     }
@@ -76,8 +76,8 @@ impl Feature {
         }
     }
 
-    /// Returns true if a point of the convex part's core lies below the feature by the rounding `radius` of the part, within `tolerance`,
-    /// m.
+    /// Returns true if a point of the convex part's core lies below the feature at a depth equal to the rounding `radius` of the part,
+    /// within `tolerance`, m.
     pub(super) fn is_near(&self, place: DVec3, radius: f64, tolerance: f64) -> bool {
         let point = Patch::Point { at: place, radius: 0.0 };
         let found = meet_placed(&point, &self.patch);

@@ -13,8 +13,8 @@ use super::lasting_contact::LastingContact;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
-/// Two bodies belong to the same group if they could meet by moving this many times their free distance. The margin is needed because
-/// impacts can make bodies faster.
+/// Two bodies belong to the same group if they could meet by moving this many times as far as they move in the step without impacts. The
+/// margin is needed because impacts can make bodies faster.
 const GENEROUS: f64 = 2.0;
 
 /// A group of bodies that may meet each other within a step, but no movable body of another group.
@@ -64,8 +64,8 @@ impl Sets {
 }
 
 impl Collider {
-    /// Divides the bodies into groups for a step of `duration` seconds. `after` is the end of the step without any impacts. `held` are
-    /// sets of bodies that are held at rest together. The pairs in `met` share a group in any case.
+    /// Divides the bodies into groups for a step of `duration` seconds. `after` is the end of the step without any impacts. `held` are sets
+    /// of bodies that are held at rest together. The two bodies of each pair in `met` are in the same group in any case.
     pub(in crate::dynamics) fn part<'a>(
         &mut self,
         model: &Model,
@@ -179,8 +179,8 @@ impl Collider {
     ///
     /// # Errors
     ///
-    /// If bodies of two groups may have met, restores the collider so that the step can be repeated. Returns the pairs that may have met,
-    /// as far as they are known.
+    /// If bodies of two groups may have met. The collider is then restored so that the step can be repeated, and the error lists the pairs
+    /// that may have met, as far as they are known.
     pub(in crate::dynamics) fn unite(
         &mut self,
         model: &Model,

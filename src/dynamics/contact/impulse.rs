@@ -1,9 +1,9 @@
 //! The impulses of one impact between two bodies: Newton's restitution and Coulomb's friction at all contact points.
 //!
 //! With W = J M⁻¹ Jᵀ, where J is the Jacobian of the contact points along their normals and tangents, the velocities after the impact are
-//! u⁺ = u⁻ + W Λ. Where Λₙ > 0, uₙ⁺ = −e uₙ⁻, and |Λₜ| ≤ μ Λₙ against the remaining slip. Sources: F. Pfeiffer & C. Glocker, *Multibody
-//! Dynamics with Unilateral Contacts* (1996), chapter 8; for the sweeps, J. J. Moreau, *Unilateral contact and dry friction in finite
-//! freedom dynamics* (1988), section 13.
+//! u⁺ = u⁻ + W Λ. Where Λₙ > 0, uₙ⁺ = −e uₙ⁻. The friction impulse Λₜ opposes the remaining slip, with |Λₜ| ≤ μ Λₙ. Sources: F. Pfeiffer &
+//! C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8; for the sweeps, J. J. Moreau, *Unilateral contact and dry
+//! friction in finite freedom dynamics* (1988), section 13.
 
 use glam::{DVec2, DVec3};
 

@@ -30,7 +30,7 @@ pub(in crate::dynamics) struct LastingContact {
 }
 
 /// Limits for the absolute cosine of the angle between the normal and the axis `heading`. Beyond the first limit, the step ends and the
-/// tangents are chosen again. At events with another cause, this happens beyond the second.
+/// tangents are chosen again. At events with another cause, the tangents are chosen again beyond the second.
 const TURNED: [f64; 2] = [0.95, 0.9];
 
 /// Returns the world axis that is most nearly perpendicular to a contact normal.
@@ -151,8 +151,8 @@ impl Constraint for LastingContact {
 }
 
 impl LastingContact {
-    /// Returns the contact as frames show it: its place, normal, normal force and friction. The closure adds the force of one of its rows
-    /// on the second body.
+    /// Returns the snapshot of the contact: its place, normal, normal force and friction. The closure `add` adds the force that one row of
+    /// the contact exerts on the second body.
     pub(in crate::dynamics) fn seen(
         &self,
         members: [&Member; 2],

@@ -49,7 +49,7 @@ pub struct Contacts {
     pub apart: BTreeSet<(usize, usize)>,
 }
 
-/// One impact of two bodies, as frames and labels report it.
+/// One impact between two bodies, as the frames and labels of the animation report it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// The time at which the impact happened, s.

@@ -1,5 +1,5 @@
 //! The replacement of GJK without the feature `time-stepping`: there is no first guess, so all pairs of features are compared. The result
-//! is as exact, but slower.
+//! is as exact, but the search is slower.
 
 use super::closest_points::ClosestPoints;
 use super::solid::{Part, Pose};

@@ -32,8 +32,8 @@ const OFTEN: f64 = 10.0;
 const MORE: f64 = 5.0;
 const MOST: f64 = 1000.0;
 
-/// After this many impacts of one pair within a step, or `TOGETHER` impacts of all pairs, Moreau's scheme replaces the search for single
-/// events.
+/// If one pair has this many more impacts within a step than its restitution explains, or all pairs have `TOGETHER` impacts, Moreau's
+/// scheme replaces the search for single events.
 const TOO_OFTEN: f64 = 40.0;
 const TOGETHER: u32 = 1_000;
 
@@ -227,7 +227,8 @@ impl Collider {
                     state.velocity[body] += inverse_mass * push;
                     state.angular_momentum[body] += turn;
                 } else {
-                    // The guide of a body with a given motion absorbs the impulse on this body, and its work.
+                    // The guide of a body (whatever makes it follow its given motion) absorbs the impulse on this body. The guide's work is
+                    // booked.
                     let turning = turn.dot(model.angular_velocity(body, state));
                     state.accounts.work -= push.dot(state.velocity[body]) + turning;
                 }

@@ -442,7 +442,8 @@ fn a_mesh_rests_on_its_corners() {
 
 #[test]
 fn parallel_lines_meet_in_the_middle_of_the_length_that_they_share() {
-    // The axis of the first capsule extends from −0.5 m to 0.5 m, that of the second from −0.2 m to 0.8 m, and then both are shifted down.
+    // In the first case, the axis of the first capsule extends from −0.5 m to 0.5 m, and that of the second from −0.2 m to 0.8 m. In the
+    // second case, both are 0.3 m lower.
     for (a, b) in [(0.0, 0.3), (-0.3, 0.0)] {
         let found = near(&PILL, &at(0.0, a, 0.0), &PILL, &at(0.9, b, 0.0));
         assert!((found.on[0].y - (a + 0.15)).abs() < 1e-15, "{found:?}");

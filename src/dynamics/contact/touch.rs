@@ -78,8 +78,8 @@ pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid
         let Some(feature) = touch.features[side].1.map(|i| &parts[side].features[i]) else { continue };
         let place = pose.local(meeting.on[side]);
         least = least.min(feature.margin(place) + edge(parts[side], sum > 0.0));
-        // When a round body rolls from an edge to a face, its normal leaves the edge's normals before its point leaves the edge. Against a
-        // flat face the normals do not matter: corners touch a face at any tilt.
+        // When a round body rolls from an edge to a face, the contact normal leaves the range of the edge's normals before the contact
+        // point leaves the edge. Against a flat face the normals do not matter: corners touch a face at any tilt.
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
             let normal = if side == 0 { meeting.normal } else { -meeting.normal };
             let slack = feature.slack(place, pose.orientation.conjugate() * normal);

@@ -80,8 +80,8 @@ fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     (b - a).normalize_or_zero().cross((c - a).normalize_or_zero()).try_normalize()
 }
 
-/// Returns the direction in which an edge of a mesh is convex. `into` holds the directions from the edge into its triangles. `None` if
-/// these are coplanar.
+/// Returns the direction in which an edge of a mesh is convex. `into` holds the directions from the edge into its triangles. `None` if the
+/// triangles are coplanar or lie on all sides of the edge.
 fn outward(into: &[DVec3]) -> Option<DVec3> {
     let sum: DVec3 = into.iter().sum();
     let out = -sum.try_normalize()?;

@@ -15,14 +15,14 @@ pub(super) struct Bodies {
     pub(super) turning: Vec<usize>,
     /// The bodies that rotate uniformly without torque, each with its orientation at the start.
     spinning: Vec<(usize, DQuat)>,
-    /// Whether forces without a potential or guided bodies may do work, which must then be integrated.
+    /// Whether forces without a potential or bodies with a given motion may do work. This work must then be integrated.
     pub(super) works: bool,
     /// Whether a force depends on velocities, or does work without a potential.
     pub(super) feels_motion: bool,
 }
 
 impl Bodies {
-    /// Fills the lists with the bodies of a model. Absent, fixed and guided bodies are in no list.
+    /// Fills the lists with the bodies of a model. Absent bodies, fixed bodies and bodies with a given motion are in no list.
     pub(super) fn sort(&mut self, model: &Model, state: &State) {
         let can_turn = model.turns_bodies();
         self.moving.clear();
@@ -69,7 +69,7 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Evaluates the loads on the bodies at the current stage, at time `t`, s. Guided bodies are placed first.
+    /// Evaluates the loads on the bodies at the current stage, at time `t`, s. Bodies with a given motion are placed first.
     pub(super) fn evaluate(&mut self, t: f64) {
         self.model.place(t, self.stage);
         self.model.evaluate(t, self.stage, self.loads);
@@ -89,8 +89,8 @@ impl Field<'_> {
 /// The errors of positions and speeds below this fraction of the typical values are measured relative to this fraction.
 const SMALL: f64 = 0.1;
 
-/// Lower limits for the relative error of positions and speeds: errors of smaller values are divided by these limits. The limits follow
-/// from the size of the whole motion.
+/// Lower limits of the values to which the errors of positions and speeds are relative. The error of a value below its limit is divided by
+/// the limit instead of the value. The limits follow from the size of the whole motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scales {
     /// A tenth of the root-mean-square distance of the bodies from their mean position, or of the largest radius of gyration of a body if

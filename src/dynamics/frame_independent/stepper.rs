@@ -16,7 +16,7 @@ pub(super) trait Stepper: Clone + Send {
     /// Makes a step from time `now`, of at most `longest`, s. Returns the length of the step, s.
     ///
     /// # Errors
-    /// The body for which no step is short enough.
+    /// Returns the body for which no step is short enough.
     fn step(&mut self, field: &mut Field<'_>, now: Time, longest: f64) -> Result<f64, BodyId>;
 
     /// Makes a step of exactly `duration` seconds from time `now`. The error of the step is not checked.

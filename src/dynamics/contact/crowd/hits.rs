@@ -1,4 +1,4 @@
-//! Adds bodies that will hit the crowd (the bodies that Moreau's scheme advances) within a step to the crowd from the step's beginning.
+//! Adds bodies to the crowd (the bodies that Moreau's scheme advances) at the beginning of a step if they may hit it within the step.
 
 use super::super::super::{Model, State};
 use super::super::closest_points::nearest;
@@ -6,11 +6,12 @@ use super::super::collider::Collider;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 
-/// Bodies hit a crowd of at most this many bodies at the exact time. The crowd's motion is then computed again, at little cost.
+/// For a crowd of at most this many bodies, each hit by another body is found at its exact time. The crowd's motion is then computed again,
+/// at little cost.
 const FEW: usize = 6;
 
-/// Bodies join a crowd if they could reach it by moving this many times their free distance, plus the fraction `NEARER` of their size. The
-/// margin is needed because impacts can make bodies faster within a step.
+/// Bodies join a crowd if they could reach it by moving this many times as far as they move in a step at their present speed, plus the
+/// fraction `NEARER` of their size. The margin is needed because impacts can make bodies faster within a step.
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.02;
 

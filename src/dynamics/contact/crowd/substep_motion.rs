@@ -1,9 +1,9 @@
 //! The motion of the crowd through a step, by Moreau's scheme.
 //!
-//! A step is divided into a few equal substeps. In each, impulses stop or reverse approaching bodies; then the forces, the contacts and
-//! the friction act with the velocities in the middle of the substep. The energy that this takes is booked. The order of the method is 1.
-//! Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean, Comput. Methods Appl. Mech.
-//! Eng. 177 (1999) 235.
+//! A step is divided into a few equal substeps. In each, impulses stop or reverse approaching bodies; then the forces, the contacts and the
+//! friction act with the velocities in the middle of the substep. The energy that contacts and friction take from the bodies is booked. The
+//! order of the method is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean,
+//! Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -27,7 +27,8 @@ use super::Crowd;
 /// The smallest and the largest number of substeps in a step.
 const PARTS: [f64; 2] = [2.0, 64.0];
 
-/// The longest path of a body in a substep, as a fraction of the body's size, unless this takes too many substeps.
+/// The longest path of a body in a substep, as a fraction of the body's size. The path may be longer if the limit would require more
+/// substeps than the largest number.
 const FAR: f64 = 0.12;
 
 /// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
@@ -44,7 +45,7 @@ const REPAIRS: usize = 5;
 /// smaller body's size. Lower bounces do not count as free flight.
 const LEAN: f64 = 0.01;
 
-/// Times within a substep are equal if they differ by less than this fraction of it.
+/// Times within a substep are equal if they differ by less than this fraction of the substep.
 const SAME: f64 = 1e-12;
 
 /// Bodies touch if their gap is below this fraction of their coordinates.
@@ -436,8 +437,8 @@ impl Crowd {
     }
 }
 
-/// Subtracts displacements from the positions of bodies, m, that impulses caused before the bodies touched. The change of energy is booked
-/// as work of impacts.
+/// Subtracts from the positions of bodies the displacements, m, that impulses caused before the bodies touched. The change of energy is
+/// booked as work of impacts.
 fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
     if !ways.is_empty() {
         let before = mechanical(model, t, state);

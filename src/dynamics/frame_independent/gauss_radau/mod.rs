@@ -11,8 +11,8 @@ use super::bodies::Field;
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 
-/// A step is repeated if the suitable length is below this fraction of its length. The next step is at most longer by the inverse of this
-/// fraction.
+/// A step is repeated if the suitable length is below this fraction of its length. The next step is at most as long as this step divided by
+/// this fraction.
 const CHANGES: f64 = 0.25;
 /// The largest number of iterations for the coefficients of a step.
 const MOST_ROUNDS: usize = 12;

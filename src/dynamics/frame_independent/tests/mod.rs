@@ -115,8 +115,8 @@ fn a_wing_nut_flips_when_it_has_to() {
     }
 }
 
-/// The work of a damper and of a guided body is integrated along with the motion. The drift of the energy must stay as small as the error
-/// of the method.
+/// The work of a damper and of a body with a given motion is integrated along with the motion. The drift of the energy must stay as small
+/// as the error of the method.
 #[test]
 fn work_is_integrated_along() {
     struct Swing;

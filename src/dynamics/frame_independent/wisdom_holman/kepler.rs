@@ -56,7 +56,7 @@ fn bisect(beta: f64, (r0, eta, zeta): (f64, f64, f64), dt: f64, mass: f64) -> f6
         r0 * x + eta * g[2] + zeta * g[3] - dt
     };
     let sign = if dt < 0.0 { -1.0 } else { 1.0 };
-    // This is the first guess of an upper bound for |X|. The loop doubles it until it is one.
+    // This is the first guess of an upper bound for |X|. The loop doubles it until it is an upper bound.
     let mut far = sign * (dt.abs() / r0).max(dt.abs() * beta.abs() / mass).max(f64::MIN_POSITIVE);
     for _ in 0..200 {
         if sign * excess(far) > 0.0 {
