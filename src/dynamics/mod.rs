@@ -8,7 +8,7 @@
 //! | everything that changes with time | [`State`] |
 //! | everything constant: masses, inertia, forces | [`Model`] |
 //! | loads at one moment | [`Force`], [`Loads`] |
-//! | given motion | [`Motion`], its [`Kinematics`] |
+//! | motion given as a function of time | [`Motion`], its [`Kinematics`] |
 //! | when a body is present | [`Presence`] |
 //! | joints and other constraints | [`Constraint`], one type for each kind of joint |
 //! | contacts and impacts | [`Contacts`], [`Impact`] |

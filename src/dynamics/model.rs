@@ -189,7 +189,7 @@ impl Model {
         &self.forces
     }
 
-    /// Replaces a breakdown by its cause, if a force without a finite value is the cause.
+    /// Replaces a breakdown by [`Breakdown::Undefined`] if a force without a finite value has caused it.
     pub(super) fn cause(&self, breakdown: Breakdown) -> Breakdown {
         let (Breakdown::Diverged { .. } | Breakdown::Stalled { .. }) = breakdown else { return breakdown };
         let undefined = |(force, it): (usize, &Arc<dyn Force>)| it.undefined().map(|at| (force, at));

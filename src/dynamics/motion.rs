@@ -1,4 +1,4 @@
-//! Given motions of bodies, which do not follow from forces.
+//! Motions of bodies that are given as functions of time and do not follow from forces.
 
 use glam::{DQuat, DVec3};
 

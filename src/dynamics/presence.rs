@@ -145,13 +145,14 @@ impl PresenceSchedule {
         Leg { end, within, at_end, later }
     }
 
-    /// Returns the changes of presence when time `t` (s) is reached, and marks them as past. A body born at `t` is then present, and one
-    /// that dies at `t` still is. Each change holds the index of the body and its new presence.
+    /// Returns the changes of presence that take effect when time `t` (s) is reached, and marks them as past. A body born at `t` is then
+    /// present, and a body that dies at `t` is still present. Each change holds the index of the body and its new presence.
     pub(super) fn arrive(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time < t || event.time == t && event.change == Change::Birth)
     }
 
-    /// Returns the changes of presence when time continues from `t` (s), and marks them as past. A body that dies at `t` is then absent.
+    /// Returns the changes of presence that take effect when time continues from `t` (s), and marks them as past. A body that dies at `t`
+    /// is then absent.
     pub(super) fn depart(&mut self, t: f64) -> Vec<(usize, bool)> {
         self.pass(|event| event.time <= t)
     }

@@ -14,8 +14,8 @@ pub struct State {
     /// The velocity of each body's center of mass, world axes, m/s.
     pub velocity: Vec<DVec3>,
     /// The orientation of each body's principal axes of inertia, as a unit quaternion. It equals the rotation from body axes to world axes,
-    /// except for compounds and meshes. [`World::orientation`](super::World::orientation) returns the rotation from body axes for all
-    /// bodies.
+    /// except for compounds and meshes. [`World::orientation`](super::World::orientation) returns the rotation from body axes to world axes
+    /// for all bodies.
     pub orientation: Vec<DQuat>,
     /// The angular momentum of each body about its center of mass, world axes, kg m²/s.
     pub angular_momentum: Vec<DVec3>,

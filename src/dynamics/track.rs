@@ -41,13 +41,13 @@ impl Track {
     /// Creates the motion through some keys, whose times must be ascending.
     ///
     /// If a key of a cubic track has no velocity, its slope is that of the parabola through the key and its two neighbors. At both ends of
-    /// the track, `at_rest` sets this slope to 0; otherwise it is the slope between the two outermost keys.
+    /// the track, `at_rest` sets this slope to 0; otherwise it is the slope between the two outermost keys at this end.
     #[must_use]
     pub fn new(keys: Vec<Keyframe>, interpolation: Interpolation, at_rest: bool) -> Track {
         Track::with_gaps(keys, &[], interpolation, at_rest)
     }
 
-    /// Creates a motion with gaps. Each gap is given by the index of the key after it, in ascending order. The slopes in each part between
+    /// Creates a motion with gaps. `gaps` holds the index of the key after each gap, in ascending order. The slopes in each part between
     /// gaps depend on that part alone.
     #[must_use]
     pub fn with_gaps(

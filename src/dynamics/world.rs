@@ -70,7 +70,8 @@ pub struct World {
     before: State,
 }
 
-/// The parts of a world that another engine takes over: all except the method and the constraint solver.
+/// The parts of a world that another engine takes over: the bodies with their forces and state, the energy ledger, and the schedule of
+/// births and deaths.
 pub(super) struct Parts {
     pub(super) time: f64,
     pub(super) step: f64,
@@ -144,7 +145,7 @@ impl World {
         self.about_to_change();
         let (i, is_present) = (body.index(), self.model.is_present(body.index()));
         if is_present {
-            // Places only this body. Placing all guided bodies for each new one would take n² placements for n bodies.
+            // Places only this body. Placing all bodies with a given motion for each new one would take n² placements for n bodies.
             self.model.place_body(i, &motion.at(self.time), &mut self.state);
             self.model.drive(i, motion);
         } else {

@@ -18,7 +18,7 @@ struct Line {
     row: usize,
     /// The terms of the contact row's rate, as a range of `Island::terms`.
     terms: Range<usize>,
-    /// The change of the contact row's rate c' by a unit impulse along it.
+    /// The change of the contact row's rate c' under a unit impulse along this row.
     weight: f64,
     /// The part of the contact row's rate c' that the Gauss–Seidel sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
     bias: f64,
@@ -33,7 +33,7 @@ struct Term {
     velocity: usize,
     /// The entry of the Jacobian: the derivative of the row's rate with respect to this velocity.
     along: DVec3,
-    /// The change of this velocity by a unit impulse along the contact row.
+    /// The change of this velocity under a unit impulse along the contact row.
     change: DVec3,
 }
 
@@ -108,7 +108,7 @@ impl Island {
         change
     }
 
-    /// Returns the absolute change of the rate of `other` by a unit impulse along `line`. Both contact rows have the same members.
+    /// Returns the absolute change of the rate of `other` under a unit impulse along `line`. Both contact rows have the same members.
     fn coupling(&self, line: &Line, other: &Line) -> f64 {
         let of = |term: &Term| {
             let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);

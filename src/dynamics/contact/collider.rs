@@ -104,7 +104,7 @@ impl Collider {
         !self.crowd.is_empty()
     }
 
-    /// Discards the list of nearby pairs and which bodies were present. Must be called when bodies have changed.
+    /// Discards the list of nearby pairs, and the record of which bodies were present. Must be called when bodies have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.pairs.forget();
         self.is_known.clear();

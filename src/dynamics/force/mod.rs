@@ -98,7 +98,7 @@ pub trait Force: Send + Sync {
         None
     }
 
-    /// Returns the number of pairs of bodies in one evaluation; 0 if the time of an evaluation does not depend on pairs.
+    /// Returns the number of pairs of bodies in one evaluation; 0 if the computing time of an evaluation does not depend on pairs.
     fn pairs(&self) -> u64 {
         0
     }

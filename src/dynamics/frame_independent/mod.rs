@@ -1,4 +1,5 @@
-//! Integration methods whose steps are independent of frames: either adaptive steps, or constant steps of a symplectic method.
+//! Integration methods whose steps are independent of the frames of the animation: either adaptive steps, or constant steps of a symplectic
+//! method.
 //!
 //! A step ends where the motion is not smooth — at a birth, a death, or the end of the run — and nowhere else. A requested moment within a
 //! step is computed by a branch: a copy of the bodies at the start of the step makes a shorter step to exactly that moment. The result is

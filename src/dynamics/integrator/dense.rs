@@ -1,7 +1,7 @@
 //! Dense output: the state at any time within a step, without additional steps.
 //!
-//! Each method has its own dense output. So the interpolated motion is as accurate as the steps, and the steps never depend on the times
-//! of frames. Velocities are the derivatives of positions.
+//! Each method has its own dense output. So the interpolated motion is as accurate as the steps, and the steps never depend on the times at
+//! which frames of the animation are taken. Velocities are the derivatives of positions.
 
 use glam::{DQuat, DVec3};
 

@@ -67,16 +67,16 @@ pub struct Method {
     pub summary: &'static str,
     /// Creates an integrator of this method, for steps of given lengths.
     pub create: fn() -> Box<dyn Integrator>,
-    /// Takes over a world to advance it in steps that are independent of frames. `None` for a method whose steps divide the time between
-    /// two frames.
+    /// Takes over a world to advance it in steps that are independent of the frames of the animation. `None` for a method whose steps
+    /// divide the time between two frames.
     pub take_over: Option<TakeOver>,
 }
 
-/// The methods whose steps divide the time between two frames. The first method is the default.
+/// The methods whose steps divide the time between two frames of the animation. The first method is the default.
 pub static METHODS: &[Method] =
     &[euler_cromer::METHOD, explicit_euler::METHOD, velocity_verlet::METHOD, rk4::METHOD, yoshida4::METHOD];
 
-/// The methods whose steps are independent of frames.
+/// The methods whose steps are independent of the frames of the animation.
 pub static FRAME_INDEPENDENT: &[Method] =
     &[frame_independent::DOP853, frame_independent::GAUSS_RADAU, frame_independent::WISDOM_HOLMAN];
 

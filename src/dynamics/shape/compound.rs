@@ -18,7 +18,7 @@ pub struct Part {
     pub orientation: DQuat,
 }
 
-/// Several solids of the same density that form one rigid body. Where parts overlap, the mass of each part counts.
+/// Several solids of the same density that form one rigid body. Where parts overlap, the common volume counts once for each part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Compound {
     /// The parts, which clones of a compound share.

@@ -3,8 +3,8 @@
 /// More mode changes of constraint rows than this within a step count as endless.
 const CHANGES: u32 = 10_000;
 
-/// More impacts than this within a step count as endless. The colliding blocks that compute π to seven digits have fewer impacts, nearly
-/// all of them in one step.
+/// More impacts than this within a step count as endless. Two colliding blocks whose number of impacts gives π to seven digits have fewer
+/// impacts, nearly all of them in one step.
 const IMPACTS: u32 = 4_000_000;
 
 /// After this many consecutive events at the same instant, or this many consecutive quick mode changes, Moreau's scheme advances their

@@ -100,7 +100,7 @@ impl World {
     }
 
     /// Creates the held groups of bodies that Moreau's scheme brought to rest. Their contact forces are found by sweeps over the contacts,
-    /// as in this scheme. The event-driven solver would have to decide which of a heap's many contacts push. This would take long, and
+    /// as in Moreau's scheme. The event-driven solver would have to decide which of a heap's many contacts push. This would take long, and
     /// would often fail.
     fn seen_by_sweeps(&mut self, t: f64, islands: Vec<BTreeSet<usize>>) -> Vec<Island> {
         self.is_decided &= islands.is_empty();

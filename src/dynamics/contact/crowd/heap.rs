@@ -26,7 +26,7 @@ impl Collider {
     }
 
     /// Adds touching bodies to the crowd (the bodies that Moreau's scheme advances) again if they were advanced as a heap before. `places`
-    /// are the lasting contacts. A body that has just been hit does not have them yet, since it rebounds first.
+    /// are the lasting contacts. A body that has just been hit has no lasting contacts yet, since it rebounds first.
     pub(in crate::dynamics) fn crowd_known_heaps(
         &mut self,
         model: &Model,
