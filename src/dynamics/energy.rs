@@ -75,8 +75,8 @@ impl EnergyLedger {
         balance
     }
 
-    /// Measures the energies and momenta as [`measure`](Self::measure) does, but at a moment between two steps: the ledger does not
-    /// change.
+    /// Measures the energies and momenta as [`measure`](Self::measure) does, but does not change the ledger. This is for snapshots at
+    /// requested moments, which must not affect the run.
     #[must_use]
     pub fn peek(&self, model: &Model, time: f64, state: &State) -> Balance {
         let kinetic = kinetic(model, state);

@@ -136,7 +136,7 @@ pub trait Dynamics: Send {
     /// If the run cannot continue, or if a body's position or velocity at one of the moments is not finite.
     fn advance(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) -> Result<(), Breakdown>;
 
-    /// Returns a snapshot of the current moment. Its drift is relative to the largest kinetic energy of all snapshots so far.
+    /// Returns a snapshot of the current moment. Its energy drift is relative to the largest kinetic energy of all snapshots so far.
     ///
     /// # Errors
     /// If a body's position or velocity is not finite, or if the run cannot continue.

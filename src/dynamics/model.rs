@@ -115,8 +115,8 @@ impl Model {
             && self.forces.iter().all(|force| force.is_local())
     }
 
-    /// Restricts the integration to these bodies from now on; their indices are in ascending order. `None` stands for all bodies. Methods
-    /// may leave the other bodies unchanged.
+    /// Restricts the integration to these bodies from now on; their indices are in ascending order. `None` stands for all bodies.
+    /// Integration methods may leave the other bodies unchanged.
     pub(super) fn focus(&mut self, bodies: Option<Vec<usize>>) {
         self.focus = bodies;
     }

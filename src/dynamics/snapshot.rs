@@ -56,7 +56,7 @@ impl BodySnapshot {
 /// The reason why a simulation run cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
-    /// The position or velocity of a body is not finite: the method cannot follow this motion with this step.
+    /// The position or velocity of a body is not finite: the integration method cannot follow this motion with steps of this length.
     Diverged {
         /// The body with a position or velocity that is not finite.
         body: BodyId,

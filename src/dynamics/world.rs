@@ -155,9 +155,9 @@ impl World {
         }
     }
 
-    /// Restricts a body's presence to the times of `presence` from now on. The body returns in the state in which it left; before its
-    /// first appearance, this is the state in which it was [added](World::add). The energy that comes and goes with it does not count as
-    /// drift.
+    /// Restricts a body's presence to the times of `presence` from now on. When the body appears, it has the state in which it last
+    /// disappeared, or at first the state in which it was [added](World::add). The energy that comes and goes with the body does not count
+    /// as drift.
     ///
     /// A step ends at each birth and death. If the motion of all bodies is given, births and deaths take effect at the end of the step.
     pub fn limit(&mut self, body: BodyId, presence: &Presence) {

@@ -164,8 +164,8 @@ impl Solver {
         }
     }
 
-    /// Sets the initial mode of a pair of friction rows: sticking if the slip velocity is zero, otherwise sliding, and open if the normal
-    /// row does not hold.
+    /// Sets the initial mode of a pair of friction rows: open if the normal row is not held; otherwise sticking if the slip velocity is
+    /// zero, and sliding if not.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
         let FrictionPair { row, normal, is_restless, is_caught, .. } = self.grips[grip];
         let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;

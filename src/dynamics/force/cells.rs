@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// The largest number of cells along an axis. One key holds a cell number for each of the three axes.
+/// The largest number of cells along an axis. The key of a cell holds its cell number along each of the three axes.
 const MOST: f64 = 1_048_576.0;
 /// The bits of a key for each axis. [`MOST`] cells need one bit less; the extra bit leaves room for a border of cells on all sides.
 const BITS: u32 = 21;

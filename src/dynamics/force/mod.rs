@@ -103,8 +103,8 @@ pub trait Force: Send + Sync {
         0
     }
 
-    /// Returns the state in which the last evaluation was not finite; `None` if the force was finite, and for forces that are always
-    /// finite.
+    /// Returns the state in which the last evaluation of the force was not finite; `None` if the force was finite, and for forces that are
+    /// always finite.
     fn undefined(&self) -> Option<Undefined> {
         None
     }

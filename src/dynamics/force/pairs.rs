@@ -104,7 +104,7 @@ impl Pairs<'_> {
     }
 
     /// With one group, calls `see` for every tile alone, and then for that tile with each later tile. With two groups, calls `see` for
-    /// every tile with each tile of the other group. The flag is true at the last call with the same first tile.
+    /// every tile with each tile of the other group. The flag that `see` receives is true at the last call with the same first tile.
     fn each_pair_of_tiles(&self, moment: &Moment, mut see: impl FnMut(&mut Tile, Option<&mut Tile>, bool)) {
         let counter = moment.model.pair_counter();
         let bodies = moment.model.present(self.bodies);

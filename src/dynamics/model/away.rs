@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::super::{BodyId, State};
 use super::Model;
 
-/// The constants and the motion of an absent body, stored until it returns. Meanwhile, the model gives the body zero mass, charge and
-/// inertia, and it rests. Most forces then skip it without a special case.
+/// The constants and the motion of an absent body, stored until it returns. Meanwhile, the body has zero mass, charge and inertia in the
+/// model, and is at rest. Most forces then skip it without a special case.
 #[derive(Clone, Copy)]
 pub(super) struct Away {
     mass: f64,

@@ -19,7 +19,7 @@ const TOUCH: f64 = 1e-11;
 const DIGITS: f64 = 2e-15;
 /// A gap up to this fraction of the particle's radius counts as contact at the beginning of a step.
 const SNUG: f64 = 1e-6;
-/// Approaches slower than this fraction of the speed are taken for rounding errors.
+/// An approach slower than this fraction of the speeds of particle and obstacle is taken for a rounding error.
 const SLIGHT: f64 = 1e-10;
 /// A rebound that would last for less than this fraction of a step is ignored: the particle stays in contact.
 const SHORT: f64 = 0.25;
@@ -182,8 +182,8 @@ impl Bouncer {
         velocity
     }
 
-    /// Returns the time of the first contact with a part, in s after the beginning of the path; `None` if the particle does not reach the
-    /// part.
+    /// Returns the time of the first contact with a part, in seconds after the beginning of the path; `None` if the particle does not reach
+    /// the part.
     fn touch(
         &self,
         way: &ParticlePath,

@@ -105,7 +105,7 @@ impl Cloud {
         self.advance_among(to, step, course, None);
     }
 
-    /// Advances the cloud like [`advance`](Cloud::advance), among obstacles. The obstacles stop the particles of a
+    /// Advances the cloud as [`advance`](Cloud::advance) does, but among obstacles. The obstacles stop the particles of a
     /// [colliding](Cloud::colliding) cloud.
     pub fn advance_among(
         &mut self,

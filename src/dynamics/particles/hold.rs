@@ -141,7 +141,7 @@ fn hold_many(
     let span = frame.span;
     let acting = span * frame.acceleration.length();
     let mut velocity = frame.velocity + span * frame.acceleration;
-    // For each contact, the list `given` holds the normal, the velocity of the obstacle relative to the first one, and the normal and
+    // For each contact, the list `given` holds the normal, the velocity of the obstacle relative to the first obstacle, and the normal and
     // friction impulses so far, per unit of mass.
     let other = |it: &Contact| {
         if Scenery::is_same(&it.target, &held[0].target) {

@@ -138,7 +138,7 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Advances particles like `advance`. Calls `look` for each step of each particle, with the index of the particle.
+    /// Advances particles as `advance` does. Calls `look` for each step of each particle, with the index of the particle.
     pub(super) fn advance_seen(
         &mut self,
         particles: &mut [Particle],
@@ -158,8 +158,8 @@ impl Stepper {
         self.leave(particles);
     }
 
-    /// Advances particles like `advance`. For each step of each particle, `change` returns the position and the velocity at the end of the
-    /// step. The integrator starts again at each step, so that no particle depends on an impact of another particle.
+    /// Advances particles as `advance` does. For each step of each particle, `change` returns the position and the velocity at the end of
+    /// the step. The integrator starts again at each step, so that no particle depends on an impact of another particle.
     pub(super) fn advance_changed(
         &mut self,
         particles: &mut [Particle],

@@ -20,7 +20,7 @@ pub use mesh::{Flaw, Mesh};
 pub use submerged::Submerged;
 
 /// The shape of a body in its own frame. The origin is the centre of mass. Except for compounds and meshes, the coordinate axes are the
-/// principal axes of inertia. An axis of symmetry is along y. Lengths are in metres.
+/// principal axes of inertia. If a shape has an axis of symmetry, this axis is along y. Lengths are in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A solid sphere about the origin.

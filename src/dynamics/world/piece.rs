@@ -221,7 +221,7 @@ impl World {
         let (mut early, mut early_margin) = (0.0, 1.0);
         let (mut late, mut late_margin, mut row) = end;
         let (mut width, mut was_late) = (late, None);
-        // An end of the interval that stays for a second time gets half the weight.
+        // If a trial leaves the same end of the interval unchanged as the trial before, the weight of this end is halved.
         let mut weights = [1.0; 2];
         let mut later: Option<(f64, f64)> = None;
         for trial in 0..TRIALS {

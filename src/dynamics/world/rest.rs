@@ -20,7 +20,7 @@ const CALM: u32 = 8;
 /// forces within a step, whichever is larger.
 const STILL: f64 = 1e-8;
 
-/// The factor by which a body at rest may move faster if Moreau's scheme has advanced it.
+/// A body that Moreau's scheme has advanced counts as at rest up to a speed that is higher by this factor.
 const CREEP: f64 = 100.0;
 
 /// Loads count as unchanged if their relative change is below this.
@@ -68,7 +68,7 @@ impl Rest {
 }
 
 impl World {
-    /// Holds the bodies that have rested long enough. Must be called at the end of each step.
+    /// Holds in place the bodies that have rested long enough. Must be called at the end of each step.
     pub(super) fn hold_still(&mut self, t: f64) {
         let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));

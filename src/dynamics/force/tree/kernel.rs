@@ -49,10 +49,10 @@ pub(super) trait Kernel {
     /// The type of the quantity at one position.
     type Sum: Copy + Default + Send;
 
-    /// Adds the contribution of a single mass to `sums`. The contribution is zero where `square` is infinite.
+    /// Adds to `sums` the contribution of a single mass. The contribution is zero where `square` is infinite.
     fn near(mass: f64, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
 
-    /// Adds the contribution of a tree node that acts as a whole to `sums`.
+    /// Adds to `sums` the contribution of a tree node that acts as a whole.
     fn far(node: &Source, d: [Lanes; 3], square: Lanes, sums: &mut [Lanes; 3]);
 
     /// Returns the quantity at the position of one lane.

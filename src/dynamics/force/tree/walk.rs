@@ -141,7 +141,7 @@ impl<K: Kernel> Group<'_, K> {
         }
     }
 
-    /// Adds the contributions of near bodies one by one. `runs` holds the first index and the end of ranges of bodies of `tree`.
+    /// Adds the contributions of near bodies one by one. `runs` holds ranges of bodies of `tree`: for each, the first index and the end.
     fn add_near(&mut self, tree: &Tree, runs: &[(usize, usize)]) {
         let softening = self.softening;
         for (at, sums) in self.blocks() {
