@@ -1,6 +1,7 @@
 //! Gauss–Seidel sweeps over contacts without joints, island by island. An island is a set of bodies that touch each other.
 //!
-//! Islands are independent, so each is swept only until it has converged. Its contact rows are stored in the order of the sweep.
+//! Islands are independent, so the sweeps over each island end as soon as its impulses have converged. The contact rows of an island are
+//! stored in the order of the sweep.
 
 use std::ops::Range;
 
@@ -203,8 +204,8 @@ impl Solver {
         islands
     }
 
-    /// Creates the line of a contact row, and appends its terms to `terms`. The velocities of fixed bodies count as part of the constant
-    /// `bias`.
+    /// Creates the [`Line`] of a contact row, and appends its terms to `terms`. The velocities of fixed bodies count as part of the
+    /// constant `bias`.
     fn line(&self, row: usize, goal: f64, terms: &mut Vec<Term>) -> Line {
         let mut bias = self.rows[row].rate;
         let first = terms.len();

@@ -7,8 +7,8 @@ use super::member::Member;
 use super::structure::Structure;
 use super::{Direction, Row};
 
-/// Adds M⁻¹ Jᵀ Λ, the velocity changes by the impulses Λ, to the velocities of the members. If the multipliers are forces, the result is
-/// accelerations.
+/// Adds M⁻¹ Jᵀ Λ, the velocity changes that the impulses Λ cause, to the velocities of the members. If the multipliers are forces, the
+/// result is accelerations.
 pub(super) fn move_members(
     structure: &Structure,
     jacobian: &[Direction],
@@ -69,7 +69,7 @@ pub(super) fn products(structure: &Structure, jacobian: &[Direction], members: &
     }
 }
 
-/// Computes J v for one constraint row. Returns it with the sum of the absolute values of its terms.
+/// Computes J v for one constraint row. Returns J v and the sum of the absolute values of its terms.
 #[inline(always)]
 pub(super) fn product(
     structure: &Structure,

@@ -244,7 +244,8 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds to the Jacobian entries of one body in a row. For a point of the world, `body` is `None` and nothing is added.
+    /// Adds `linear` and `angular` to the Jacobian entries of one body in a row. For a point of the world, `body` is `None` and nothing is
+    /// added.
     pub(in crate::dynamics) fn direction(
         &mut self,
         row: usize,

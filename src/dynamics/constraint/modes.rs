@@ -1,9 +1,9 @@
 //! The modes of constraint rows that are not always active: a row holds, is open, slides, or pushes with its limit.
 //!
 //! A stop (c ≥ 0) with c = 0 and c' = 0 either holds with λ ≥ 0, or opens with c'' ≥ 0. A motor either keeps its speed with |λ| ≤ its
-//! limit, or pushes with its limit. Both are linear complementarity problems: first for velocities at an impact, then for accelerations.
-//! They are solved by changing the mode of one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics with Unilateral
-//! Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
+//! limit, or pushes with its limit. Both cases lead to linear complementarity problems: first for velocities at an impact, then for
+//! accelerations. They are solved by changing the mode of one row at a time. Sources: F. Pfeiffer & C. Glocker, *Multibody Dynamics with
+//! Unilateral Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
 
 use super::super::{Loads, Model, State};
 use super::events::PASSED;

@@ -31,8 +31,8 @@ pub(super) struct EndToEndVector<'a> {
 }
 
 impl<'a> EndToEndVector<'a> {
-    /// Computes the vector between two ends. `typical` is a typical distance of the ends, m. 1/|d| is bounded as if |d| were at least a
-    /// thousandth of this distance.
+    /// Computes the vector between two ends. `typical` is a typical distance between the ends, m. 1/|d| is bounded as if |d| were at least
+    /// a thousandth of this distance.
     #[inline(always)]
     pub(super) fn new(ends: &'a [End<'a>; 2], typical: f64) -> EndToEndVector<'a> {
         let [a, b] = ends;

@@ -21,8 +21,8 @@ use super::sweep::Purpose;
 pub(in crate::dynamics) struct Struck {
     /// The impacts, in order of time.
     pub(in crate::dynamics) impacts: Vec<Impact>,
-    /// For each rebounding body, its index and the displacement, m, that the impulse caused before the bodies touched. It has to be
-    /// undone.
+    /// For each rebounding body, its index and the displacement, m, that the impulse caused before the bodies touched. This displacement
+    /// has to be undone.
     pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
 }
 
@@ -108,7 +108,7 @@ impl Solver {
         bodies.filter(|&body| model.inverse_mass()[body] != 0.0)
     }
 
-    /// Computes the displacement of each rebounding body by impulses that acted before the bodies touched, m.
+    /// Computes, for each rebounding body, the displacement that impulses caused before the bodies touched, m.
     fn early(
         &self,
         rebounds: &[Rebound],

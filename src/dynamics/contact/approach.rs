@@ -18,8 +18,8 @@ pub(super) const TOUCH: f64 = 4e-15;
 /// If the gap of two bodies is below this fraction of the smaller one's size, all pairs of nearby points are examined.
 const CLOSE: f64 = 0.01;
 
-/// The tolerance for the gap at a pair of points, as a fraction of the smaller body's size: rounding beyond an edge can make this gap too
-/// small.
+/// The tolerance for the gap at a pair of points, as a fraction of the smaller body's size. Beyond an edge, rounding errors can make this
+/// gap too small.
 const SLACK: f64 = 1e-8;
 
 /// The largest number of safe time steps in one search. After them, each step covers at least the fraction `PART` of the whole interval.

@@ -10,13 +10,13 @@ use super::solid::{Core, Part, Pose, Solid};
 /// A feature is near a guessed point if their distance is below this fraction of the convex part's size. GJK's guesses are better than
 /// this, except for overlapping round parts.
 const NEAR: f64 = 1e-3;
-/// A point outside a feature by up to this fraction of the convex part's size counts as on the feature. The gap changes only by the square
-/// of this.
+/// A point outside a feature by up to this fraction of the convex part's size counts as on the feature. The resulting error of the gap is
+/// only about the square of this fraction.
 pub(super) const EDGE: f64 = 1e-9;
 /// A point outside a triangle by up to this fraction of its size counts as on the triangle, if the other body is round. Adjacent triangles
 /// at a slight angle would otherwise leave a crack.
 const SEAM: f64 = 1e-7;
-/// The search among the triangles of a mesh begins within this fraction of the smaller body's size.
+/// The search among the triangles of a mesh begins with triangles that are nearer than this fraction of the smaller body's size.
 const START: f64 = 0.25;
 /// Two convex parts with at most this many pairs of features are compared without a guess by GJK.
 const FEW: usize = 16;
@@ -186,8 +186,9 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Clo
     (ClosestPoints { gap, ..found }, i)
 }
 
-/// Returns how far a contact is inside a feature, m: the distance of its point from the border. If smaller, the angular distance of its
-/// normal from the limits of the feature's normals, times `size`, counts. The normal points out of the body.
+/// Returns how far a contact is inside a feature, m: the smaller of two values. One is the distance of the contact point from the border of
+/// the feature. The other is the angular distance of the normal from the limits of the feature's normals, times `size`. The normal points
+/// out of the body.
 pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
     let place = pose.local(place);
     let normal = pose.orientation.conjugate() * normal;
@@ -307,7 +308,7 @@ impl Search<'_> {
 
     fn best_of(&mut self, along: f64, found: ClosestPoints) {
         let digits = self.digits();
-        // Of several candidates with the same separation, the one whose gap is closest to it counts.
+        // Of several candidates with the same separation, the one whose gap is closest to this separation counts.
         let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
                 || along > other - digits && (found.gap - along).abs() < (nearest.gap - other).abs() - digits

@@ -17,11 +17,11 @@ use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
 use super::{ContactProperties, Contacts, Impact};
 
-/// At an event, bodies touch if their gap is below this fraction of their coordinates.
+/// At an event, bodies count as touching if their gap is below this fraction of their coordinates.
 pub(super) const NEAR: f64 = 1e-10;
 
-/// For bodies at rest, further points touch if their gap is below this fraction of the coordinates. Otherwise a body that stands on three
-/// of four corners would never come to rest.
+/// For bodies at rest, further points count as touching if their gap is below this fraction of the coordinates. Otherwise a body that
+/// stands on three of four corners would never come to rest.
 const SNUG: f64 = 1e-8;
 
 /// Further points of touching bodies may overlap by this fraction of the coordinates before an event ends the step.
@@ -150,8 +150,8 @@ impl Collider {
         }
     }
 
-    /// Returns the first time within a step at which two bodies touch and approach, in seconds after its beginning, and these bodies.
-    /// Pairs that are already in contact do not count.
+    /// Returns the first time within a step at which two bodies touch and approach, in seconds after the beginning of the step, and these
+    /// two bodies. Pairs that are already in contact do not count.
     pub(in crate::dynamics) fn first_touch(
         &mut self,
         model: &Model,
@@ -219,8 +219,8 @@ impl Collider {
         Some(coming.min_by(|a, b| (a.0 / -a.1).total_cmp(&(b.0 / -b.1))).unwrap_or(nearest))
     }
 
-    /// Returns how far touching bodies are from the next change of their contact points, in units of the tolerance: they touch at a
-    /// further point, or leave the edge or face on which they touch. Negative after this change.
+    /// Returns how far touching bodies are from the next change of their contact points, in units of the tolerance. At such a change, the
+    /// bodies touch at a further point, or leave the edge or face on which they touch. The result is negative after the change.
     pub(in crate::dynamics) fn margin(
         &self,
         model: &Model,

@@ -16,7 +16,7 @@ pub(super) struct Feature {
     pub(super) is_seam: bool,
 }
 
-/// The part of its patch (the extended surface) that a feature covers, within the borders of the feature.
+/// The part of a feature's patch (the extended surface) that the feature covers, within its borders.
 #[derive(Clone, Debug)]
 pub(super) enum Outline {
     /// The feature covers its whole patch, which has no borders.

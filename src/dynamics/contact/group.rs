@@ -64,8 +64,8 @@ impl Sets {
 }
 
 impl Collider {
-    /// Divides the bodies into groups for a step of `duration` seconds. `after` is the end of the step without any impacts. `held` are sets
-    /// of bodies that are held at rest together. The two bodies of each pair in `met` are in the same group in any case.
+    /// Divides the bodies into groups for a step of `duration` seconds. `after` is the state at the end of the step without any impacts.
+    /// `held` are sets of bodies that are held at rest together. The two bodies of each pair in `met` are in the same group in any case.
     pub(in crate::dynamics) fn part<'a>(
         &mut self,
         model: &Model,
@@ -166,8 +166,8 @@ impl Collider {
         }
     }
 
-    /// Ends the restriction to a group, after this group has been advanced. Stores the distances that its bodies have moved in
-    /// `parting_ways`, m.
+    /// Ends the restriction to a group, after this group has been advanced. Stores in `parting_ways` the distances that the group's bodies
+    /// have moved, m.
     pub(in crate::dynamics) fn unfocus(&mut self, group: &mut Group, parting_ways: &mut [f64]) {
         let Some(Focus { bodies, taken, others }) = self.focus.take() else { return };
         self.crowd.unfocus(others);

@@ -50,7 +50,8 @@ impl Pairs {
         is_long.then_some(&self.list[..])
     }
 
-    /// Marks the list as invalid, because it does not cover these distances of the bodies, m. The next list will cover them.
+    /// Marks the list as invalid, because its margins are too small for the distances `ways` that the bodies move, m. The next list will
+    /// allow for these distances.
     pub(super) fn expect(&mut self, ways: Vec<f64>) {
         self.expected = ways;
         self.is_known = false;
@@ -101,7 +102,7 @@ impl Pairs {
         }
     }
 
-    /// Subtracts further distances of the bodies from the margins, m. Returns true if the list is still valid.
+    /// Subtracts from the margins the further distances `more` that the bodies have moved, m. Returns true if the list is still valid.
     pub(super) fn go_farther(&mut self, more: &[f64]) -> bool {
         self.left.iter_mut().zip(more).for_each(|(left, more)| *left -= more.max(0.0));
         self.left.iter().all(|left| *left >= 0.0)

@@ -9,7 +9,7 @@ use super::solid::Pose;
 const ROUNDING: f64 = 2e-15;
 
 /// The path of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a uniform rotation. This
-/// accuracy is sufficient, because steps of the integrator locate each touch that is found on the path.
+/// accuracy is sufficient: if a touch is found on the path, steps of the integrator then locate it exactly.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     start: Pose,

@@ -174,7 +174,7 @@ impl Collider {
     }
 
     /// Returns true if two bodies have hit each other too often in the current step, beyond what their restitution explains, or if all
-    /// bodies together have.
+    /// bodies together have had too many impacts.
     pub(in crate::dynamics) fn hits_too_often(&self, bodies: [usize; 2]) -> bool {
         let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
         let hits = self.hits.get(&bodies).copied().unwrap_or(0);

@@ -9,7 +9,7 @@ use super::solid::{Core, Part, Pose, Solid};
 
 /// A flat end lies flat on a face if the sine of the angle between them is below this.
 const FLAT: f64 = 1e-7;
-/// Two contact points closer than this fraction of the body's size are the same.
+/// Two contact points count as the same if their distance is below this fraction of the body's size.
 const SAME: f64 = 1e-6;
 /// The largest number of contact points kept for a pair of convex parts. They are enough to hold one part on the other.
 const MOST: usize = 8;
@@ -64,7 +64,7 @@ fn is_same(a: &ClosestPoints, b: &ClosestPoints, same: f64) -> bool {
 
 /// Returns the distance of a contact point from the borders of its features, m. It is negative outside, and infinite without borders.
 ///
-/// A point that is outside by 1e-9 sizes counts as inside, so that faces of the same size can lie on each other.
+/// A point that is outside by up to 1e-9 of the part's size counts as inside, so that faces of the same size can lie on each other.
 pub(in crate::dynamics) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) -> f64 {
     let meeting = meet(&touch.patches[0], pa, &touch.patches[1], pb);
     let parts = [&a.parts()[touch.features[0].0], &b.parts()[touch.features[1].0]];
@@ -243,7 +243,7 @@ impl Pair<'_> {
         (-2.0 * self.depth..=self.within).contains(&meeting.gap)
     }
 
-    /// Adds the contact of a point of a rim and a face, if they touch and the contact is new.
+    /// Adds the contact between a point of a rim and a face, if they touch and the contact is new.
     fn keep_rim(&mut self, patches: [Patch; 2], features: [Option<usize>; 2]) {
         let meeting = meet(&patches[0], self.pa, &patches[1], self.pb);
         self.keep(patches, features, meeting);

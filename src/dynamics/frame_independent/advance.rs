@@ -81,7 +81,8 @@ impl<S: Stepper> FrameIndependent<S> {
         let FrameIndependent { model, bodies, scales, stage, loads, now: (now, method), before, .. } = self;
         let longest = now.until(stop);
         if method.proposal().min(longest) >= now.until(wanted) {
-            // This step reaches the requested time, so the state before the step is saved for interpolation.
+            // This step reaches the requested time, so the state before the step is saved. A shorter step from this state leads to the
+            // requested time.
             before.0 = *now;
             before.1.clone_from(method);
         }

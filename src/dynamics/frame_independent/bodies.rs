@@ -86,7 +86,7 @@ impl Field<'_> {
     }
 }
 
-/// The errors of positions and speeds below this fraction of the typical values are measured relative to this fraction.
+/// The error of a position or speed is relative to its value, but at least to this fraction of the typical value.
 const SMALL: f64 = 0.1;
 
 /// Lower limits of the values to which the errors of positions and speeds are relative. The error of a value below its limit is divided by

@@ -1,8 +1,8 @@
 //! A time that stays accurate when many steps are added.
 
-/// A time (s) as the sum of two numbers, so that it has twice the precision. Otherwise, the rounding errors of ten thousand steps of
-/// different lengths would be visible for a planet at its perihelion. Source: D. E. Knuth, *The Art of Computer Programming* 2, 4.2.2,
-/// theorem B.
+/// A time (s) as the sum of two numbers, so that it has twice the precision of an `f64`. Otherwise, the rounding errors of ten thousand
+/// steps of different lengths would be visible for a planet at its perihelion. Source: D. E. Knuth, *The Art of Computer Programming* 2,
+/// 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Time {
     seconds: f64,

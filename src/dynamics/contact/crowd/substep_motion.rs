@@ -75,8 +75,9 @@ pub(super) struct SubstepMotion {
 }
 
 impl Collider {
-    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. `rest` is the time from there to the
-    /// end of the step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion fails.
+    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. `rest` is the time from `t` + `dt` to
+    /// the end of the step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion
+    /// fails.
     pub(in crate::dynamics) fn advance_crowd(
         &mut self,
         model: &Model,
@@ -397,7 +398,7 @@ impl Crowd {
         solver.find_by_sweeps(model);
         solver.take_contacts(closed);
         solver.forget();
-        // Bodies may approach only so fast that their gap closes at the end of the substep.
+        // Bodies may approach only so fast that their gap does not close before the end of the substep.
         solver.prepare_sweeps(model, t, now);
         let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
         model.sum(t, now, loads);
