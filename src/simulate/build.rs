@@ -74,7 +74,8 @@ fn add_ground(world: &mut World, scene: &Scene) {
     world.add_shapes([plane]);
 }
 
-/// Collects the surfaces of a scene's bodies, and the pairs that pass through each other: bodies joined together, and bodies of one group.
+/// Collects the contact surface of each body of a scene, and the pairs of bodies that may pass through each other: bodies joined by a joint
+/// that does not let them collide, and bodies of one group.
 fn contacts(scene: &Scene) -> Contacts {
     let surface = |body: &Body| body.collider.as_ref().map(|collider| collider.surface);
     let ground = scene.ground_that_stops().map(|(_, surface)| Some(surface));
@@ -94,7 +95,7 @@ fn contacts(scene: &Scene) -> Contacts {
     let moves = |id: usize| !scene.bodies[id].start.fixed && scene.bodies[id].motion.is_none();
     for group in groups.values() {
         for (place, &one) in group.iter().enumerate() {
-            // Two bodies that are both fixed or prescribed need no contact.
+            // Two bodies that no force moves never collide, so their pair need not be listed.
             let others = group[place + 1..].iter().filter(|&&two| moves(one) || moves(two));
             apart.extend(others.map(|&two| (one, two)));
         }

@@ -7,8 +7,9 @@ use crate::scene::ContactLaw;
 
 /// The energy that the energy error of a run is relative to.
 ///
-/// Usually this is the largest kinetic energy. With time-stepping, bodies that only settle, or that a machine lifts slowly, hardly move. If
-/// contacts take more energy, or motions and motors do more work, the error is relative to that energy.
+/// Usually this is the largest kinetic energy. It may be very small under time-stepping, if bodies only settle or a machine lifts them
+/// slowly. If contacts take more energy than the largest kinetic energy, or motions and motors do more work, the error is relative to that
+/// larger energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EnergyScale {
@@ -17,7 +18,7 @@ pub enum EnergyScale {
     LargestKinetic,
     /// The energy that impacts and friction took from the bodies in the whole run.
     TakenByContacts,
-    /// The work of everything without a potential in the whole run: given motions, motors, drag.
+    /// The work in the whole run of everything that has no potential energy: given motions, motors and drag.
     Work,
 }
 
@@ -50,7 +51,8 @@ pub(crate) struct EnergyError {
     taken: f64,
     /// The magnitude of the work of motions, motors and drag so far, J.
     work: f64,
-    /// The largest sum of the kinetic energy and the magnitude of the potential energy so far, J. Its rounding error is in every energy.
+    /// The largest sum of the kinetic energy and the magnitude of the potential energy so far, J. It determines the rounding errors of all
+    /// energies.
     magnitude: f64,
 }
 
@@ -68,7 +70,8 @@ impl EnergyError {
         error
     }
 
-    /// The scale of the error of the whole run, and its energy, J. `contacts` is how the scene treats contacts.
+    /// Returns the kind of energy that the error of the whole run is relative to, and the value of this energy, J. `contacts` is the
+    /// contact law of the scene.
     pub(crate) fn scale(&self, contacts: Option<ContactLaw>) -> (EnergyScale, f64) {
         let mut scale = (EnergyScale::LargestKinetic, self.largest_kinetic);
         if contacts == Some(ContactLaw::TimeStepping) {
@@ -79,9 +82,10 @@ impl EnergyError {
         scale
     }
 
-    /// The largest error relative to the energy of its scale; 0 if nothing moved, or if time-stepping only moved bodies by rounding errors.
+    /// Returns the largest error, relative to the energy that `scale` returns. 0 if nothing moved, or if time-stepping only moved bodies by
+    /// rounding errors.
     pub(crate) fn drift(&self, contacts: Option<ContactLaw>) -> f64 {
-        /// Energies below this fraction of all energies are rounding errors of contacts and joints.
+        /// Energies below this fraction of `magnitude` are rounding errors of contacts and joints.
         const ROUNDING: f64 = 1e-10;
         let (_, energy) = self.scale(contacts);
         if contacts == Some(ContactLaw::TimeStepping) && energy <= ROUNDING * self.magnitude {

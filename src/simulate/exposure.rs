@@ -14,7 +14,7 @@ pub struct Exposure {
     pub frame: Frame,
     /// The trails, ghosts and delayed camera targets up to the time when the shutter opens.
     history: History,
-    /// The particles at the last frame before the shutter opens, or at the frame itself.
+    /// The particles at the last frame at or before the time when the shutter opens.
     clouds: Clouds,
     /// The recording, and the number of the first moment after the shutter opens.
     rest: (Arc<Recording>, usize),

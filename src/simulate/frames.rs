@@ -36,7 +36,8 @@ impl<'a> Frames<'a> {
         Frames::watched(scene, &PairCounter::default())
     }
 
-    /// Simulates the frames of a scene like [`new`](Self::new). `pair_counter` counts the evaluated interactions between pairs of bodies.
+    /// Simulates the frames of a scene as [`new`](Self::new) does. `pair_counter` counts the evaluated interactions between pairs of
+    /// bodies.
     pub fn watched(scene: &'a Scene, pair_counter: &PairCounter) -> Frames<'a> {
         Frames::with(scene, Moments::of_ghosts(scene), pair_counter)
     }
@@ -58,7 +59,7 @@ impl<'a> Frames<'a> {
     }
 
     /// Simulates a scene up to a time (s), and returns its state at that time. At the time of a frame, the result equals that frame, bit
-    /// for bit. A time outside the run gives its first or last moment.
+    /// for bit. A time outside the run gives the run's first or last moment.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time.
@@ -152,7 +153,7 @@ impl<'a> Frames<'a> {
         }
     }
 
-    /// Restarts the run, like the space key in an interactive simulation.
+    /// Restarts the run: the next frame is the first one.
     pub fn reset(&mut self) {
         *self = match &self.source {
             Source::Live(..) => Frames::new(self.scene),

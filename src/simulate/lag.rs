@@ -42,7 +42,8 @@ impl Lagging {
         self.body == body && self.lag == lag
     }
 
-    /// Advances the point to a frame that is not earlier. The result is exact if the body has a constant velocity between frames.
+    /// Advances the point to `frame`, which must not be earlier than the last frame. The result is exact if the body has a constant
+    /// velocity between frames.
     #[must_use]
     pub(super) fn at(self, frame: &Frame) -> Lagging {
         let Some(there) = frame.body(self.body).map(|body| body.location) else { return self };

@@ -8,7 +8,7 @@ use super::Frame;
 use crate::dynamics::{BodySnapshot, ContactSnapshot};
 use crate::scene::{Arrow, Quantity, Scene};
 
-/// A force on a body that is shown by an arrow: its weight, or the normal force or friction from another body.
+/// A force on a body, shown by an arrow: the body's weight, or the normal force or friction from another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// The index of the body on which the force acts.
@@ -40,7 +40,7 @@ pub fn loads(scene: &Scene, frame: &Frame) -> Vec<Load> {
     loads_on(scene, &frame.bodies, &frame.contacts)
 }
 
-/// Computes the weights and contact forces that some bodies show. `contacts` must hold all contacts of these bodies.
+/// Computes the weights and contact forces that the scene shows on `bodies`. `contacts` must hold all contacts of these bodies.
 pub fn loads_on(scene: &Scene, bodies: &[BodySnapshot], contacts: &[ContactSnapshot]) -> Vec<Load> {
     let asks = |id: usize| scene.bodies.get(id).is_some_and(|body| body.showing.has_loads());
     let mut touches: BTreeMap<(usize, usize), Touch> = BTreeMap::new();

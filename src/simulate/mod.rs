@@ -236,7 +236,7 @@ impl Stuck {
 }
 
 impl SimulateError {
-    /// Converts a breakdown of the dynamics into an error with the names of the scene.
+    /// Converts a breakdown of the dynamics into an error that gives the bodies, joints and forces their names in the scene.
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {

@@ -14,7 +14,7 @@ use super::Frame;
 use crate::dynamics::{Placed, Shape};
 use crate::scene::{Body, Scene};
 
-/// The tolerance: two bodies overlap if they still do after each shrinks by this fraction.
+/// The tolerance: two bodies count as overlapping if they still overlap after each has shrunk by this fraction.
 const DEEP: f64 = 0.01;
 
 /// The first two bodies that moved into each other. They did not touch in their first common frame.
@@ -36,7 +36,7 @@ pub struct Overlap {
 pub(super) struct Watch<'a> {
     scene: &'a Scene,
     near: Near,
-    /// The pairs that may overlap: they are joined together, or touched in their first common frame.
+    /// The pairs that are allowed to overlap: the two bodies are joined together, or touched in their first common frame.
     together: HashSet<(usize, usize)>,
     /// For each watched body, whether it was present in the last checked frame.
     were_there: Vec<bool>,
@@ -52,7 +52,7 @@ pub(super) struct Watch<'a> {
 const OF_SHAPES: u64 = 64;
 /// The allowed mean cost of overlap tests per body and frame. It is less than the cost of the body's line in a script.
 const USUAL: u64 = 32;
-/// The allowed additional cost of overlap tests per frame, for any number of bodies.
+/// The allowed cost of overlap tests per frame in addition to [`USUAL`]. It does not depend on the number of bodies.
 const ALWAYS: u64 = 16_384;
 /// The watch ends after a frame with more than this multiple of the allowed mean cost.
 const MOST: u64 = 128;
@@ -143,9 +143,10 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Returns true if two bodies touch or overlap at the start, as they are drawn. It is false for shapes that are not convex (meshes, rings).
+/// Returns true if two bodies, in their drawn sizes, touch or overlap at the start. Always false for shapes that are not convex (meshes,
+/// rings).
 pub(crate) fn touch_at_start(one: &Body, other: &Body) -> bool {
-    /// The factor by which shapes are enlarged, so that shapes that just touch meet.
+    /// The factor by which shapes are enlarged, so that shapes that only touch count as overlapping.
     const NEAR: f64 = 1.0 + DEEP;
     let shapes = [one, other].map(Body::drawn);
     let [one, other] = [one, other].map(|body| (body.start.location, body.start.orientation));

@@ -101,8 +101,8 @@ impl Clouds {
         self.makers.is_empty()
     }
 
-    /// True if the fastest way to the particles of `frame` is to continue with frame `next`. Otherwise, [`begin_at`](Self::begin_at) must
-    /// restart at an earlier frame.
+    /// True if the fastest way to the particles of `frame` is to continue with frame `next`. Otherwise, the caller must restart with
+    /// [`begin_at`](Self::begin_at) at [`first_frame`](Self::first_frame).
     pub(super) fn go_on_to(&self, frame: usize, next: usize) -> bool {
         let first = self.first_frame(frame);
         !self.clouds.is_empty() && self.begin <= first && first <= next && next <= frame
@@ -250,7 +250,7 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
     fields
 }
 
-/// Converts a force into a field that acts on particles of a radius (m). `None` for forces that act on bodies only.
+/// Converts a force into a field that acts on particles with this radius (m). `None` for forces that act on bodies only.
 fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
     let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()

@@ -20,7 +20,7 @@ use super::{Frame, Lagging, Moments};
 use crate::dynamics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
-/// The earlier positions of bodies that a frame shows.
+/// The earlier positions of bodies, as a frame shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Past {
     /// The requested trails.
@@ -49,7 +49,7 @@ pub(super) struct History {
     requests: Arc<[(usize, Showing)]>,
     /// The mass of each body with trails or ghosts, kg. Infinite for a body that no force moves.
     masses: Arc<[f64]>,
-    /// The points of each trail. The number is the frame of the point, or the next frame for a point between frames.
+    /// The points of each trail. Each point comes with the number of its frame, or of the next frame if it lies between frames.
     paths: Vec<Vec<(usize, TrailPoint)>>,
     /// The state of each body with a trail in the last frame. `None` if the body was absent.
     last: Vec<Option<corners::At>>,

@@ -169,8 +169,8 @@ impl<'a> Recorded<'a> {
         })
     }
 
-    /// Returns the moment at any time (s), with the moments after it for cameras with an open shutter. A time outside the run gives its
-    /// first or last moment. If the moment was not recorded, the run is simulated again.
+    /// Returns the moment at any time (s), with the moments after it for cameras with an open shutter. A time outside the run gives the
+    /// run's first or last moment. If the moment was not recorded, the run is simulated again.
     ///
     /// # Errors
     /// If the run becomes non-finite before that time, or the recording cannot be read. Also if the moment was not recorded and the run
@@ -288,7 +288,7 @@ impl<'a> Recorder<'a> {
         Ok(Some(Checkpoint { index: self.recording.index()?, simulation }))
     }
 
-    /// Creates a recorder like [`new`](Self::new), but writes to the given empty recording.
+    /// Creates a recorder as [`new`](Self::new) does, but one that writes to the given empty recording.
     pub fn into(
         scene: &'a Scene,
         moments: Moments,

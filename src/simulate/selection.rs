@@ -31,7 +31,7 @@ impl Selection {
             && (self.every == 1 || (frame - first()).is_multiple_of(self.every))
     }
 
-    /// The end of the last range. `None` for an empty selection.
+    /// The largest frame number in the ranges. `None` for an empty selection.
     pub fn last(&self) -> Option<usize> {
         self.ranges.iter().map(|range| *range.end()).max()
     }

@@ -1,4 +1,4 @@
-//! The space that a run takes, from its start to several times.
+//! The space that a run takes from its start to each of several times.
 
 use glam::{DMat3, DVec3};
 

@@ -26,8 +26,8 @@ use crate::scene::{Arrow, Joint, Quantity, Scene};
 /// Statistics of a whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// The space that the run takes, from its start to several times, of which the last is the end. A body is ignored after it has passed
-    /// through a plane. Empty if all bodies are planes.
+    /// The space that the run takes from its start to each of several times. The last of these times is the end of the run. A body is
+    /// ignored after it has passed through a plane. Empty if all bodies are planes.
     pub spans: Vec<Span>,
     /// The space of the whole run without strays, the bodies that fly far away. Of each stray, only its first frame is included. `None` if
     /// there are no strays.
@@ -117,7 +117,8 @@ pub struct Surveyor<'a> {
     clouds: Clouds,
     corrected: Option<Corrected>,
     requested: RequestedSizes,
-    /// The requested arrows of joints: the end where each begins, its quantity, and its scale if given.
+    /// The requested arrows of joints. Each entry has the joint's end at which the arrow begins, the quantity that it shows, and its scale
+    /// if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
     gaps: Gaps,
@@ -126,7 +127,7 @@ pub struct Surveyor<'a> {
 }
 
 impl Survey {
-    /// The box around everything in the whole run. `None` if all bodies are planes.
+    /// The box around all bodies and particles in the whole run. `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.last().map(|span| span.bounds)
     }
@@ -250,7 +251,8 @@ impl<'a> Surveyor<'a> {
     }
 }
 
-/// Lists the requested arrows of joints: the end where each begins, its quantity, and its scale if given.
+/// Lists the requested arrows of joints. Each entry has the joint's end at which the arrow begins, the quantity that it shows, and its
+/// scale if given.
 fn joint_arrows(scene: &Scene) -> Vec<(JointEnd, Quantity, Option<f64>)> {
     let joints = scene.joints.iter().enumerate();
     let of_joint = |(number, joint): (usize, &Joint)| {

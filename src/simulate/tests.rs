@@ -189,7 +189,7 @@ mod between_frames {
         }
     }
 
-    /// A uniformly rotating body has the exact orientation up to rounding, with every method.
+    /// A uniformly rotating body has the orientation of the exact motion at every moment, with every method except explicit Euler.
     #[test]
     fn moments_are_states_of_the_motion_and_not_something_between() {
         for method in METHODS.iter().filter(|method| method.name != "explicit-euler") {

@@ -31,7 +31,7 @@ fn link(joint: &Joint) -> Option<Link> {
     Some(Link { kind, collides: joint.collides })
 }
 
-/// True if the scene shows contact forces. Otherwise contacts are not reported: a pile has tens of thousands.
+/// True if the scene shows contact forces. Otherwise the engine does not report its contacts, which are tens of thousands in a pile.
 fn shows_contacts(scene: &Scene) -> bool {
     let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
     scene.bodies.iter().any(shows)

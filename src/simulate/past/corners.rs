@@ -71,7 +71,7 @@ impl Flight {
         Flight { time: *time, location, velocity, acceleration: body.force / mass + towards_axis }
     }
 
-    /// Advances to an impact, and applies its velocity jump with the sign of `sense`. Returns the state at the impact before the jump.
+    /// Advances to an impact, and applies its velocity jump with the sign of `sense`. Returns the state just before the jump.
     fn pass(&mut self, (time, jump): (f64, DVec3), sense: f64) -> Flight {
         let span = time - self.time;
         self.location += self.velocity * span + 0.5 * self.acceleration * (span * span);

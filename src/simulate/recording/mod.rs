@@ -65,7 +65,7 @@ impl Recording {
         Ok(Recording { counts, encoder: Mutex::new(Encoder::new(Counts::default())), contents, store })
     }
 
-    /// Opens a recording like [`with_index`](Self::with_index), to append further moments.
+    /// Opens a recording as [`with_index`](Self::with_index) does, but one to which further moments can be appended.
     ///
     /// # Errors
     /// If the index is invalid.

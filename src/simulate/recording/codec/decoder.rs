@@ -155,8 +155,8 @@ struct Parts<'a> {
     impacts: &'a [u8],
 }
 
-/// Splits the moment at offset `at` of a page into its parts, for these numbers of joints and impact counts. Moves the offset to the next
-/// moment.
+/// Splits the moment at offset `at` of a page into its parts. `joints` and `counts` are the numbers of joints and impact counts in each
+/// moment. Moves the offset to the next moment.
 fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
@@ -181,7 +181,7 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -
     Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
 }
 
-/// Splits the bytes after a list from the bytes of the list itself. Each item of the list consists of `numbers` values.
+/// Splits bytes into the list at their start and the remaining bytes. Each item of the list consists of `numbers` values.
 fn list(bytes: &[u8], numbers: usize) -> io::Result<(&[u8], &[u8])> {
     let (count, rest) = bytes.split_first_chunk::<4>().ok_or_else(damaged)?;
     let count = u32::from_le_bytes(*count) as usize;
