@@ -40,7 +40,7 @@ pub enum ArrowOwner {
     Joint {
         /// The index of the joint.
         joint: usize,
-        /// The index of the body at the second end of the joint, or else of the body at its first end.
+        /// The index of the body at the second end of the joint. If that end is a fixed point, the index of the body at the first end.
         body: Option<usize>,
     },
 }
@@ -142,7 +142,7 @@ fn scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     longest.map(|longest| if longest > 0.0 { LONGEST * view / longest } else { 1.0 })
 }
 
-/// Computes drawn lengths like [`scales`], and rounds them down, so that small edits of a scene do not change them.
+/// Computes drawn lengths as [`scales`] does, and rounds them down, so that small edits of a scene do not change them.
 pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales {
     scales(longest, view).map(round_down)
 }
@@ -187,7 +187,7 @@ impl Arrows {
         Arrows { bodies, arrows, of_joints, of_loads, longest }
     }
 
-    /// The sizes of arrows in all pictures of a fixed camera, for the scales that the camera was placed for.
+    /// The sizes of arrows in all pictures of a fixed camera. `scales` are the scales that its position was chosen for.
     pub(super) fn still_sizes(&self, scales: Scales, view: f64, stroke: f64) -> ArrowSizes {
         ArrowSizes { view, radius: SHAFT * stroke, scales }
     }

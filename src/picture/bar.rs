@@ -1,4 +1,4 @@
-//! The scale bar: a line with the number of meters that it represents at the center of the framed bounds.
+//! The scale bar: a line with the length that it represents. This length is true at the center of the bounds that the camera frames.
 
 use glam::DVec3;
 

@@ -82,9 +82,9 @@ mod tests {
             assert!((2.0 * head..3.0 * head).contains(&apart), "{apart} of {head}");
         }
         for (arrow, length) in [(velocity, 1.6), (acceleration, 1.0), (force, 2.0)] {
-            // Each arrow begins at the lowest point of the ball.
+            // Each tip is where it would be if the arrow began at the lowest point of the ball.
             assert!((arrow.to.y + 0.5 + length).abs() < 1e-9, "{arrow:?}");
-            // Beside the axis through its center, the surface of the ball is a little higher.
+            // The start of each arrow is on the surface of the ball.
             assert!(arrow.from.length() > 0.5 - 1e-9 && arrow.from.length() < 0.5 + 1e-9, "{arrow:?}");
         }
     }

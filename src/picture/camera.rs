@@ -57,7 +57,8 @@ impl Placed {
         Placed { location, look_at, lens, blur: camera.blur, output }
     }
 
-    /// The camera at a time (s). The followed body of the given half-width (m) was at `start` in the first frame, and is `here` now.
+    /// The camera at a time (s). The followed body has the half-width `size` (m). It was at `start` in the first frame, and is at `here`
+    /// now.
     fn moved(&self, camera: &Camera, size: f64, time: f64, [start, here]: [DVec3; 2]) -> Placed {
         let motion = &camera.motion;
         let mut location = motion.location.as_ref().map_or(self.location, |location| location.at(time));
@@ -244,7 +245,8 @@ pub(super) fn half_width(body: &Body) -> Option<f64> {
     [DVec3::X, DVec3::Y, DVec3::Z].into_iter().filter_map(reach).reduce(f64::max)
 }
 
-/// The aim of a camera for which the scene gives only a position: the middle of the motion, or straight ahead if the camera is there.
+/// The aim of a camera for which the scene gives only a position: the middle of the motion, or a point straight ahead if the camera itself
+/// is in this middle.
 fn aim(location: DVec3, auto: Framing) -> DVec3 {
     let far = auto.location.distance(auto.look_at);
     if location.distance(auto.look_at) > 1e-6 * far { auto.look_at } else { location - DVec3::Z * far }

@@ -10,14 +10,14 @@ use glam::DVec3;
 /// The number of straight pieces of a drawn curve. Each piece deviates from the curve by at most h u / 2304.
 const PIECES: u32 = 24;
 
-/// The horizontal distance of the ends, relative to the rope's length, below which the rope hangs straight down.
+/// The horizontal distance between the ends, relative to the rope's length, below which the rope hangs straight down.
 const UPRIGHT: f64 = 1e-9;
 
 /// The slack, relative to the rope's length, up to which the rope counts as straight.
 const TAUT: f64 = 1e-12;
 
 /// The points of a hanging rope without stiffness, m. `down` is the direction of gravity, a unit vector; without gravity the rope is a
-/// circular arc. A rope that is no longer than the distance of its ends is a straight line with two points.
+/// circular arc. A rope that is no longer than the distance between its ends is a straight line with two points.
 pub(super) fn hanging(ends: [DVec3; 2], length: f64, down: Option<DVec3>) -> Vec<DVec3> {
     let distance = ends[0].distance(ends[1]);
     if length - distance <= TAUT * length {
@@ -48,7 +48,7 @@ struct Catenary {
 }
 
 impl Catenary {
-    /// Computes the curve of a rope that is longer than the distance of its ends. `None` if one end is vertically below the other.
+    /// Computes the curve of a rope that is longer than the distance between its ends. `None` if one end is vertically below the other.
     fn new(ends: [DVec3; 2], length: f64, down: DVec3) -> Option<Catenary> {
         let way = ends[1] - ends[0];
         let rise = -way.dot(down);
@@ -115,7 +115,7 @@ fn log_sinh_ratio(u: f64) -> (f64, f64) {
     (u + libm::log1p(-fall) - libm::log(2.0 * u), (1.0 + fall) / (1.0 - fall) - 1.0 / u)
 }
 
-/// The points of a circular arc that is longer than the distance of its ends, m. The arc bulges downward.
+/// The points of a circular arc that is longer than the distance between its ends, m. The arc bulges downward.
 fn arc(ends: [DVec3; 2], length: f64) -> Vec<DVec3> {
     let [from, to] = ends;
     let chord = from.distance(to);
@@ -184,7 +184,7 @@ mod tests {
         assert!(middle.abs_diff_eq(DVec3::new(0.0, 1.543_080_634_815_243_7, 1.0), 1e-12), "{middle}");
     }
 
-    /// A rope that is a little longer than the distance d of its ends sags by √(3 d (L − d)/8).
+    /// A rope whose length L is a little larger than the distance d between its ends sags by √(3 d (L − d)/8).
     #[test]
     fn a_rope_that_is_nearly_taut_sags_little() {
         for slack in [1e-11, 1e-8, 1e-5] {

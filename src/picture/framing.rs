@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::scene::Output;
 use crate::simulate::Bounds;
 
-/// The direction from the motion to the camera: mainly to the front, a little to the side, and a little above.
+/// The components of the direction from the motion to the camera: mainly forward, a little sideways, and a little upward.
 const FRONT: f64 = 1.0;
 const ASIDE: f64 = 0.16;
 const ABOVE: f64 = 0.11;

@@ -53,13 +53,13 @@ impl Planes {
     }
 }
 
-/// Moves an arrow in front of a spring or joint if the arrow is inside.
+/// Moves an arrow in front of a spring or joint if the arrow is inside it.
 pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;
     let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;
     let Some([begin, end]) = link.lines().find(is_hidden) else { return };
     let middle = (arrow.from + arrow.to) / 2.0;
-    // If the line is seen end-on, the sideways distance would be very long, so limit it.
+    // If the line is seen nearly end-on, the arrow would have to move very far to get in front of it, so limit the way.
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
     *arrow = match camera.lens() {

@@ -52,7 +52,7 @@ pub enum Reason {
     TooSmall {
         /// The largest length or width of the thing in any picture, pixels.
         pixels: f64,
-        /// A value of its key that would make the thing visible, in the unit of the key.
+        /// A value that would make the thing visible, for the key of the scene that sets its size, in the unit of this key.
         fit: f64,
     },
     /// The tip of the arrow becomes non-finite.
@@ -181,7 +181,7 @@ pub(super) fn find(
     found.0
 }
 
-/// The findings, of which only one is kept for each kind and reason.
+/// The invisible things found so far. For each kind of thing and each reason, only the first is kept, and the others are counted.
 #[derive(Default)]
 struct Found(Vec<NotDrawn>);
 

@@ -69,7 +69,7 @@ impl Occupancy {
         Occupancy { aspect, across, upward, cells: Vec::new() }
     }
 
-    /// Takes a rectangle of the picture.
+    /// Marks a rectangle of the picture as taken.
     pub(super) fn take(&mut self, part: Rectangle) {
         self.each_cell(part, |cell, place| {
             if part.overlaps(place) {
@@ -78,7 +78,7 @@ impl Occupancy {
         });
     }
 
-    /// Takes the area of a text.
+    /// Marks the area of a text as taken.
     pub(super) fn take_text(&mut self, text: &Text<'_>) {
         self.take(text.area(self.aspect));
     }
@@ -93,14 +93,14 @@ impl Occupancy {
         self.aspect
     }
 
-    /// Takes the image of a line between two points in the world. The width of the line is in meters.
+    /// Marks the image of a line between two points in the world as taken. The width of the line is in meters.
     pub(super) fn cross(&mut self, ends: [DVec3; 2], width: f64, screen: &Screen) {
         if let [Some(from), Some(to)] = ends.map(|end| screen.project(end)) {
             self.stripe([from.x, from.y], [to.x, to.y], width * to.scale);
         }
     }
 
-    /// Takes a line of some width in the image plane.
+    /// Marks a line of this width in the image plane as taken.
     fn stripe(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         let stripe = Stripe { from, to, half: width / 2.0 };
         self.each_cell(stripe.bounds(), |cell, place| {

@@ -237,8 +237,8 @@ impl Line {
     }
 }
 
-/// If a complete stretch begins at the first point: the number of the stretch, and the index of its last point. Points at impacts lie
-/// between those of frames and are not counted.
+/// If a complete stretch begins at the first point, returns the number of the stretch and the index of its last point. Points at impacts
+/// lie between those of frames and are not counted.
 fn stretch_at(points: &[TrailPoint], stride: usize) -> Option<(usize, usize)> {
     let frames = stride * STRETCH;
     let begin = points.first()?.frame.filter(|frame| frame.is_multiple_of(frames))?;
@@ -247,7 +247,7 @@ fn stretch_at(points: &[TrailPoint], stride: usize) -> Option<(usize, usize)> {
     (frame == begin + frames).then_some((begin / frames, end))
 }
 
-/// The index of the point at which a stretch may begin, or of the last point. At least 1.
+/// The index of the next point at which a stretch may begin, or else of the last point. The first point does not count.
 fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
     let begins = |point: &TrailPoint| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
     let next = points.iter().skip(1).position(begins);

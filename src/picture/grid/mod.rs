@@ -55,7 +55,7 @@ pub(super) struct GridPlan {
     spacing: f64,
     /// The spacing that the scene gives, m, if the drawn spacing is larger because there would be too many lines.
     too_fine: Option<f64>,
-    /// The numbers of the first and the last lines along x, y and z: multiples of the spacing, from the origin.
+    /// The indices of the first and the last lines along x, y and z. The line with index n is n spacings from the origin.
     low: DVec3,
     high: DVec3,
     /// The height of the ground, m.
@@ -212,7 +212,7 @@ impl GridPlan {
     }
 }
 
-/// The numbers of the first and the last line of a grid that covers the whole motion.
+/// The indices of the first and the last lines along x, y and z of a grid that covers the whole motion.
 fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DVec3) {
     // Bodies may extend a little beyond the grid. A nearby origin is included.
     let (low, high) = ((bounds.min / spacing + 0.3).floor(), (bounds.max / spacing - 0.3).ceil());

@@ -8,7 +8,7 @@ use super::super::text::{MARGIN, Text, Vertical, width};
 use super::Grid;
 use crate::scene::Color;
 
-/// The possible distances between two numbered lines, in grid lines. The smallest one that leaves enough room is used.
+/// The possible distances between two lines with numbers, in spacings of the grid. The smallest one that leaves enough room is used.
 const STEPS: [f64; 9] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 /// If the end of a line is outside the picture, this many points of the line are tested to find one inside.
 const POINTS: u32 = 48;
@@ -131,7 +131,8 @@ impl GridLayout {
             let middle = (outside + inside) / 2.0;
             if is_in(middle).is_some() { inside = middle } else { outside = middle }
         }
-        // A line may enter the picture only over its axis's own edge. Otherwise the numbers of both axes would be mixed at one edge.
+        // A number is written only if its line enters the picture over the edge that belongs to the axis. Otherwise the numbers of both
+        // axes would be mixed at one edge.
         let over = at(outside);
         let own = over.is_none_or(|text| match beside {
             Beside::Below => text.y <= self.lowest(),
@@ -184,7 +185,7 @@ impl GridLayout {
         let is_free = |text: &Placed| {
             room.is_free(self.area(text)) && !others.iter().any(|other| self.collide(other, text))
         };
-        // At the edge of the picture, the name would be moved back onto the last number.
+        // Near the edge of the picture, `kept_inside` may have moved the name back onto the last number.
         let beyond = beyond.filter(|text| !self.collide(text, last));
         let mut free = beyond.into_iter().chain(behind).chain(instead).filter(is_free);
         let off_coils = |text: &Placed| coils.is_free(self.area(text));

@@ -87,8 +87,8 @@ impl Labels {
         labels.filter_map(text).collect()
     }
 
-    /// Places the labels beside bodies in a frame, avoiding the taken parts in `room`, and takes their places there. Returns each label
-    /// with its index in the scene.
+    /// Places the labels beside bodies in a frame, in free parts of `room`, and marks the places of these labels as taken. Returns each
+    /// label with its index in the scene.
     pub(super) fn beside_bodies(
         &self,
         frame: &Frame,

@@ -125,7 +125,7 @@ pub(super) struct Links {
     scales: Vec<f64>,
     /// The direction of gravity, a unit vector in world axes. `None` without gravity.
     down: Option<DVec3>,
-    /// The index of a body with the index of a part fastened to it, for all such pairs, sorted.
+    /// All pairs of a body and a part fastened to it, sorted. Each pair has the index of the body and the index of the part.
     of_bodies: Vec<(usize, usize)>,
     /// The thickness of the drawn springs, in the order of the forces and their links.
     springs: Vec<SpringSize>,

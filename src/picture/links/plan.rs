@@ -162,12 +162,12 @@ fn joint(
     }
 }
 
-/// Adds a ball at each end that is a fixed point.
+/// Returns a ball for each end of a joint that is a fixed point.
 fn knobs(between: [Anchor; 2], radius: f64) -> impl Iterator<Item = PlannedShape> {
     between.into_iter().filter(|end| end.body().is_none()).map(move |at| PlannedShape::Pin { at, radius })
 }
 
-/// Half the thickness of the thinner of the bodies at two ends, m.
+/// Half the thickness of the thinner of the two bodies that a joint or spring connects, m.
 fn thinnest(scene: &Scene, between: [Anchor; 2]) -> f64 {
     let thickness = |end: Anchor| scene.bodies[end.body()?.index()].drawn().half_thickness();
     // All bodies that move have a thickness, except flat meshes.

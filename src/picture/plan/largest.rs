@@ -52,7 +52,7 @@ impl Largest {
     }
 }
 
-/// The smallest width in view of a camera during the run, m. A moving camera is sampled at 33 times.
+/// The smallest width in view of a camera during the run, m. The view of a moving camera is computed at 33 moments.
 pub(super) fn narrowest_view(scene: &Scene, eye: &MovingCamera, bounds: Bounds) -> f64 {
     let times = if eye.moves() { 32 } else { 0 };
     let views = (0..=times).map(|number| {

@@ -105,7 +105,7 @@ impl Plan {
             seen = seen.union(grid.bounds());
         }
         let eye = match scope.part {
-            // If the body falls through the ground, the camera stops above.
+            // If the body falls through the ground, the camera stops above the ground.
             Part::AroundBody(_) => eye_on(seen).within(span.bounds),
             Part::Whole | Part::Start(_) => eye_on(seen),
         };
@@ -306,7 +306,8 @@ impl Plan {
         &self.not_drawn
     }
 
-    /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be in the whole run.
+    /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be too small in a picture of the whole
+    /// run.
     pub fn too_small(&self) -> Option<&Largest> {
         self.largest.as_ref().filter(|largest| largest.is_too_small(self.part))
     }
