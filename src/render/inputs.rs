@@ -74,8 +74,8 @@ fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (Path
     Ok(())
 }
 
-/// Lists the existing files that scripts in a folder would read if their SDL (POV-Ray code) contained these names. Files that these
-/// include are listed, too, as far as they can be read.
+/// Lists the existing files that scripts in a folder would read if their SDL (POV-Ray code) contained these names. Files that the listed
+/// files include are listed, too, as far as the including files can be read.
 pub(crate) fn named(folder: &Path, names: &[(FileKind, String)]) -> Vec<PathBuf> {
     let mut read = Vec::new();
     for (kind, name) in names {

@@ -62,7 +62,7 @@ pub enum Event<'a> {
 pub struct Outcome {
     /// The number of images that POV-Ray has rendered.
     pub rendered: usize,
-    /// The number of images that were copied, because their script equals another one.
+    /// The number of images that were copied, because their scripts equal those of other images.
     pub copied: usize,
     /// The number of images that were already up to date.
     pub up_to_date: usize,
@@ -111,8 +111,8 @@ impl Job<'_> {
         Ok(outcome)
     }
 
-    /// Groups the scripts without up-to-date images by equal scripts. If an equal script has an up-to-date image, this image is copied at
-    /// once.
+    /// Groups the scripts without up-to-date images, so that all scripts of a group are equal. If a script equals one that has an
+    /// up-to-date image, this image is copied at once instead.
     fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
         let scripts = self.sequence.scripts();
         let folder = self.images.folder();

@@ -194,7 +194,7 @@ fn linear(number: f64) -> f32 {
     if number <= 0.04045 { (number / 12.92) as f32 } else { libm::pow((number + 0.055) / 1.055, 2.4) as f32 }
 }
 
-/// Returns whether a PNG has an alpha channel, and whether it has 16 bits per channel. Fails if POV-Ray does not write its encoding.
+/// Returns whether a PNG has an alpha channel, and whether it has 16 bits per channel. Fails for encodings that POV-Ray does not write.
 fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
     /// The gamma of 1/2.2 as a PNG stores it, times 100 000. It is the power law that is nearest to sRGB.
     const GAMMA: u32 = 45455;

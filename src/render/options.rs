@@ -16,7 +16,7 @@ impl Quality {
     /// Returns the options of POV-Ray for this quality.
     pub fn options(self) -> &'static str {
         match self {
-            // Measured with the default look, these take 0.3, 1 and 2 to 3 times the rendering time of `Good`.
+            // Measured with the default look, the three qualities take 0.3, 1 and 2 to 3 times the rendering time of `Good`.
             Quality::Draft => "-A +Q9",
             Quality::Good => "+A0.1 +AM1 +R3",
             Quality::Final => "+A0.03 +AM2 +R4",

@@ -90,8 +90,8 @@ impl Process {
         tasks: Vec<RenderTask>,
         low_priority: bool,
     ) -> io::Result<Process> {
-        // A symbolic link with a plain name stands for the folder of the scripts, since the folder's name may contain characters that
-        // POV-Ray's command line and strings cannot.
+        // A symbolic link with a plain name stands for the folder of the scripts, since the folder's name may contain characters that are
+        // not allowed in POV-Ray's command line and strings.
         std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
         fs::write(folder.join("run.pov"), master(&tasks))?;
         let (last, [begin, end]) = (setup.last, setup.clock);

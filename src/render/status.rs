@@ -81,7 +81,8 @@ struct FolderContents {
 }
 
 impl Status {
-    /// Reads the status like [`Status::read`], and also reads the images. An image counts as done only if it has the digest of its record.
+    /// Reads the status as [`Status::read`] does, and also reads the images. An image counts as done only if it has the digest of its
+    /// record.
     ///
     /// # Errors
     /// If [`Status::read`] fails.

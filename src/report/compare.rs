@@ -45,7 +45,7 @@ pub(super) struct Compared {
     pub(super) energy: EnergyError,
     /// The largest sum of the magnitudes of all bodies' momenta during the run: linear (kg m/s) and angular (kg m²/s).
     pub(super) momenta: [f64; 2],
-    /// The energy brought in by everything without a potential, at the last frame of the run.
+    /// The energy that each influence without a potential has brought in by the last frame of the run.
     pub(super) accounts: Accounts,
     /// The breakdowns of the four runs: at the timestep, at its half, at its quarter, and of the run from a slightly different start.
     /// `None` for a run that reached its end.
@@ -161,8 +161,8 @@ impl Compared {
         }
     }
 
-    /// Returns the largest distance between a point of a body in the run and at half the timestep, m. Updates the largest differences of
-    /// each body.
+    /// Returns the largest distance between a point of a body in the run and the same point in the run at half the timestep, m. Updates the
+    /// largest differences of each body.
     fn see_off(&mut self, measured: &ComparedBodies, moments: [&Snapshot; 2]) -> f64 {
         let mut most = 0.0_f64;
         for (body, distance) in points(measured, moments) {

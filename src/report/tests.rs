@@ -154,7 +154,8 @@ fn gravity_and_the_ground_change_the_momentum_of_bodies_that_settle() {
     }
 }
 
-/// The forces of the tree are not exactly opposite, whatever the timestep.
+/// If gravitation is approximated with a tree of bodies, the forces of two bodies on each other are not exactly opposite, whatever the
+/// timestep.
 #[test]
 fn a_momentum_that_the_forces_do_not_conserve_drifts() {
     let text = "simulation = { duration = 2, step = 0.01, integrator = 'velocity-verlet' }\n\

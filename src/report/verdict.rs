@@ -155,7 +155,7 @@ impl Order {
     fn of(compared: &Compared, method: &Method) -> Order {
         /// Differences below this fraction of the size of the scene count as rounding errors.
         const ROUNDING: f64 = 1e-11;
-        /// The largest difference of runs whose order can be compared, as a fraction of the size of the scene.
+        /// The largest difference between two runs that still shows the order, as a fraction of the size of the scene.
         const NEAR: f64 = 0.05;
         /// The largest difference between the measured and the method's order that counts as agreement.
         const SAME: f64 = 0.35;
@@ -289,7 +289,7 @@ impl Verdict {
 }
 
 /// Decides whether a run conserves a momentum (`kind`: 0 linear, 1 angular). `is_changed` is true if an influence from outside changes it.
-/// The timestep cannot tell: the changes by impacts depend on it as errors do.
+/// Runs at other timesteps cannot decide this: the changes by impacts depend on the timestep as errors do.
 fn conserved(compared: &Compared, kind: usize, is_changed: bool) -> Conserved {
     /// Relative changes up to this limit count as errors, even if an influence from outside may act.
     const SMALL: f64 = 1e-9;
@@ -320,7 +320,7 @@ impl AccurateUntil {
 }
 
 impl Curves {
-    /// The curves of a comparison. `factor` is that from a difference of two runs to the error; the drift is relative to `energy`, J.
+    /// The curves of a comparison. `factor` converts the difference of two runs to the error. The drift is relative to `energy`, J.
     fn of(compared: &Compared, factor: f64, energy: f64) -> Curves {
         let Compared { moments, size, fastest, .. } = compared;
         let part = |of: f64, whole: f64| if whole > 0.0 { of / whole } else { 0.0 };

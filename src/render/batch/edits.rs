@@ -43,8 +43,8 @@ impl WrittenDigests {
     }
 }
 
-/// Writes files into a job folder. An edited file that users may edit stays; its new text goes to a file `.new`. Any other edited file is
-/// renamed to `.old`.
+/// Writes files into a job folder. If a file was edited and users may edit it, it stays, and the new text goes to a file with the added
+/// extension `.new`. Any other edited file is renamed: it gets the added extension `.old`.
 pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
     let mut marks = WrittenDigests::read(folder.path()).unwrap_or_default();
     let mut edits = Edits::default();

@@ -56,7 +56,7 @@ pub struct Settings {
     pub options: String,
     /// The files that all scripts read, as paths relative to the folder of the scripts.
     pub files: Vec<String>,
-    /// True if frames have motion blur: an image is then the mean of several moments.
+    /// True if frames have motion blur: an image is then the mean of the images of several moments.
     pub blurred: bool,
     /// True if the user trusts the scene: the scripts may then read all files, and write in the job folder.
     pub trust: bool,

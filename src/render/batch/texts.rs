@@ -133,7 +133,7 @@ fn modules(requirements: &Requirements) -> String {
     }
 }
 
-/// Quotes a text as a YAML string, shortened to the longest valid name.
+/// Quotes a text as a YAML string, shortened to the largest number of characters that a name may have.
 fn yaml(text: &str) -> String {
     /// The largest number of characters in a name, according to Open Job Description.
     const MAX: usize = 128;

@@ -89,7 +89,7 @@ impl FilmError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// Returns advice on how to correct the error. `None` if the message makes it plain.
+    /// Returns advice on how to correct the error. `None` if the error message alone is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             FilmError::FilmName(_) => Some(

@@ -139,7 +139,7 @@ impl Ffmpeg {
             Ok(End { success: exit.is_some_and(|exit| exit.success()), how: how(exit), said, frames: 0 })
         })
         .map(|end| {
-            // The last frames may have been counted after the loop has looked for the last time.
+            // The last frames may have been counted after the loop has read the number of frames for the last time.
             let frames = frames.load(Ordering::Relaxed);
             if frames != shown {
                 progress(frames);
