@@ -95,8 +95,8 @@ impl Block {
         for Group { bodies, shared } in &self.groups {
             let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
             if shared.is_some() {
-                // POV-Ray warns about a union of one object. Only the word before the brace tells one body from several, so that a further
-                // body leaves all other lines unchanged.
+                // POV-Ray warns about a union of one object. The texts for one body and for several differ only in the word before the
+                // brace, so that a further body leaves all other lines unchanged.
                 match there.clone().take(2).count() {
                     0 => continue,
                     1 => out.push_str("object {\n"),
@@ -122,7 +122,7 @@ impl Block {
     /// Appends the only body of a block at another pose, as for a ghost.
     pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
-            // A pose that cannot be written is left out, since an earlier pose is no reason to refuse the picture.
+            // A ghost whose location cannot be written is left out: a body's earlier location is no reason to refuse the picture.
             let _ = self.item(out, item, body);
         }
     }
@@ -234,8 +234,8 @@ fn number(form: TextTemplate, forms: &mut Vec<TextTemplate>) -> usize {
     forms.len() - 1
 }
 
-/// Returns the text before the pose of a body, how the pose is written, and the text after the pose. `uniform` is true if the body looks
-/// the same after each rotation.
+/// Returns the text before the pose of a body, how the pose is written, and the text after the pose. `uniform` is true if the material
+/// looks the same after any rotation.
 fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, Place, String) {
     if let Some(object) = &body.look.object {
         let place = Place::Matrix(DQuat::IDENTITY);

@@ -34,7 +34,7 @@ impl EmitError {
         }
     }
 
-    /// Returns the error as a report. Errors of the scene and of templates point to a position in its text.
+    /// Returns the error as a report. Errors in the scene or in a template point to a position in the text of the scene or template.
     pub fn report(&self) -> Report {
         match self {
             EmitError::Template(report) | EmitError::Indistinct(report) => report.clone(),

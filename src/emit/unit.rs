@@ -29,7 +29,8 @@ impl Unit {
     }
 }
 
-/// Returns the index of the thinnest body or emitter's particle, and half its thickness, m. `None` if nothing has a size.
+/// Returns the index of the thinnest body, or of the emitter whose particles are even thinner, and half the thickness, m. `None` if nothing
+/// has a size.
 fn thinnest(scene: &Scene) -> Option<(usize, f64)> {
     let halves =
         scene.bodies.iter().enumerate().filter_map(|(id, body)| Some((id, body.drawn().half_thickness()?)));

@@ -23,7 +23,7 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// Returns advice on how to correct the error. `None` if the message makes it plain.
+    /// Returns advice on how to correct the error. `None` if the error message alone is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             ExportError::TooLarge(_) => {

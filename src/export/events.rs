@@ -1,4 +1,4 @@
-//! Writes impacts as a CSV table with one row for each.
+//! Writes impacts as a CSV table with one row for each impact.
 
 use std::io::Write;
 

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// The recording stores only changes. Its table must contain a row for each frame, even where nothing changes.
+    /// The recording stores only changes. The table must contain a row for each frame, even where nothing changes.
     #[test]
     fn a_mass_that_hangs_has_a_row_of_its_weight_at_each_time() {
         let scene = Scene::parse(

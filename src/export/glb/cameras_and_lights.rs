@@ -12,7 +12,7 @@ use crate::simulate::{Recorded, Selection};
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
 const WIDEST: f64 = 179.9;
 
-/// The cameras and lights of a scene. Their recorded motion follows that of the bodies, cameras first.
+/// The cameras and lights of a scene. In the list of recorded motions, they come after the bodies, cameras first.
 pub(super) struct CamerasAndLights {
     /// The surroundings of the bodies.
     pub(super) stage: Stage,
@@ -160,8 +160,8 @@ fn light(name: String, light: &PlacedLight, stage: &Stage) -> Light {
     let lux = largest * std::f64::consts::PI;
     let (kind, intensity) = match light.kind {
         Lamp::Sun => ("directional", lux),
-        // A lamp inside the scene is treated as if it were at half the size of the scene, since a lamp very close to the center would be
-        // too dim elsewhere.
+        // A lamp inside the scene gets the intensity of a lamp whose distance from the center is half the size of the scene. Otherwise, a
+        // lamp very close to the center would be too dim elsewhere.
         Lamp::Point | Lamp::Area => {
             let distance = light.location.distance(stage.center).max(stage.size / 2.0);
             ("point", lux * distance * distance)

@@ -63,7 +63,7 @@ fn material(paint: MaterialKey, scene: &Scene) -> Material {
     shaded(name, &look, paint.both_sides)
 }
 
-/// Returns the name of a material, and its appearance in a drawing without POV-Ray.
+/// Returns the name of the painted object's material, and the appearance of this material for renderers other than POV-Ray.
 pub(super) fn look(what: PaintedObject, scene: &Scene) -> (String, Appearance) {
     let preset = scene.environment.preset;
     let satin =

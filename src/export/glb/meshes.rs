@@ -1,4 +1,4 @@
-//! Combines base shapes and materials to glTF meshes, which several bodies can share.
+//! Combines base shapes and materials into glTF meshes, which several bodies can share.
 
 use std::collections::HashMap;
 

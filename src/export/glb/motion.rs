@@ -136,7 +136,7 @@ impl Recorder {
         self.add_sized(poses.map(|pose| (pose, DVec3::ONE)), time, name, budget)
     }
 
-    /// Records the poses of all objects in a frame, and their sizes along their own axes. Fails like [`Recorder::add`].
+    /// Records the poses of all objects in a frame, and their sizes along their own axes. Fails as [`Recorder::add`] does.
     pub(super) fn add_sized(
         &mut self,
         poses: impl Iterator<Item = (NodePose, DVec3)>,
