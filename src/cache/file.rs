@@ -6,7 +6,7 @@
 //! | the pages of the recording, in any order | |
 //! | for each page: its offset, its size, its digest | 8 + 8 + 32 |
 //! | the index of the recording | |
-//! | the number of pages; the offset of the table of pages; the digest of all bytes from there to here | 8 + 8 + 32 |
+//! | the number of pages; the offset of the table of pages; the digest of all bytes from this table on | 8 + 8 + 32 |
 
 use std::fs::File;
 use std::io;

@@ -146,7 +146,7 @@ impl Cache {
         Ok(recorded)
     }
 
-    /// Returns the run of a scene like [`run`](Self::run). If the run breaks down, returns the frames before the breakdown; see
+    /// Returns the run of a scene as [`run`](Self::run) does. If the run breaks down, returns the frames before the breakdown; see
     /// [`Recorded::breakdown`]. Such a run is not kept.
     ///
     /// # Errors

@@ -40,8 +40,8 @@ impl Folder {
         Ok(())
     }
 
-    /// Removes renamed files whose edit equals the file that was written anew. With `same_scene`, edited files that were not written anew
-    /// get their original names back.
+    /// Removes each renamed file that equals the file written anew under the original name. With `same_scene`, renamed files whose
+    /// originals were not written anew get their original names back.
     ///
     /// # Errors
     /// If a file cannot be removed or renamed.

@@ -59,7 +59,7 @@ impl OutputError {
         Report { diagnostics: vec![diagnostic], ..Report::default() }
     }
 
-    /// Returns advice on how to correct the error. `None` if the message makes it plain.
+    /// Returns advice on how to correct the error. `None` if the error message alone is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             OutputError::Run(error) => error.help(),

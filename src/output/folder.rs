@@ -33,7 +33,7 @@ impl Folder {
         Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
     }
 
-    /// Opens a folder like [`Folder::open`], where `marked` decides whether jabuka made it.
+    /// Opens a folder as [`Folder::open`] does, but `marked` decides whether jabuka made it.
     pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
         let io_error = |error| OutputError::Io(path.to_owned(), error);
         match fs::metadata(path) {
@@ -66,7 +66,7 @@ impl Folder {
         self.write_with(name, |file| file.write_all(bytes))
     }
 
-    /// Writes a file like [`Folder::write`]; `fill` writes its contents piece by piece.
+    /// Writes a file as [`Folder::write`] does, but `fill` writes the contents of the file piece by piece.
     pub(super) fn write_with(
         &self,
         name: &str,
@@ -76,7 +76,7 @@ impl Folder {
         self.try_write_with(name, |file| fill(file).map_err(|error| OutputError::Io(path, error)))
     }
 
-    /// Writes a file like [`Folder::write_with`]; `fill` may fail for other reasons than writing.
+    /// Writes a file as [`Folder::write_with`] does, but `fill` may fail for other reasons than writing.
     pub(super) fn try_write_with(
         &self,
         name: &str,
@@ -207,7 +207,7 @@ fn lock(folder: &Path) -> Result<File, OutputError> {
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
     let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
     // A new child process briefly has copies of all open files, until it executes its program. A lock that was just released can therefore
-    // still be held, so this retries for 0.2 s.
+    // still be held by such a copy, so locking is tried for 0.2 s.
     for _ in 0..20 {
         match file.try_lock() {
             Ok(()) => return Ok(file),

@@ -36,7 +36,7 @@ pub(super) struct Description<'a> {
     tiles: Surface,
     views: Vec<&'a str>,
     bounds: Option<[[f64; 3]; 2]>,
-    /// True if frames contain more to draw than the poses of bodies.
+    /// True if frames contain more to draw than the bodies, such as arrows, springs or labels.
     shows: bool,
     /// True if the scene has particle emitters.
     particles: bool,

@@ -42,8 +42,9 @@ pub(super) fn poses(
     Ok(bytes)
 }
 
-/// Appends the energy and momentum balance of a frame: the time; kinetic, potential and total energy; the energy brought in by everything
-/// without a potential; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without contacts.
+/// Appends the energy and momentum balance of a frame: the time; kinetic, potential and total energy; the total energy that influences
+/// without a potential have brought in; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without
+/// contacts.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
     let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
     put(bytes, &[time, *kinetic, *potential, *total]);

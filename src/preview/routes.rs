@@ -7,7 +7,7 @@
 //! | `/api/runs/N` | the constant data of a run |
 //! | `/api/runs/N/forms` | the triangles of its base shapes |
 //! | `/api/runs/N/ghosts` | the earlier poses that the run shows as ghosts |
-//! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames, as they are simulated |
+//! | `/api/runs/N/poses?from=A&to=B` | the poses of its bodies in some frames; each frame is sent as soon as it is simulated |
 //! | `/api/runs/N/balance`, `…/series?body=I` | its energies and momenta, the motion of a body |
 //! | `/api/runs/N/shown?from=A&to=B` | the objects drawn beside the bodies in some frames |
 //! | `/api/runs/N/particles?from=A&to=B` | its particles in some frames |

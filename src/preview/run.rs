@@ -36,7 +36,8 @@ pub(super) struct PreviewRun {
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
-/// The earlier states of a run that later frames show: ghosts, and the positions of lagging cameras. Also the box around the motion.
+/// The earlier states of a run that later frames show: ghosts, and the positions of lagging cameras. It also holds the box around the
+/// motion.
 #[derive(Default)]
 struct PastOfRun {
     ghosts: Vec<Arc<Ghost>>,

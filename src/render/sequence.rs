@@ -27,7 +27,8 @@ pub struct Sequence {
     pub transparent: bool,
     /// The number of moments that each image is the mean of. `None` without motion blur.
     pub moments: Option<u32>,
-    /// The simulated time that a single script shows, s, if it may lie between two frames. `None` for the time of each frame.
+    /// The simulated time of the only script, s, if the folder contains the script of a single moment, which may lie between two frames.
+    /// `None` if each script shows its frame.
     pub moment: Option<f64>,
     /// The assets (images, height fields, fonts) that the scripts read.
     pub(super) assets: Vec<PathBuf>,

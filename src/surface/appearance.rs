@@ -20,8 +20,8 @@ pub struct Appearance {
     pub second: Option<[f64; 3]>,
 }
 
-/// A pattern that makes rotation visible. Lengths are relative to the radius of a ball with the volume of the body, except for the ground.
-/// The pattern has the center and axes of the body.
+/// A pattern that makes rotation visible. Lengths are relative to the radius of a ball with the volume of the body; for the ground, they
+/// are relative to the edge of a tile. The pattern has the center and axes of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SurfacePattern {
     /// No pattern: a single color.

@@ -65,7 +65,8 @@ impl BaseShape {
         BaseShape(Kind::Made { name, numbers, make })
     }
 
-    /// A cone or frustum of height 2, centered at its center of mass, with its lower and upper radius. The larger radius must be 1.
+    /// A cone or frustum of height 2, centered at its center of mass. `bottom` and `top` are its lower and upper radius, of which the
+    /// larger must be 1.
     #[must_use]
     pub fn cone(bottom: f64, top: f64) -> BaseShape {
         BaseShape::made("cone", [bottom, top, 0.0, 0.0], |[bottom, top, ..], sides| {
@@ -87,8 +88,8 @@ impl BaseShape {
         BaseShape::made("torus", [tube, 0.0, 0.0, 0.0], |[tube, ..], sides| lathe::torus(tube, sides))
     }
 
-    /// A box with rounded edges, centered at the origin. `half` is half of its edge lengths, of which the longest must be 1; `rounding` is
-    /// the radius of its edges.
+    /// A box with rounded edges, centered at the origin. `half` holds half the length of each edge, and its largest component must be 1.
+    /// `rounding` is the radius of the edges.
     #[must_use]
     pub fn rounded_box(half: DVec3, rounding: f64) -> BaseShape {
         BaseShape::made("rounded box", [half.x, half.y, half.z, rounding], |[x, y, z, rounding], sides| {

@@ -66,7 +66,7 @@ pub(super) fn torus(tube: f64, sides: u32) -> Triangles {
     turned(&(0..=half).map(at).collect::<Vec<_>>(), sides)
 }
 
-/// Sweeps a profile around the y axis. The profile must go upward where it is seen from outside. At a sharp edge, the profile has two
+/// Sweeps a profile around the y axis. On the outer side of the surface, the profile must go upward. At a sharp edge, the profile has two
 /// equal points with different normals.
 fn turned(profile: &[Point], sides: u32) -> Triangles {
     let mut out = Triangles::default();

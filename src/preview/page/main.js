@@ -1,4 +1,4 @@
-// Starts the page, and passes each state that the server announces to the display.
+// Starts the page, and updates the display whenever the server announces a new state.
 
 import { listen } from "./controls.js";
 import "./hook.js";

@@ -177,7 +177,7 @@ export class Painter {
     return { sorted, shade };
   }
 
-  /** Draws the shadow map: the depths of all moving bodies, as seen from the first lamp. */
+  /** Returns the matrix from the coordinates of the shaders to those of the shadow map, for the lamp that casts shadows. */
   shade({ location }) {
     const direction = unit(location);
     const eye = times(direction, 2);

@@ -142,7 +142,8 @@ export class Run {
     try {
       await this.loading;
     } catch (error) {
-      // The run has been replaced or the server has stopped. The page reports both elsewhere, so this only waits before it tries again.
+      // The run has been replaced or the server has stopped. The page reports both elsewhere, so this function only waits before the next
+      // attempt.
       await new Promise((resolve) => setTimeout(resolve, 500));
       this.changed();
     }
@@ -178,7 +179,7 @@ export class Run {
     }
   }
 
-  /** Returns the first of the next frames whose data has not been fetched. `known` tests a frame. */
+  /** Returns the first of the next frames whose data is missing. `known` returns the data of a frame if it has been fetched. */
   firstWithout(known, frame, recorded) {
     const end = Math.min(frame + AHEAD, recorded);
     for (let next = frame; next < end; next++) if (!known(next)) return next;
