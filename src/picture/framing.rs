@@ -123,7 +123,7 @@ fn corners(bounds: Bounds) -> [DVec3; 8] {
     })
 }
 
-/// The smallest distance from the aim at which all corners are in view, m.
+/// The smallest distance between the camera and its aim at which all corners are in view, m.
 fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field: Field) -> f64 {
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
@@ -135,7 +135,8 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     corners.iter().map(needed).fold(0.0, f64::max)
 }
 
-/// The middle of the corners in the picture: the tangents of its horizontal and vertical angles from the line of sight.
+/// The direction to the middle of the corners, as they appear in the picture: the tangents of its horizontal and vertical angles from the
+/// line of sight.
 fn middle_of_picture(
     corners: &[DVec3; 8],
     aim: DVec3,

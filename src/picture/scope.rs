@@ -9,7 +9,7 @@ use crate::simulate::{Bounds, Reach, Span, Survey};
 
 /// The width at which the largest body is clearly visible, relative to the width of the picture: 4 pixels of 1280.
 const LEAST: f64 = 0.0031;
-/// The width of the largest body that a camera on the start of the run aims for, relative to the width of the picture: 12 pixels of 1280.
+/// The preferred width of the largest body in a picture of the start of the run, relative to the width of the picture: 12 pixels of 1280.
 const GOOD: f64 = 0.0094;
 
 /// The width of a body that the camera follows, relative to the width of the picture.

@@ -20,7 +20,7 @@ const MOST_PIECES: f64 = 16.0;
 const FINEST: f64 = 50.0;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
 const STRETCH: usize = 32;
-/// The number of stretches of a trail in the cache: twice the largest number in a frame.
+/// The largest number of stretches of a trail that the cache holds: twice as many as one frame can show.
 const REMEMBERED: usize = 32;
 
 /// The trail of a body up to some time.

@@ -14,8 +14,8 @@ use crate::dynamics::{
 use crate::scene::ContactLaw;
 use crate::scene::{Body, Scene};
 
-/// Builds the dynamics of a scene: a world, an adaptive method that advances the world, or the time-stepping engine. `pair_counter` counts
-/// the evaluated interactions between pairs of bodies.
+/// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or the time-stepping engine.
+/// `pair_counter` counts the evaluated interactions between pairs of bodies.
 pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
     if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {

@@ -60,7 +60,7 @@ impl SimulateError {
         Report { sources, diagnostics: vec![diagnostic] }
     }
 
-    /// Suggests a remedy. `None` if the message is enough.
+    /// Suggests a remedy. `None` if the error message alone is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             SimulateError::Diverged(_) => Some(

@@ -7,7 +7,7 @@ use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot
 /// The state of a run at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The number of the frame, counted from 0. Between two frames, the number of the frame before.
+    /// The number of the frame, counted from 0. For a moment between two frames, the number of the earlier frame.
     pub index: usize,
     /// The time of the frame, s.
     pub time: f64,

@@ -1,4 +1,4 @@
-//! The weights and contact forces of bodies, for arrows.
+//! The weights and contact forces of bodies that arrows show.
 
 use std::collections::BTreeMap;
 

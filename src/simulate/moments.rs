@@ -61,8 +61,8 @@ impl Moments {
         1e-6 / frame_rate
     }
 
-    /// The sorted times after a frame and before the next frame, s. After the last frame, the times at the end of its interval are
-    /// included.
+    /// The sorted times after a frame and before the next frame, s. After the last frame, a time that equals the end of the interval is
+    /// included, too.
     pub(super) fn after(&self, frame: usize) -> Vec<f64> {
         let [begin, end] = [frame, frame + 1].map(|frame| self.time(frame));
         let is_within =

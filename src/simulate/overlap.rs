@@ -54,7 +54,7 @@ const OF_SHAPES: u64 = 64;
 const USUAL: u64 = 32;
 /// The allowed cost of overlap tests per frame in addition to [`USUAL`]. It does not depend on the number of bodies.
 const ALWAYS: u64 = 16_384;
-/// The watch ends after a frame with more than this multiple of the allowed mean cost.
+/// The watch ends after a frame in which the overlap tests cost more than this multiple of the allowed mean cost.
 const MOST: u64 = 128;
 /// The largest number of intended overlaps per body. Beyond it, the watch ends. In a packing of equal balls, there are six touching pairs
 /// per ball.

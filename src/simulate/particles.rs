@@ -27,7 +27,7 @@ pub(super) struct Clouds {
     obstacles: Arc<[Obstacle]>,
     method: &'static Method,
     clouds: Vec<Cloud>,
-    /// The stride of each emitter: only every n-th particle is computed.
+    /// The stride n of each emitter: only every n-th of its particles is computed.
     strides: Vec<u64>,
     /// The time between two frames (s), and the number of particle steps in this time.
     interval: f64,
@@ -82,7 +82,7 @@ impl Clouds {
         clouds
     }
 
-    /// The stride of each emitter: only every n-th particle is computed.
+    /// The stride n of each emitter: only every n-th of its particles is computed.
     pub(super) fn strides(&self) -> &[u64] {
         &self.strides
     }

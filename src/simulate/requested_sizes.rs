@@ -19,7 +19,7 @@ pub struct RequestedSizes {
     pub trails: Vec<RequestedTrail>,
     /// The requested ghosts, in the order of bodies.
     pub ghosts: Vec<RequestedGhosts>,
-    /// The drawn springs, in the order of the forces and their links.
+    /// The drawn springs, in the order of the forces. A spring force may have several springs.
     pub springs: Vec<RequestedSpring>,
     /// The drawn sliders, in the order of the joints.
     pub sliders: Vec<RequestedSlider>,

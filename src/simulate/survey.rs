@@ -45,7 +45,7 @@ pub struct Survey {
     pub drift: f64,
     /// The energy that the drift is relative to.
     pub drift_scale: EnergyScale,
-    /// The amount of that energy, J.
+    /// The amount of the energy that the drift is relative to, J.
     pub drift_energy: f64,
     /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,

@@ -23,7 +23,7 @@ impl Swarms {
         Swarms { clouds: Clouds::thinned(scene, most), recording, next: 0 }
     }
 
-    /// The stride of each emitter: only every n-th particle is computed.
+    /// The stride n of each emitter: only every n-th of its particles is computed.
     #[must_use]
     pub fn strides(&self) -> &[u64] {
         self.clouds.strides()

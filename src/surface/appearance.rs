@@ -202,7 +202,8 @@ mod tests {
         assert_eq!(cover("pigment { color rgb <0.8, 0.9, 1> } // filters"), 1.0);
     }
 
-    /// A material that is missing from the table would get the default appearance: opaque, not metallic, with a roughness of 0.5.
+    /// A library material without an approximation of its own would get the default appearance: opaque, not metallic, with a roughness of
+    /// 0.5.
     #[test]
     fn every_material_of_the_library_is_known() {
         for material in MATERIALS.iter().filter(|material| Finish::named(material.name).is_none()) {

@@ -26,7 +26,7 @@ pub struct Link<'a> {
     pub color: Color,
 }
 
-/// A part of a spring or joint, whether or not it is drawn in a particular frame.
+/// A part of a spring or joint, independent of the frame. Some frames may not show the part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedLink<'a> {
     /// The name of the force or joint in the scene.
@@ -37,7 +37,7 @@ pub struct PlannedLink<'a> {
     pub color: Color,
 }
 
-/// The kind of the shape of a spring's or joint's part.
+/// The kind of shape that a part of a spring or joint has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LinkKind {
     /// A ball.
@@ -55,7 +55,7 @@ pub enum LinkKind {
     Rope,
 }
 
-/// The shape of a spring's or joint's part. Lengths and positions are in meters.
+/// The shape of a part of a spring or joint. Lengths and positions are in meters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkShape {
     /// A ball: the pin of a joint, or the end of a spring, rod or rope at a fixed point.
@@ -127,7 +127,7 @@ pub(super) struct Links {
     down: Option<DVec3>,
     /// All pairs of a body and a part fastened to it, sorted. Each pair has the index of the body and the index of the part.
     of_bodies: Vec<(usize, usize)>,
-    /// The thickness of the drawn springs, in the order of the forces and their links.
+    /// The thickness of the drawn springs, in the order of the forces. A spring force may have several springs.
     springs: Vec<SpringSize>,
 }
 
@@ -186,7 +186,7 @@ impl Links {
         Links { parts, shapes, scales, down, of_bodies, springs: plan::springs(scene) }
     }
 
-    /// The thickness of the drawn springs, in the order of the forces and their links.
+    /// The thickness of the drawn springs, in the order of the forces. A spring force may have several springs.
     pub(super) fn springs(&self) -> &[SpringSize] {
         &self.springs
     }

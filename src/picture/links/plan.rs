@@ -27,7 +27,7 @@ pub(super) fn parts(scene: &Scene, sizes: &RequestedSizes) -> Vec<Part> {
     parts
 }
 
-/// Computes the thickness of the drawn springs, in the order of the forces and their links.
+/// Computes the thickness of the drawn springs, in the order of the forces. A spring force may have several springs.
 pub(super) fn springs(scene: &Scene) -> Vec<SpringSize> {
     let forces = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(look) } => Some((links, look)),
@@ -98,7 +98,7 @@ fn usual_turns(usual: f64) -> u32 {
     usual.round().clamp(4.0, 24.0) as u32
 }
 
-/// Adds the parts of a joint. `travel` is the distance that a slider covers in the run.
+/// Adds the parts of a joint. `travel` is the range over which a slider moves in the run.
 fn joint(
     scene: &Scene,
     joint: &Joint,

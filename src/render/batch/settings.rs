@@ -103,7 +103,7 @@ impl Settings {
 }
 
 impl CurrentSettings {
-    /// Reads the settings of a job folder. `None` if the folder has no settings file, so that it is not a job folder.
+    /// Reads the settings of a job folder. `None` if the folder has no settings file, and is therefore not a job folder.
     ///
     /// # Errors
     /// If a settings file cannot be read or understood.

@@ -1,7 +1,7 @@
 //! Makes films from images, by ffmpeg.
 //!
-//! jabuka reads the images and pipes their pixels to ffmpeg. So images with any names make a film, a broken image can be named, and
-//! ffmpeg's own PNG reader is not needed. A film has as many frames as there are images; ffmpeg's count is checked.
+//! jabuka reads the images and pipes their pixels to ffmpeg. So the images may have any file names, an error message can name the broken
+//! image, and ffmpeg's own PNG reader is not needed. A film has as many frames as there are images; ffmpeg's count is checked.
 //!
 //! **Colors.** The bytes of the images are sRGB. For `.mp4` and `.webm`, they are converted by the BT.709 matrix to the limited range, and
 //! the film's metadata says so. Without this metadata, players guess the matrix from the size. Color has half the resolution of brightness

@@ -4,7 +4,7 @@ use super::super::Frame;
 use crate::dynamics::BodyId;
 use crate::scene::{Joint, JointKind, Scene};
 
-/// A joint may give way by this fraction of its size.
+/// The largest gap at which a joint still counts as holding well, as a fraction of the size of the joint.
 const ALLOWED: f64 = 0.05;
 
 /// The joint that gives way most, relative to its size, and when it does so.
