@@ -64,7 +64,7 @@ impl Style {
     }
 
     /// Returns true if the coordinates of two points are finite in POV-Ray units, and the points are far enough apart for POV-Ray. The
-    /// limit is so large that lengths some hundred times smaller than the distance also differ from zero.
+    /// limit for the distance is so large that POV-Ray does not treat lengths some hundred times smaller as zero either.
     pub(super) fn can_tell(&self, from: DVec3, to: DVec3) -> bool {
         let written = |point: DVec3| {
             let mut out = String::new();

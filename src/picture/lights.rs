@@ -12,7 +12,7 @@ pub struct PlacedLight {
     pub name: String,
     /// The kind of the light.
     pub kind: Lamp,
-    /// The position of the light in the world, m. For a sun, a point in its direction.
+    /// The position of the light in the world, m. For a sun, a far point in the direction from which its light comes.
     pub location: DVec3,
     /// The diameter of an area light, m. `None` for other lights.
     pub size: Option<f64>,

@@ -30,7 +30,7 @@ pub(crate) fn text(number: f64, digits: usize) -> String {
 }
 
 /// Computes the significant digits as a whole number, and the decimal exponent of the first digit. `None` if floating-point errors might
-/// round to the wrong side.
+/// have led to rounding in the wrong direction.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -43,7 +43,7 @@ impl Screen {
         sharp: Option<DVec3>,
     ) -> Screen {
         let back = (location - look_at).normalize_or(DVec3::Z);
-        // A vertical camera has the same orientation as in [`Placed`](super::Placed).
+        // A camera that looks straight up or down has the same orientation as in [`Placed`](super::Placed).
         let vertical = back.x.abs().max(back.z.abs()) < 1e-6 * back.y.abs();
         let right = if vertical { DVec3::X } else { DVec3::Y.cross(back).normalize_or(DVec3::X) };
         let depth = match sharp {

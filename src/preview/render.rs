@@ -38,7 +38,8 @@ pub(super) struct Wanted {
     fine: bool,
 }
 
-/// The stop flag of a client's request for an image. When the client closes the connection, this is dropped, which stops the rendering.
+/// The stop flag of a client's request for an image. When the client closes the connection, the value is dropped, which stops the
+/// rendering.
 pub(super) struct Wish(Arc<AtomicBool>);
 
 impl Wish {

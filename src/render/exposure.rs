@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::linear_light;
 use super::{Images, RenderError};
 
-/// The images of the moments of one frame, in a folder of their own. Dropping this removes the folder.
+/// The images of the moments of one frame, in a folder of their own. Dropping the value removes the folder.
 pub(super) struct Exposure {
     folder: PathBuf,
     images: Vec<PathBuf>,

@@ -16,7 +16,7 @@ use super::{Images, RenderError, cpu};
 /// The time that POV-Ray waits between two images, s, measured with POV-Ray 3.7.
 const WAIT: f64 = 0.2;
 
-/// The number of processes for each processor: before any image is measured, and at most.
+/// The number of processes per processor: `FIRST` before any image is measured, and `MOST` as the limit afterwards.
 const FIRST: usize = 4;
 const MOST: usize = 12;
 

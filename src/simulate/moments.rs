@@ -69,7 +69,8 @@ impl Moments {
             |time: &f64| *time > begin && (*time < end || (*time == end && frame + 1 >= self.frames));
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
         for shutter in &self.shutters {
-            // A shutter closes at the next frame at the latest, except for rounding errors.
+            // A shutter closes at the next frame at the latest. By rounding errors, it may close just after this frame, so the shutter of
+            // the frame before counts, too.
             for opened in frame.saturating_sub(1)..=frame.min(self.frames - 1) {
                 times.extend(shutter.moments(self.time(opened)).filter(is_within));
             }

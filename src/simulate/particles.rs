@@ -171,7 +171,7 @@ impl Clouds {
             let (from, now) = (find(last, body.index()), find(bodies, body.index()));
             match (from.copied(), now.copied()) {
                 (Some(from), Some(now)) => Some(RecordedMotion::new(begin, from, to, now)),
-                // A body that is present at one end of the interval only rests there for the whole interval.
+                // A body that is present only at the start or only at the end of the interval rests at that pose for the whole interval.
                 (Some(only), None) | (None, Some(only)) => Some(RecordedMotion::still(only)),
                 (None, None) => None,
             }

@@ -45,7 +45,7 @@ pub struct Ghost {
 /// Collects the trails, ghosts and delayed camera targets of a run, frame by frame.
 #[derive(Clone, Default)]
 pub(super) struct History {
-    /// The bodies with trails or ghosts: the index of each, and the things shown with it.
+    /// The bodies with trails or ghosts: the index of each, and the scene's settings for its trail and ghosts.
     requests: Arc<[(usize, Showing)]>,
     /// The mass of each body with trails or ghosts, kg. Infinite for a body that no force moves.
     masses: Arc<[f64]>,

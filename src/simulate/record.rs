@@ -20,7 +20,7 @@ pub struct Recorded<'a> {
     survey: Survey,
     /// The error that ended the run before its last frame. `None` if the run is complete.
     breakdown: Option<SimulateError>,
-    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
+    /// The simulated time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     resumed: Option<f64>,
     /// Whether the caller's own dynamics made the run, so that the scene's dynamics must not add moments to it.
     of_own_dynamics: bool,
@@ -93,7 +93,7 @@ impl<'a> Recorded<'a> {
         self.breakdown.as_ref()
     }
 
-    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
+    /// The simulated time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }
@@ -299,7 +299,7 @@ impl<'a> Recorder<'a> {
         Recorder { scene, simulation, surveyor: Surveyor::new(scene), recording, resumed: None }
     }
 
-    /// The time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
+    /// The simulated time at which an interrupted run was resumed, s. `None` if the run was never interrupted.
     pub fn resumed(&self) -> Option<f64> {
         self.resumed
     }

@@ -101,7 +101,7 @@ enum End {
 }
 
 impl RequestedSizes {
-    /// Lists the things that a scene requests, with their sizes before the first frame.
+    /// Lists the arrows, trails, ghosts, springs and sliders that a scene requests, with their sizes before the first frame.
     pub(super) fn new(scene: &Scene) -> RequestedSizes {
         let end = |anchor: Anchor| match anchor {
             Anchor::Point(point) => End::Point(point),

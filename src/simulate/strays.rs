@@ -21,7 +21,7 @@ pub(super) struct Path {
     start: Bounds,
     /// The box around the body in all frames.
     all: Bounds,
-    /// The box around the body and the things drawn with it, in all frames.
+    /// The box around the body and its drawn axes, arrows and trail, in all frames.
     seen: Bounds,
 }
 
@@ -32,12 +32,12 @@ pub(super) struct WithoutStrays {
     pub(super) bounds: Bounds,
     /// The box around the bodies that are not fixed.
     pub(super) moving: Bounds,
-    /// The box around all bodies and the things drawn with them.
+    /// The box around all bodies and their drawn axes, arrows and trails.
     pub(super) seen: Bounds,
 }
 
 impl Paths {
-    /// Adds a frame of a body: `here` is the box around the body, and `seen` includes the things drawn with it.
+    /// Adds a frame of a body: `here` is the box around the body, and `seen` the box around the body and its drawn axes, arrows and trail.
     pub(super) fn see(&mut self, body: usize, is_fixed: bool, here: Bounds, seen: Bounds) {
         if self.0.len() <= body {
             self.0.resize(body + 1, None);

@@ -46,8 +46,8 @@ impl Workload {
         if index == 0 { self.first } else { self.each }
     }
 
-    /// The cost of a step of a command, in pair interactions. The command first simulates one frame per step, then writes one script per
-    /// step.
+    /// The cost of one step of a command's progress, in pair interactions. The command first simulates one frame per step, then writes one
+    /// script per step.
     pub fn of_step(&self, step: usize) -> u64 {
         if step < self.frames { self.of_frame(step) } else { self.script }
     }

@@ -194,8 +194,8 @@ impl NodeMotion {
     }
 }
 
-/// Records one value after `known` earlier ones. Nothing is stored until a value differs from `start`; then all `known` values are filled
-/// in.
+/// Records one value after `known` earlier ones. Nothing is stored as long as all values equal `start`. At the first different value, the
+/// `known` earlier values are stored, too.
 fn follow<const N: usize>(
     values: &mut Vec<f32>,
     start: [f32; N],

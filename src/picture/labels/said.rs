@@ -132,7 +132,7 @@ fn written(value: f64, format: Format) -> String {
     }
     let text = match format {
         Format::Short => short_of(value),
-        // Numbers with more digits are no easier to read, and some renderers accept short texts only.
+        // Larger numbers would have too many digits to be read easily, and some renderers accept short texts only.
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };

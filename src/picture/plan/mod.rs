@@ -30,7 +30,8 @@ use super::{colors, framing};
 use crate::scene::{Camera, GridPlane, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
-/// The things that all pictures of a run by one camera have in common. The plan is made once, and gives the contents of each picture.
+/// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
+/// picture.
 #[derive(Clone, Debug)]
 pub struct Plan {
     stage: Stage,
