@@ -10,7 +10,7 @@ use super::stage::Stage;
 use crate::dynamics::{BodySnapshot, Shape};
 use crate::scene::{Body, Quantity, Scene};
 
-/// The smallest fraction of its distance from the camera to which an arrow is moved.
+/// An arrow that is moved towards the camera keeps at least this fraction of its distance from the camera.
 const NEAREST: f64 = 0.02;
 
 /// The planes that may hide arrows: the ground and plane bodies.
@@ -87,7 +87,7 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
     }
 }
 
-/// Moves an arrow to a fraction of its distance from the camera, and scales it by the same fraction. Its picture stays the same.
+/// Moves an arrow to a fraction of its distance from the camera, and scales it by the same fraction. It then looks the same in the picture.
 fn nearer(arrow: &Arrow, camera: &Placed, part: f64) -> Arrow {
     let eye = camera.location();
     let part = part.clamp(NEAREST, 1.0);

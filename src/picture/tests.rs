@@ -355,7 +355,7 @@ fn a_label_tells_what_a_joint_does() {
     assert_eq!(note.says, "30.000 30.0 10.00 –4");
 }
 
-/// The force on the bob is along its rod. Its arrow has the common scale of all forces.
+/// The force on the bob is along its rod. The arrow of this force has the common scale of all forces.
 #[test]
 fn a_joint_has_arrows_for_its_force_and_its_torque() {
     let (scene, plan) = plan(&format!(

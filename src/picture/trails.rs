@@ -255,7 +255,7 @@ fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
 }
 
 /// Computes the points of a trail along a part of a path, at least `least` (m) apart. Both ends are included unless the whole part is
-/// shorter.
+/// shorter than `least`.
 fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
     let mut line: Vec<DVec3> = path.first().map(|point| point.location).into_iter().collect();
     let mut put = |point: DVec3| {

@@ -53,7 +53,7 @@ pub(super) struct Compared {
     pub(super) steps: [u64; 3],
     /// The largest energy error in the run at half the timestep, relative to the energy of that run's scale.
     pub(super) drift_at_half: f64,
-    /// The largest distance between equal points of a body in the runs at half and at a quarter of the timestep, m.
+    /// The largest distance between a point of a body in the run at half the timestep and the same point in the run at a quarter of it, m.
     pub(super) off_at_half: f64,
 }
 

@@ -6,7 +6,7 @@ use crate::picture::in_front::lift_from_link;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
-    /// The arrows of a frame. Arrows behind the ground or a spring are moved towards the camera, and scaled so that they look the same in
+    /// The arrows of a frame. Arrows behind the ground or a spring are moved towards the camera, in such a way that they look the same in
     /// the picture.
     pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
         let mut arrows = self.arrows(frame);
