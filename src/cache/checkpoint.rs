@@ -77,7 +77,7 @@ pub(super) struct Stopped {
     pub(super) checkpoint: Checkpoint,
 }
 
-/// Finds the interrupted run with this key that has progressed farthest. Runs that another process continues are skipped. Damaged ones are
+/// Finds the interrupted run with this key that has progressed farthest. Runs that another process continues are skipped. Damaged runs are
 /// removed.
 pub(super) fn find(folder: &Path, key: CacheKey) -> Option<Stopped> {
     let name = super::file::name(key);

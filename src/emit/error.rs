@@ -12,7 +12,7 @@ pub enum EmitError {
         /// The time of the frame, s.
         time: f64,
     },
-    /// The camera comes so close to the point that it looks at that POV-Ray cannot distinguish the two.
+    /// The camera and the point that it looks at are so close together that POV-Ray cannot distinguish them.
     Blind {
         /// The time of the frame, s.
         time: f64,

@@ -144,7 +144,7 @@ impl MaterialText {
     /// Returns the SDL text that gives an object this material. The text is equal for all bodies.
     pub(super) fn usage(&self) -> String {
         match self.kind {
-            // Raw SDL may contain more than a texture, so it is a macro, which inserts its text at each call.
+            // Raw SDL may contain more than a texture, so scripts declare it as a macro, which inserts its text at each call.
             Kind::Sdl => format!("{}()", self.identifier),
             Kind::Plain | Kind::Library | Kind::Checkered | Kind::Texture => {
                 let no_shadow = if self.glows { " no_shadow" } else { "" };

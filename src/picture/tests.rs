@@ -369,7 +369,7 @@ fn a_joint_has_arrows_for_its_force_and_its_torque() {
     // The arrow begins at the surface of the bob, and points towards the pivot.
     assert!(string.from.abs_diff_eq(DVec3::new(0.0, -1.9, 0.0), 1e-9), "{string:?}");
     assert!((string.to - string.from).normalize().abs_diff_eq(DVec3::Y, 1e-9), "{string:?}");
-    // The force on the fixed point is the weight of the arm. Its torque is about the clamp.
+    // The force on the fixed point is the weight of the arm. The torque is about the clamp.
     assert!((force.to - force.from).abs_diff_eq(DVec3::NEG_Y * 0.5, 1e-9), "{force:?}");
     assert!(torque.from.abs_diff_eq(DVec3::X * 3.0, 1e-9), "{torque:?}");
     assert!((torque.to - torque.from).abs_diff_eq(DVec3::NEG_Z, 1e-9), "{torque:?}");

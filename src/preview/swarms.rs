@@ -22,7 +22,7 @@ fn most_of_each(scene: &Scene) -> f64 {
     MOST / scene.emitters.len().max(1) as f64
 }
 
-/// Returns the name of each emitter with too many particles, and the number n if only every n-th particle is drawn.
+/// Returns the name of each emitter with too many particles, and the number n: only every n-th of its particles is drawn.
 pub(super) fn thinned(run: &PreviewRun) -> Vec<(String, u64)> {
     let swarms = Swarms::thinned(&run.scene, run.recording(), most_of_each(&run.scene));
     let names = run.scene.emitters.iter().map(|emitter| emitter.name.to_string());

@@ -164,7 +164,8 @@ impl Images {
             if !entry.file_name().to_str().is_some_and(is_left) {
                 continue;
             }
-            // A POV-Ray process that outlives its jabuka may still write into the folder, so a failed removal is tried once more.
+            // A POV-Ray process that outlives the jabuka process that started it may still write into the folder, so a failed removal is
+            // tried once more.
             let remove = || match entry.file_type() {
                 Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
                 _ => fs::remove_file(entry.path()),

@@ -2,7 +2,8 @@
 
 use crate::scene::{Scene, Shutter};
 
-/// The requested times between frames. They depend on the scene alone, and do not affect the run.
+/// The requested times between frames. They follow from the scene and from single times that the caller requests. They do not affect the
+/// run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moments {
     /// The intervals between ghosts, s.

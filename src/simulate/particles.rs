@@ -272,7 +272,7 @@ fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
         ForceKind::Gravitation(Gravitation { bodies, constant, softening, .. }) => {
             let (constant, softening) = (*constant, *softening);
             Field::from_bodies(sources(bodies), move |bodies, against| {
-                // With a tree, the force on a particle would depend on the other particles.
+                // With an opening angle, forces are computed from a tree, and the force on a particle would depend on the other particles.
                 let (against, opening_angle) = (Some(against), None);
                 Arc::new(Gravitation { bodies, against, constant, softening, opening_angle })
             })

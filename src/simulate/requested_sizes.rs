@@ -82,7 +82,8 @@ pub struct RequestedSlider {
     /// The index of the joint.
     pub joint: usize,
     coordinate: Coordinate,
-    /// The smallest distance from the first end of the slider to the second end, along the axis, m. Negative if the second end is behind.
+    /// The smallest distance from the first end of the slider to the second end, along the axis, m. Negative if the second end is behind
+    /// the first.
     pub least: f64,
     /// The largest distance from the first end of the slider to the second end, along the axis, m.
     pub most: f64,

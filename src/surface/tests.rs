@@ -106,8 +106,9 @@ fn normals_point_where_triangles_do() {
     }
 }
 
-/// The missing volume comes from polygons instead of circles: once around the axis, and once along the profile. For a chord of length h,
-/// the mean distance to its arc is h²/12. A circle loses twice this distance in area, and a ball three times in volume.
+/// The missing volume comes from polygons instead of circles: once around the axis, and once along the profile. For a circle of radius 1
+/// and a chord of length h, the mean distance between the chord and its arc is h²/12. The circle loses twice this fraction of its area, and
+/// a ball three times this fraction of its volume.
 #[test]
 fn volumes_converge_to_those_of_the_shapes() {
     for shape in solids() {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// A glTF document without its binary numbers. The format forbids empty lists, so they are left out.
+/// A glTF document without its binary numbers. The format forbids empty lists, so empty lists are left out.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document {

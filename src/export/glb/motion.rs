@@ -16,7 +16,7 @@ pub(super) struct SampledMotion {
     /// The ratio of the time of the animation to the simulated time.
     slower: f64,
     ways: Vec<NodeMotion>,
-    /// The size of the binary data in the file so far, checked against the largest file.
+    /// The size of the binary data in the file so far, checked against the size of the largest possible file.
     pub(super) budget: SizeBudget,
 }
 

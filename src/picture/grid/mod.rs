@@ -192,7 +192,7 @@ impl GridPlan {
             let number = |&(line, ends): &(f64, _)| Number { line, says: value(line * spacing / unit), ends };
             lines.iter().map(number).collect::<Vec<_>>()
         };
-        // The last number carries the axis name, so lines on the ground are listed from near to far.
+        // The axis name is written at the last number, so lines on the ground are listed from near to far.
         let (beside, name, along) = match self.plane {
             GridPlane::Ground => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
             GridPlane::Wall => (Beside::Left, "y", along.clone()),

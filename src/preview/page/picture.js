@@ -168,7 +168,7 @@ function strobes(run, position, at) {
   if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation]);
 }
 
-/** Sets the poses of the compared run, and shows the largest distance between equal bodies of the two runs. */
+/** Sets the poses of the compared run, and shows the largest distance between a body and the same body of the shown run. */
 function placeOther(run) {
   const { other } = open;
   const position = Math.min(player.time * other.rate, other.frames - 1);

@@ -69,7 +69,8 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
             put(folder, text.name, text)?;
         }
         marks.files.insert(text.name.to_owned(), is);
-        // The digests are saved after every file. If the process is killed, the next one does not take jabuka's own files for edited ones.
+        // The digests are saved after every file. If this process is killed, the next process does not mistake jabuka's own files for
+        // edited ones.
         marks.write(folder)?;
     }
     Ok(edits)
