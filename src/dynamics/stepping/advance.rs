@@ -3,13 +3,11 @@
 
 use glam::DVec3;
 
-use super::super::integrator::turn_freely;
 use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
+use super::engine_input::EngineInput;
+use super::hooks::Hooks;
 use super::{TimeStepping, bodies, set_step, spin};
-
-/// Two angular velocities count as equal if their relative difference is below this tolerance.
-const SAME: f64 = 1e-14;
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
@@ -94,9 +92,10 @@ impl TimeStepping {
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
         self.push(end, dt);
-        self.rolling.begin(&self.engine, dt, |body| self.books.mean[body].1);
-        set_step(&mut self.engine.integration_parameters, dt);
-        self.engine.step_with_events(&self.mixing, &self.books.events);
+        let Self { books, engine, rolling, mixing, joints, .. } = self;
+        joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
+        set_step(&mut engine.integration_parameters, dt);
+        engine.step_with_events(&Hooks { mixing, rolling }, &books.events);
         self.steps += 1;
         if let Some(body) = self.engine.quarantine().bodies().first() {
             let body = BodyId::new(body.into_raw_parts().0 as usize);
@@ -133,38 +132,30 @@ impl TimeStepping {
     /// Passes the forces on the bodies and their angular velocities to the physics engine, before a step of `dt` that ends at time `end`,
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
-        let Self { model, state, loads, engine, handles, books, half_thickness, .. } = self;
-        for (i, handle) in handles.iter().enumerate() {
+        let Self { model, state, loads, engine, handles, books, half_thickness, inputs, rolling, .. } = self;
+        for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
             if model.inverse_mass()[i] == 0.0 {
                 continue;
             }
             state.angular_momentum[i] += dt * loads.torque[i];
-            let (from, momentum) = (state.orientation[i], state.angular_momentum[i]);
-            let turning = if momentum == DVec3::ZERO {
-                DVec3::ZERO
-            } else {
-                let to = turn_freely(from, momentum, model.inverse_inertia()[i], dt);
-                spin::leading(from, to, dt)
+            let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
+            let leading = spin::free(orientation, momentum, model.inverse_inertia()[i], dt);
+            let turning = model.angular_velocity(i, state);
+            let wanted = EngineInput {
+                force: loads.force[i],
+                turning: leading - rolling.take(engine, i, (orientation, turning, leading), dt),
+                // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at
+                // rest.
+                is_fast: dt * state.velocity[i].length() > half_thickness[i],
             };
-            books.mean[i].1 = turning;
-            // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at rest.
-            let is_fast = dt * state.velocity[i].length() > half_thickness[i];
-            let Some(body) = engine.bodies.get(*handle) else { continue };
-            let is_same = body.user_force() == loads.force[i] && body.is_ccd_enabled() == is_fast;
-            let is_turning =
-                (body.angvel() - turning).length_squared() > SAME * SAME * turning.length_squared();
-            if is_same && !is_turning {
-                // Each change of a body through the physics engine's interface takes time, so unchanged values are not set again.
-                books.mean[i].1 = body.angvel();
-                continue;
+            if !input.is_same(&wanted) {
+                let Some(body) = engine.bodies.get_mut(handles[i]) else { continue };
+                wanted.write(body);
+                *input = wanted;
             }
-            let Some(body) = engine.bodies.get_mut(*handle) else { continue };
-            body.reset_forces(false);
-            body.add_force(loads.force[i], false);
-            body.set_angvel(turning, false);
-            body.enable_ccd(is_fast);
+            books.mean[i].1 = input.turning;
         }
         self.model.place(end, &mut self.state);
         for i in (0..self.handles.len()).filter(|&i| self.model.is_guided(i)) {
@@ -176,7 +167,7 @@ impl TimeStepping {
 
     /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
-        let Self { model, state, engine, handles, books, joints, rolling, .. } = self;
+        let Self { model, state, engine, handles, books, joints, inputs, rolling, .. } = self;
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
         let mut moved = Vec::new();
@@ -187,26 +178,29 @@ impl TimeStepping {
                 continue;
             }
             let Some(body) = engine.bodies.get(*handle) else { continue };
-            let from = state.orientation[i];
+            let (from, velocity, turning) = (state.orientation[i], body.linvel(), body.angvel());
             let mut pose = *body.position();
-            let way = dt * body.linvel();
-            if body.is_ccd_enabled()
+            let turned = rolling.turn(i, [from, pose.rotation], dt);
+            pose.rotation = turned.unwrap_or(pose.rotation);
+            let mut is_moved = turned.is_some();
+            let way = dt * velocity;
+            if inputs[i].is_fast
                 && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
             {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
+                is_moved = true;
+            }
+            if is_moved {
                 moved.push((*handle, pose));
             }
-            state.velocity[i] = if body.is_ccd_enabled() {
-                body.linvel()
-            } else {
-                rolling.corrected(i, body.linvel(), (pose.translation - state.location[i]) / dt)
-            };
+            state.velocity[i] = velocity;
             state.location[i] = pose.translation;
             state.orientation[i] = pose.rotation;
             // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
-            let change = body.angvel() - books.mean[i].1;
+            let change = turning - books.mean[i].1;
+            inputs[i].turning = turning;
             books.turned[i] = DVec3::ZERO;
             if change != DVec3::ZERO {
                 let inertia = model.inertia()[i];
@@ -238,6 +232,7 @@ impl TimeStepping {
                 self.newcomers.push(i);
                 body.set_position(bodies::pose(&self.state, i), false);
                 body.set_linvel(self.state.velocity[i], false);
+                self.inputs[i] = EngineInput::read(body);
             }
         }
     }

@@ -2,13 +2,16 @@
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
-    ActiveEvents, ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
+    ActiveEvents, ColliderBuilder, InteractionGroups, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder,
+    RigidBodyHandle,
 };
 
 use super::super::contact::Contacts;
 use super::super::shape::Shape;
 use super::super::{Model, State};
 use super::mixing::Mixing;
+use super::rolling::ColliderSymmetries;
+use super::shape::{Solid, Symmetry};
 use super::{plane, shape};
 
 /// Returns, for each present or absent body, whether forces move it.
@@ -31,7 +34,7 @@ pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
     (0..model.len()).map(of).collect()
 }
 
-/// Adds all bodies to the physics engine and returns their handles, one per body. Absent bodies are disabled. `length` is the thickness of
+/// Adds all bodies to the physics engine. Returns the handle and the colliders of each body. Absent bodies are disabled. `length` is the thickness of
 /// the thinnest moving body, m.
 pub(super) fn insert(
     engine: &mut PhysicsWorld,
@@ -40,8 +43,8 @@ pub(super) fn insert(
     contacts: &Contacts,
     mixing: &Mixing,
     length: f64,
-) -> Vec<RigidBodyHandle> {
-    let mut handles = Vec::with_capacity(model.len());
+) -> (Vec<RigidBodyHandle>, Vec<ColliderSymmetries>) {
+    let (mut handles, mut all_symmetries) = (Vec::with_capacity(model.len()), Vec::new());
     let is_other = |i: usize| {
         let touches = contacts.surfaces.get(i).is_some_and(Option::is_some);
         touches && model.is_moved_by_forces(i) && model.shape(i).is_some_and(|shape| !plane::is_simple(shape))
@@ -53,18 +56,20 @@ pub(super) fn insert(
             model.bring(i, state);
         }
         let handle = engine.insert_body(body(model, state, i).enabled(is_present));
+        let mut own = Vec::new();
         if contacts.surfaces.get(i).is_some_and(Option::is_some) {
-            for collider in colliders(model, state, i, (length, meets_others)) {
+            for (collider, symmetries) in colliders(model, state, i, (length, meets_others)) {
                 let collider = mixing.describe(i, collider.user_data(i as u128));
-                engine.insert_collider(collider, Some(handle));
+                own.push((engine.insert_collider(collider, Some(handle)), symmetries));
             }
         }
         handles.push(handle);
+        all_symmetries.push(own);
         if !is_present {
             model.take_away(i, state);
         }
     }
-    handles
+    (handles, all_symmetries)
 }
 
 /// Returns the rigid body for the physics engine, still without its colliders. Its frame is that of the principal axes of inertia.
@@ -98,24 +103,26 @@ pub(super) fn pose(state: &State, i: usize) -> Pose {
     Pose::from_parts(state.location[i], state.orientation[i])
 }
 
-/// Returns the colliders of a body, without mass. `meets_others` is true if any moving body is neither sphere nor box.
+/// Returns the colliders of a body, without mass, each with the symmetries of its parts in the engine's frame of the body. `meets_others`
+/// is true if any moving body is neither sphere nor box.
 fn colliders(
     model: &Model,
     state: &State,
     i: usize,
     (length, meets_others): (f64, bool),
-) -> Vec<ColliderBuilder> {
+) -> Vec<(ColliderBuilder, Vec<Symmetry>)> {
     let Some(form) = model.shape(i) else { return Vec::new() };
     let from_body = Pose::from_parts(DVec3::ZERO, model.principal_axes(i).conjugate());
-    let build = |(pose, solid)| {
-        let collider = ColliderBuilder::new(solid).density(0.0).position(from_body * pose);
-        collider.active_events(ActiveEvents::COLLISION_EVENTS)
+    let build = |(solid, groups): (Solid, InteractionGroups)| {
+        let collider = ColliderBuilder::new(solid.shape).density(0.0).position(from_body * solid.pose);
+        let collider = collider.active_events(ActiveEvents::COLLISION_EVENTS).collision_groups(groups);
+        (collider, solid.symmetries.into_iter().map(|symmetry| symmetry.placed(from_body)).collect())
     };
     if let Shape::Plane { normal } = *form {
-        let solids = plane::solids(normal, state.orientation[i], length, meets_others).into_iter();
-        return solids.map(|(solid, groups)| build(solid).collision_groups(groups)).collect();
+        let solids = plane::solids(normal, state.orientation[i], length, meets_others);
+        return solids.into_iter().map(build).collect();
     }
-    let moves = model.is_moved_by_forces(i);
     let groups = plane::groups_of(form);
-    shape::solids(form, moves).into_iter().map(|solid| build(solid).collision_groups(groups)).collect()
+    let solids = shape::solids(form, model.is_moved_by_forces(i));
+    solids.into_iter().map(|solid| build((solid, groups))).collect()
 }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::{EnergyLedger, State};
 use super::TimeStepping;
+use super::engine_input::EngineInput;
 
 /// Everything in a run that changes with time, except the physics engine.
 #[derive(Serialize, Deserialize)]
@@ -64,6 +65,8 @@ impl TimeStepping {
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);
         self.books.near = near;
+        self.inputs = EngineInput::read_all(&engine, &self.handles);
+        self.rolling.resume(&engine);
         self.engine = engine;
         true
     }

@@ -44,8 +44,8 @@ pub(super) struct Joints {
     handles: Vec<ImpulseJointHandle>,
     /// For each joint, the indices of the bodies at its two ends; `None` for an end at a fixed point of the world.
     bodies: Vec<[Option<usize>; 2]>,
-    /// For each joint, the axis of the motor that keeps a speed; `None` for a joint without a motor.
-    motors: Vec<Option<JointAxis>>,
+    /// For each joint, the axis of the motor that keeps a speed, and that speed, m/s or rad/s; `None` for a joint without a motor.
+    motors: Vec<Option<(JointAxis, f64)>>,
     /// Whether any joint has an end at a body with a given motion.
     pub(super) has_guide: bool,
 }
@@ -80,10 +80,11 @@ struct End {
 }
 
 impl LinkKind {
-    /// Returns the axis of the motor that keeps a speed; `None` for a joint without a motor.
-    fn motor(&self) -> Option<JointAxis> {
-        let of = |freedom: &Freedom, axis: JointAxis| {
-            matches!(freedom.motor, Some(Motor::Speed { .. })).then_some(axis)
+    /// Returns the axis of the motor that keeps a speed, and that speed, m/s or rad/s; `None` for a joint without a motor.
+    fn motor(&self) -> Option<(JointAxis, f64)> {
+        let of = |freedom: &Freedom, axis: JointAxis| match freedom.motor {
+            Some(Motor::Speed { speed, .. }) => Some((axis, speed)),
+            _ => None,
         };
         match self {
             LinkKind::Hinge(hinge) => of(&hinge.freedom, JointAxis::AngX),
@@ -152,7 +153,7 @@ impl Joints {
     /// The physics engine makes the row of a motor before the other rows of its joint, so the motor's impulse acts along its axis. The
     /// engine makes later rows orthogonal to the earlier ones, so impulses of later rows would not act along the axes of the joint.
     pub(super) fn motor_pushes(&self, engine: &PhysicsWorld, state: &State) -> Vec<MotorPush> {
-        let with_motor = self.motors.iter().enumerate().filter_map(|(k, axis)| Some((k, (*axis)?)));
+        let with_motor = self.motors.iter().enumerate().filter_map(|(k, motor)| Some((k, (*motor)?.0)));
         let push = |(k, axis): (usize, JointAxis)| {
             let joint = engine.impulse_joints.get(self.handles[k])?;
             let impulse = joint.data.motors[axis as usize].impulse;
@@ -174,20 +175,44 @@ impl Joints {
         with_motor.filter_map(push).collect()
     }
 
-    /// Returns the group of each of `bodies` bodies: the smallest index of a body that joints connect it with, directly or through others.
-    pub(super) fn groups(&self, bodies: usize) -> Vec<usize> {
-        let mut group: Vec<usize> = (0..bodies).collect();
-        let mut changes = true;
-        while changes {
-            changes = false;
-            for [one, two] in &self.bodies {
-                let (Some(one), Some(two)) = (*one, *two) else { continue };
-                let least = group[one].min(group[two]);
-                changes |= group[one] != group[two];
-                (group[one], group[two]) = (least, least);
+    /// Returns the hinges of each of `bodies` bodies: a point of the hinge's axis, and its direction, in the engine's frame of the body.
+    /// `None` for a body that other joints hold, too, or hinges with limits.
+    pub(super) fn hinges(&self, engine: &PhysicsWorld, bodies: usize) -> Vec<Option<Vec<(DVec3, DVec3)>>> {
+        let mut hinges = vec![Some(Vec::new()); bodies];
+        for (handle, ends) in self.handles.iter().zip(&self.bodies) {
+            let Some(joint) = engine.impulse_joints.get(*handle).map(|joint| &joint.data) else { continue };
+            let is_free =
+                joint.locked_axes == JointAxesMask::LOCKED_REVOLUTE_AXES && joint.limit_axes.is_empty();
+            for (body, frame) in ends.iter().zip([joint.local_frame1, joint.local_frame2]) {
+                let Some(body) = *body else { continue };
+                match &mut hinges[body] {
+                    Some(hinges) if is_free => hinges.push((frame.translation, frame.rotation * DVec3::X)),
+                    other => *other = None,
+                }
             }
         }
-        group
+        hinges
+    }
+
+    /// Sets the speeds of the hinges' motors for a step. `spin` returns the angular velocity of a body that the physics engine does not
+    /// know, rad/s. `state` is the state at the start of the step.
+    pub(super) fn set_speeds(&self, engine: &mut PhysicsWorld, state: &State, spin: impl Fn(usize) -> DVec3) {
+        for (k, axis) in self.motors.iter().enumerate() {
+            let Some((axis, speed)) = axis.filter(|(axis, _)| *axis == JointAxis::AngX) else { continue };
+            let Some(joint) = engine.impulse_joints.get(self.handles[k]).map(|joint| &joint.data) else {
+                continue;
+            };
+            let turn = self.bodies[k][0].map_or(DQuat::IDENTITY, |body| state.orientation[body]);
+            let along = turn * joint.local_frame1.rotation * DVec3::X;
+            let [one, two] = self.bodies[k].map(|body| body.map_or(0.0, |body| spin(body).dot(along)));
+            let rest = speed - (two - one);
+            if joint.motors[axis as usize].target_vel == rest {
+                continue;
+            }
+            if let Some(joint) = engine.impulse_joints.get_mut(self.handles[k], false) {
+                joint.data.set_motor_velocity(axis, rest, RIGID);
+            }
+        }
     }
 
     /// The number of joints.

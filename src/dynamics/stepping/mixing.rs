@@ -2,10 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rapier3d_f64::prelude::{
-    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ColliderSet,
-    ContactModificationContext, PairFilterContext, PhysicsHooks, SolverFlags,
-};
+use rapier3d_f64::prelude::{ActiveHooks, CoefficientCombineRule, ColliderBuilder};
 
 use super::super::contact::{Contacts, Surface};
 
@@ -70,25 +67,15 @@ impl Mixing {
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .active_hooks(hooks)
     }
-}
 
-/// Returns the index of a collider's body, which the collider stores as user data.
-pub(super) fn body_of(colliders: &ColliderSet, collider: ColliderHandle) -> Option<usize> {
-    Some(colliders.get(collider)?.user_data as usize)
-}
-
-impl PhysicsHooks for Mixing {
-    fn filter_contact_pair(&self, context: &PairFilterContext<'_>) -> Option<SolverFlags> {
-        let one = body_of(context.colliders, context.collider1)?;
-        let two = body_of(context.colliders, context.collider2)?;
-        let are_apart = self.apart.contains(&(one.min(two), one.max(two)));
-        (!are_apart).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
+    /// Returns whether two bodies touch each other when they meet.
+    pub(super) fn touch(&self, one: usize, two: usize) -> bool {
+        !self.apart.contains(&(one.min(two), one.max(two)))
     }
 
-    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        let one = body_of(context.colliders, context.collider1);
-        let two = body_of(context.colliders, context.collider2);
-        let (Some(one), Some(two), Some(manifold)) = (one, two, context.rigid_mut()) else { return };
-        *manifold.friction = self.surfaces[one].meet(&self.surfaces[two]).friction;
+    /// Returns the friction between two bodies if the physics engine cannot compute it.
+    pub(super) fn friction(&self, one: usize, two: usize) -> Option<f64> {
+        let is_asked = self.asked[one] || self.asked[two];
+        is_asked.then(|| self.surfaces[one].meet(&self.surfaces[two]).friction)
     }
 }

@@ -12,6 +12,8 @@ mod advance;
 mod bodies;
 mod bookkeeping;
 mod checkpoint;
+mod engine_input;
+mod hooks;
 mod joint;
 mod mixing;
 mod non_potential_work;
@@ -27,6 +29,7 @@ mod touch;
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
 use self::bookkeeping::Bookkeeping;
+use self::engine_input::EngineInput;
 use self::joint::Joints;
 use self::mixing::Mixing;
 use self::non_potential_work::NonPotentialWork;
@@ -65,6 +68,8 @@ pub struct TimeStepping {
     engine: PhysicsWorld,
     /// The physics engine's handle of each body of the model.
     handles: Vec<RigidBodyHandle>,
+    /// The values of each body that are set in the physics engine.
+    inputs: Vec<EngineInput>,
     /// Half of each body's thickness, m. A body that moves farther than this within a step counts as fast.
     half_thickness: Vec<f64>,
     mixing: Mixing,
@@ -96,8 +101,10 @@ impl TimeStepping {
         let length = bodies::typical_length(&model, contacts, &moves);
         engine.gravity = glam::DVec3::ZERO;
         engine.integration_parameters = parameters(length, !links.is_empty());
-        let handles = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
+        let inserted = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
+        let (handles, symmetries) = inserted;
         let joints = Joints::insert(&mut engine, links, &handles, &model);
+        let rolling = Rolling::new(&engine, symmetries, &joints, length);
         TimeStepping {
             time: parts.time,
             step: parts.step,
@@ -114,7 +121,8 @@ impl TimeStepping {
             failure: None,
             model,
             state,
-            rolling: Rolling::new(&engine, &handles, &joints),
+            rolling,
+            inputs: EngineInput::read_all(&engine, &handles),
             engine,
             handles,
             mixing,

@@ -31,7 +31,7 @@ pub(super) fn solids(
     length: f64,
     meets_others: bool,
 ) -> Vec<(Solid, InteractionGroups)> {
-    let half_space = (Pose::IDENTITY, SharedShape::halfspace(normal));
+    let half_space = Solid::angular(Pose::IDENTITY, SharedShape::halfspace(normal));
     let faces = orientation * normal;
     let is_aligned = faces.abs().max_element() >= 1.0 - ALIGNED;
     if !is_aligned {
@@ -40,7 +40,8 @@ pub(super) fn solids(
     let half = 0.5 * EDGE * length;
     // This rotation makes the edges of the block parallel to the world axes.
     let turn = orientation.conjugate();
-    let block = (Pose::from_parts(-half * normal, turn), SharedShape::cuboid(half, half, half));
+    let pose = Pose::from_parts(-half * normal, turn);
+    let block = Solid::angular(pose, SharedShape::cuboid(half, half, half));
     let mut all = vec![(block, groups(PLANE, SIMPLE))];
     if meets_others {
         all.push((half_space, groups(PLANE, OTHER)));

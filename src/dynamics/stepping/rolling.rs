@@ -1,138 +1,230 @@
-//! The velocities of round bodies that roll, and of the bodies that joints hold to them.
+//! The rotation of round bodies within their own surface.
 //!
-//! The physics engine keeps a contact as one point of each body, and moves both points with their bodies during a step. When a round body
-//! rotates, its surface stays where it is, but the point leaves the other body: by ρ (1 − cos φ) for a radius ρ and an angle φ. The engine
-//! takes this for a gap. At the end of the step it gives the bodies the velocity that would close the gap, about ½ ρ ω² Δt. Positions do not
-//! follow this velocity, because the next step finds the true contact first. So a ball that rolls on a floor stays at its height, but has
-//! a velocity into the floor.
+//! The physics engine keeps a contact as one point of each body, and moves both points with their bodies during a step. When a ball rolls,
+//! its surface stays where it is, but the point leaves the floor: by r (1 − cos φ) for a radius r and an angle φ. The engine would take this
+//! for a gap, and give the ball the velocity that closes the gap, ½ r ω² Δt. Fast balls would hop, and fast wheels would leave their track.
 //!
-//! This velocity is wrong, and snapshots must not have it. They get a velocity between that of the engine and the true displacement in the
-//! step, divided by its duration. The engine keeps its own velocity, because its contact forces and friction rely on it.
+//! So the engine does not get the part of a body's angular velocity that leaves its surface in place, the spin: all of it for a ball, the
+//! component along the axis for a cylinder. Friction finds the spin as the velocity of the surface, as of a conveyor belt. After the step,
+//! the body is rotated by the spin.
 
-use glam::DVec3;
-use rapier3d_f64::prelude::{ContactPair, PhysicsWorld, RigidBodyHandle, TypedShape};
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::{
+    ActiveHooks, ColliderHandle, ContactModificationContext, InteractionGroups, PhysicsWorld, RigidBodyHandle,
+};
 
 use super::joint::Joints;
+use super::shape::Symmetry;
+use super::touch::Touch;
 
-/// Bodies that rotate by a larger angle in a step, rad, get a corrected velocity.
+/// A smaller rotation by the spin within a step, rad, is left to the physics engine.
 const ANGLE: f64 = 0.005;
-/// Smaller differences of velocities are rounding errors, relative to the velocity.
-const ROUNDING: f64 = 1e-9;
+/// A body lies flat on another one if the cosine of the angle between the contact's normal and the axis is larger than this.
+const FLAT: f64 = 0.9;
+/// The tolerance for the position of an axis, relative to the thickness of the thinnest moving body.
+const ALIGNED: f64 = 1e-6;
 
-/// Finds the bodies whose velocities are corrected.
+/// A body whose surface is symmetric under rotations about its centre of mass, or about an axis through it.
+struct RoundBody {
+    colliders: Vec<ColliderHandle>,
+    /// The axis of the symmetry and of all hinges, a unit vector in the engine's frame of the body; `None` for a ball without joints.
+    axis: Option<DVec3>,
+    /// Whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
+    is_called: bool,
+    /// Whether the engine makes these calls in all steps, because it cannot compute the friction of the body.
+    is_always_called: bool,
+    /// The part of the leading angular velocity that belongs to the spin; see `spin::leading`.
+    leading: DVec3,
+    /// The orientation that the engine found in the last step, without the rotation by the spin; `None` if there was no spin.
+    unturned: Option<DQuat>,
+}
+
+/// The colliders of a body, each with the symmetries of its parts in the engine's frame of the body.
+pub(super) type ColliderSymmetries = Vec<(ColliderHandle, Vec<Symmetry>)>;
+
+/// The round bodies, and their spins in the present step.
 pub(super) struct Rolling {
-    handles: Vec<RigidBodyHandle>,
-    /// For each body, the largest radius of its round colliders, m; 0 without any.
-    radius: Vec<f64>,
-    /// For each body, the number of its group: the bodies that joints hold together, directly or through others.
-    group: Vec<usize>,
-    /// For each group, whether it has more than one body.
-    is_joined: Vec<bool>,
-    /// For each group, the largest wrong velocity that it can have in this step, m/s; 0 if no body of the group rolls.
-    largest: Vec<f64>,
+    /// The round body with each index, if the body is round.
+    round: Vec<Option<RoundBody>>,
+    /// The spin of each body, world axes, rad/s.
+    spin: Vec<DVec3>,
 }
 
 impl Rolling {
-    /// Finds the bodies with round colliders in the physics engine, and the groups of bodies that joints hold together.
-    pub(super) fn new(engine: &PhysicsWorld, handles: &[RigidBodyHandle], joints: &Joints) -> Rolling {
-        let radius = |handle: &RigidBodyHandle| {
-            let colliders = engine.bodies.get(*handle).map_or(&[][..], |body| body.colliders());
-            let colliders = colliders.iter().filter_map(|collider| engine.colliders.get(*collider));
-            colliders.map(|collider| radius(&collider.shape().as_typed_shape())).fold(0.0, f64::max)
-        };
-        let group = joints.groups(handles.len());
-        let mut is_joined = vec![false; handles.len()];
-        for (_, group) in group.iter().enumerate().filter(|(i, group)| i != *group) {
-            is_joined[*group] = true;
-        }
-        let largest = vec![0.0; handles.len()];
-        Rolling {
-            handles: handles.to_vec(),
-            radius: handles.iter().map(radius).collect(),
-            group,
-            is_joined,
-            largest,
+    /// Finds the round bodies. `symmetries` holds the colliders of each body, and `length` is the thickness of the thinnest moving body, m.
+    pub(super) fn new(
+        engine: &PhysicsWorld,
+        symmetries: Vec<ColliderSymmetries>,
+        joints: &Joints,
+        length: f64,
+    ) -> Rolling {
+        let hinges = joints.hinges(engine, symmetries.len());
+        let round = symmetries.into_iter().zip(hinges).map(|(colliders, hinges)| {
+            let parts = colliders.iter().flat_map(|(_, parts)| parts.iter().copied());
+            let hinges = hinges?.into_iter().map(|(centre, axis)| Symmetry::Axis { centre, axis });
+            let axis = common_axis(parts.chain(hinges).collect(), ALIGNED * length)?;
+            let colliders: Vec<ColliderHandle> = colliders.into_iter().map(|(handle, _)| handle).collect();
+            let is_called = is_called(engine, &colliders);
+            Some(RoundBody {
+                colliders,
+                axis,
+                is_called,
+                is_always_called: is_called,
+                leading: DVec3::ZERO,
+                unturned: None,
+            })
+        });
+        let round: Vec<Option<RoundBody>> = round.collect();
+        Rolling { spin: vec![DVec3::ZERO; round.len()], round }
+    }
+
+    /// Finds out which calls the physics engine makes, after it has been restored from a checkpoint.
+    pub(super) fn resume(&mut self, engine: &PhysicsWorld) {
+        for round in self.round.iter_mut().flatten() {
+            round.is_called = is_called(engine, &round.colliders);
         }
     }
 
-    /// Finds the groups that roll in a step of `dt` seconds. `turning` returns the angular velocity of a body, rad/s.
-    pub(super) fn begin(&mut self, engine: &PhysicsWorld, dt: f64, turning: impl Fn(usize) -> DVec3) {
-        self.largest.fill(0.0);
-        for (i, radius) in self.radius.iter().enumerate().filter(|(_, radius)| **radius > 0.0) {
-            let squared = turning(i).length_squared();
-            let group = self.group[i];
-            if squared * dt * dt > ANGLE * ANGLE
-                && (!self.is_joined[group] || touches(engine, self.handles[i]))
-            {
-                // Twice the estimate: the angular velocity changes in the step.
-                self.largest[group] = self.largest[group].max(radius * squared * dt);
+    /// Finds the spin of a body in a step of `dt` seconds. `turning` is the angular velocity of the body, and `leading` is the one with
+    /// which the physics engine would rotate it, rad/s. Returns the part of `leading` that the engine must not get.
+    pub(super) fn take(
+        &mut self,
+        engine: &mut PhysicsWorld,
+        body: usize,
+        (orientation, turning, leading): (DQuat, DVec3, DVec3),
+        dt: f64,
+    ) -> DVec3 {
+        let Some(round) = &mut self.round[body] else { return DVec3::ZERO };
+        let axis = round.axis.map(|axis| orientation * axis);
+        let [spin, leading] = [turning, leading].map(|all| axis.map_or(all, |axis| all.dot(axis) * axis));
+        let is_fast = spin.length_squared() * dt * dt > ANGLE * ANGLE;
+        // A disk that lies flat rotates against friction at all of its points, which have no common velocity.
+        let is_spun = is_fast && !axis.is_some_and(|axis| lies_flat(engine, &round.colliders, axis));
+        if is_spun != round.is_called && !round.is_always_called {
+            round.is_called = is_spun;
+            for collider in &round.colliders {
+                call(engine, *collider, is_spun);
             }
         }
+        (self.spin[body], round.leading) = if is_spun { (spin, leading) } else { (DVec3::ZERO, DVec3::ZERO) };
+        round.leading
     }
 
-    /// Returns the corrected velocity of a body, m/s. `velocity` is that of the engine at the end of a step, and `displacement` is the body's
-    /// displacement in the step, divided by its duration.
-    pub(super) fn corrected(&self, body: usize, velocity: DVec3, displacement: DVec3) -> DVec3 {
-        let largest = self.largest[self.group[body]];
-        if largest > 0.0 { between(velocity, displacement, largest) } else { velocity }
+    /// The spin of a body in the present step, world axes, rad/s.
+    pub(super) fn spin(&self, body: usize) -> DVec3 {
+        self.spin[body]
     }
-}
 
-/// Returns a velocity between that of the engine and that of the displacement, m/s. Only the component along their difference changes:
-/// the displacement replaces it, but may not reverse it. A body that rebounds has a larger difference than `largest`, and keeps the
-/// velocity of the engine. A body that the engine pushes out of another one keeps it, too.
-fn between(velocity: DVec3, displacement: DVec3, largest: f64) -> DVec3 {
-    let difference = displacement - velocity;
-    let squared = difference.length_squared();
-    // Rounding errors must not change the velocity of a body in free flight.
-    if squared <= ROUNDING * ROUNDING * velocity.length_squared() || squared > largest * largest {
-        return velocity;
+    /// Returns the orientation of a body after a step of `dt`, with the rotation by its spin; `None` if it has no spin. The physics engine
+    /// has rotated the body from one orientation to another.
+    pub(super) fn turn(&mut self, body: usize, [from, to]: [DQuat; 2], dt: f64) -> Option<DQuat> {
+        let round = self.round[body].as_mut()?;
+        round.unturned = (round.leading != DVec3::ZERO).then_some(to);
+        round.unturned?;
+        // The engine advances orientations along a straight line, q + ½ ω q dt. So both parts of the angular velocity add up.
+        let change = to * from.conjugate();
+        let half = DVec3::new(change.x, change.y, change.z) / change.w + 0.5 * dt * round.leading;
+        Some((from + DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * from).normalize())
     }
-    let direction = difference / squared.sqrt();
-    let [now, moved] = [velocity, displacement].map(|vector| vector.dot(direction));
-    velocity + (now.max(moved.min(0.0)) - now) * direction
-}
 
-/// Returns true if a body touches another.
-fn touches(engine: &PhysicsWorld, body: RigidBodyHandle) -> bool {
-    let colliders = engine.bodies.get(body).map_or(&[][..], |body| body.colliders());
-    let mut pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
-    pairs.any(ContactPair::has_any_active_contact)
-}
+    /// Returns the orientation that the physics engine found for a body in the last step, without the rotation by the spin; `None` if
+    /// there was no spin. The engine's contacts belong to this orientation.
+    pub(super) fn unturned(&self, body: usize) -> Option<DQuat> {
+        self.round[body].as_ref()?.unturned
+    }
 
-/// Returns the radius of a round shape, m, or the largest radius of its round parts; 0 for other shapes.
-fn radius(shape: &TypedShape<'_>) -> f64 {
-    match shape {
-        TypedShape::Compound(compound) => {
-            let parts = compound.shapes().iter().map(|(_, shape)| radius(&shape.as_typed_shape()));
-            parts.fold(0.0, f64::max)
+    /// Gives the points of a contact the velocities that the spins give the surfaces there.
+    pub(super) fn modify(&self, context: &mut ContactModificationContext<'_>) {
+        let side = |body: Option<RigidBodyHandle>| {
+            let body = body?;
+            let spin = *self.spin.get(body.into_raw_parts().0 as usize)?;
+            Some((spin, context.bodies.get(body)?.translation()))
+        };
+        let sides = [context.rigid_body1, context.rigid_body2].map(side);
+        let Some(contact) = context.rigid_mut() else { return };
+        for point in contact.solver_contacts.iter_mut() {
+            let place = 0.5 * (point.anchor1 + point.anchor2);
+            let velocity = |(spin, centre): (DVec3, DVec3)| spin.cross(place - centre);
+            let [one, two] = sides.map(|side| side.map_or(DVec3::ZERO, velocity));
+            point.tangent_velocity = one - two;
         }
-        TypedShape::Ball(ball) => ball.radius,
-        TypedShape::Capsule(capsule) => capsule.radius,
-        TypedShape::RoundCuboid(cuboid) => cuboid.border_radius,
-        TypedShape::Cylinder(cylinder) => cylinder.radius,
-        TypedShape::Cone(cone) => cone.radius,
-        _ => 0.0,
     }
+}
+
+/// Returns the axis through the centre of mass about which all parts are symmetric: `Some(None)` if every axis is, `None` if none is.
+fn common_axis(parts: Vec<Symmetry>, tolerance: f64) -> Option<Option<DVec3>> {
+    let own = |part: &Symmetry| match *part {
+        Symmetry::Axis { axis, .. } => Some(axis),
+        Symmetry::Point { centre } if centre.length() > tolerance => Some(centre.normalize()),
+        Symmetry::Point { .. } | Symmetry::None => None,
+    };
+    let common = parts.iter().find_map(own);
+    let is_on_axis = |place: DVec3| common.is_none_or(|axis| place.cross(axis).length() <= tolerance);
+    let fits = |part: &Symmetry| match *part {
+        Symmetry::None => false,
+        Symmetry::Point { centre } => is_on_axis(centre),
+        Symmetry::Axis { centre, axis: own } => {
+            is_on_axis(centre) && common.is_some_and(|axis| axis.cross(own).length() <= ALIGNED)
+        }
+    };
+    (!parts.is_empty() && parts.iter().all(fits)).then_some(common)
+}
+
+/// Returns true if a contact has a normal along the axis of a body with these colliders.
+fn lies_flat(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -> bool {
+    let pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
+    pairs.flat_map(Touch::of_pair).any(|touch| touch.normal().dot(axis).abs() > FLAT)
+}
+
+/// Returns whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
+fn is_called(engine: &PhysicsWorld, colliders: &[ColliderHandle]) -> bool {
+    let colliders = colliders.iter().filter_map(|collider| engine.colliders.get(*collider));
+    colliders
+        .map(|collider| collider.active_hooks())
+        .any(|hooks| hooks.contains(ActiveHooks::MODIFY_SOLVER_CONTACTS))
+}
+
+/// Makes the physics engine call [`Rolling::modify`] for the contacts of a collider, or no longer call it.
+fn call(engine: &mut PhysicsWorld, collider: ColliderHandle, is_called: bool) {
+    let Some(collider) = engine.colliders.get_mut(collider) else { return };
+    collider.set_active_hooks(if is_called {
+        collider.active_hooks() | ActiveHooks::MODIFY_SOLVER_CONTACTS
+    } else {
+        collider.active_hooks() - ActiveHooks::MODIFY_SOLVER_CONTACTS
+    });
+    // The engine keeps contacts that have hardly changed, with the velocities of the last call. A change of groups makes it find all
+    // contacts of the collider again.
+    let groups = collider.solver_groups();
+    collider.set_solver_groups(InteractionGroups::none());
+    collider.set_solver_groups(groups);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_velocity_into_a_contact_that_the_body_does_not_follow_is_removed() {
-        let rolling = between(DVec3::new(9.0, -0.1, 0.0), DVec3::new(9.0, 0.0, 0.0), 0.2);
-        assert_eq!(rolling, DVec3::new(9.0, 0.0, 0.0));
-        let sinking = between(DVec3::new(9.0, -0.1, 0.0), DVec3::new(9.0, -0.04, 0.0), 0.2);
-        assert!((sinking - DVec3::new(9.0, -0.04, 0.0)).length() < 1e-15);
+    const POINT: Symmetry = Symmetry::Point { centre: DVec3::ZERO };
+
+    fn about(centre: DVec3, axis: DVec3) -> Symmetry {
+        Symmetry::Axis { centre, axis }
     }
 
     #[test]
-    fn a_rebound_and_a_body_that_is_pushed_out_keep_the_velocity_of_the_engine() {
-        let rebound = DVec3::new(1.0, 2.0, 0.0);
-        assert_eq!(between(rebound, DVec3::new(1.0, 0.0, 0.0), 0.2), rebound);
-        let pushed = DVec3::new(1.0, 0.0, 0.0);
-        assert_eq!(between(pushed, DVec3::new(1.0, 0.1, 0.0), 0.2), pushed);
+    fn a_ball_is_symmetric_about_every_axis_and_a_wheel_about_one() {
+        assert_eq!(common_axis(vec![POINT], 1e-9), Some(None));
+        let wheel = about(0.3 * DVec3::Y, DVec3::Y);
+        assert_eq!(common_axis(vec![POINT, wheel], 1e-9), Some(Some(DVec3::Y)));
+        // The hinge of a wheel has the opposite direction.
+        assert_eq!(common_axis(vec![wheel, about(DVec3::ZERO, -DVec3::Y)], 1e-9), Some(Some(DVec3::Y)));
+        let dumbbell = [1.0, -1.0].map(|x| Symmetry::Point { centre: x * DVec3::X });
+        assert_eq!(common_axis(dumbbell.to_vec(), 1e-9), Some(Some(DVec3::X)));
+    }
+
+    #[test]
+    fn what_has_two_axes_or_corners_is_not_round() {
+        assert_eq!(common_axis(vec![POINT, Symmetry::None], 1e-9), None);
+        assert_eq!(common_axis(Vec::new(), 1e-9), None);
+        assert_eq!(common_axis(vec![about(DVec3::ZERO, DVec3::Y), about(DVec3::ZERO, DVec3::X)], 1e-9), None);
+        assert_eq!(common_axis(vec![about(0.1 * DVec3::X, DVec3::Y)], 1e-9), None);
     }
 }

@@ -19,7 +19,48 @@ const CONVEX: f64 = 1e-3;
 const TORUS: f64 = 0.01;
 
 /// A collision shape of the physics engine, with its pose in the frame of its body.
-pub(super) type Solid = (Pose, SharedShape);
+pub(super) struct Solid {
+    pub(super) pose: Pose,
+    pub(super) shape: SharedShape,
+    /// The symmetry of each part of the shape. A simple shape is its only part.
+    pub(super) symmetries: Vec<Symmetry>,
+}
+
+impl Solid {
+    /// Makes a solid without any symmetry under rotations.
+    pub(super) fn angular(pose: Pose, shape: SharedShape) -> Solid {
+        Solid { pose, shape, symmetries: vec![Symmetry::None] }
+    }
+}
+
+/// The rotations that leave a shape in place. Centre and axis are in the frame of the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Symmetry {
+    /// No rotation, or rotations by a few angles only.
+    None,
+    /// All rotations about an axis, which has unit length and goes through a centre.
+    Axis { centre: DVec3, axis: DVec3 },
+    /// All rotations about a centre.
+    Point { centre: DVec3 },
+}
+
+impl Symmetry {
+    /// Returns the symmetry of a shape of revolution about the y axis of `pose`.
+    fn about_y(pose: Pose) -> Symmetry {
+        Symmetry::Axis { centre: pose.translation, axis: pose.rotation * DVec3::Y }
+    }
+
+    /// Transforms the symmetry by a pose.
+    pub(super) fn placed(self, pose: Pose) -> Symmetry {
+        match self {
+            Symmetry::None => Symmetry::None,
+            Symmetry::Axis { centre, axis } => {
+                Symmetry::Axis { centre: pose * centre, axis: pose.rotation * axis }
+            }
+            Symmetry::Point { centre } => Symmetry::Point { centre: pose * centre },
+        }
+    }
+}
 
 /// Returns the solids that make up a shape, in the shape's own frame. A plane has none, because [`plane`](super::plane) makes its solids.
 /// Moving bodies need solids with an inside; bodies at rest may be surfaces.
@@ -27,42 +68,49 @@ pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
     let mut all = Vec::new();
     collect(shape, moves, Pose::IDENTITY, &mut all);
     // A single compound shape lets the physics engine treat all contacts of the shape as those of one pair of bodies.
-    if all.len() > 1 && all.iter().all(|(_, solid)| solid.as_composite_shape().is_none()) {
-        return vec![(Pose::IDENTITY, SharedShape::compound(all))];
+    if all.len() > 1 && all.iter().all(|solid| solid.shape.as_composite_shape().is_none()) {
+        let symmetries = all.iter().flat_map(|solid| solid.symmetries.iter().copied()).collect();
+        let parts = all.into_iter().map(|solid| (solid.pose, solid.shape)).collect();
+        return vec![Solid { pose: Pose::IDENTITY, shape: SharedShape::compound(parts), symmetries }];
     }
     all
 }
 
 fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
-    let at = |offset: DVec3| pose * Pose::from_parts(offset, DQuat::IDENTITY);
+    let of_revolution = |pose: Pose, shape| Solid { pose, shape, symmetries: vec![Symmetry::about_y(pose)] };
     match *shape {
-        Shape::Sphere { radius } => all.push((pose, SharedShape::ball(radius))),
+        Shape::Sphere { radius } => all.push(Solid {
+            pose,
+            shape: SharedShape::ball(radius),
+            symmetries: vec![Symmetry::Point { centre: pose.translation }],
+        }),
         Shape::Box { size } => {
             let half = 0.5 * size;
-            all.push((pose, SharedShape::cuboid(half.x, half.y, half.z)));
+            all.push(Solid::angular(pose, SharedShape::cuboid(half.x, half.y, half.z)));
         }
         Shape::RoundedBox { size, rounding } => {
             let half = 0.5 * size - rounding;
             // A box with the largest possible rounding has no extent between its roundings in some direction. The physics engine needs a
             // small extent.
             let half = half.max(DVec3::splat(1e-9 * rounding));
-            all.push((pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
+            all.push(Solid::angular(pose, SharedShape::round_cuboid(half.x, half.y, half.z, rounding)));
         }
         Shape::Cylinder { radius, height } => {
-            all.push((pose, SharedShape::cylinder(0.5 * height, radius)));
+            all.push(of_revolution(pose, SharedShape::cylinder(0.5 * height, radius)));
         }
         Shape::Capsule { radius, height } => {
-            all.push((pose, SharedShape::capsule_y(0.5 * height - radius, radius)));
+            all.push(of_revolution(pose, SharedShape::capsule_y(0.5 * height - radius, radius)));
         }
         Shape::Cone { radius, top_radius: 0.0, height } => {
             let middle = cone_base(radius, 0.0, height) + 0.5 * height;
-            all.push((at(middle * DVec3::Y), SharedShape::cone(0.5 * height, radius)));
+            let pose = pose * Pose::from_parts(middle * DVec3::Y, DQuat::IDENTITY);
+            all.push(of_revolution(pose, SharedShape::cone(0.5 * height, radius)));
         }
         Shape::Cone { radius, top_radius, height } => {
-            all.extend(frustum(radius, top_radius, height).map(|wedge| (pose, wedge)));
+            all.extend(frustum(radius, top_radius, height).map(|wedge| of_revolution(pose, wedge)));
         }
         Shape::Torus { radius, tube_radius } => {
-            all.extend(torus(radius, tube_radius).map(|capsule| (pose, capsule)));
+            all.extend(torus(radius, tube_radius).map(|capsule| of_revolution(pose, capsule)));
         }
         Shape::Plane { .. } | Shape::Axes { .. } => {}
         Shape::Compound(ref compound) => {
@@ -71,7 +119,8 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
             }
         }
         Shape::Mesh { ref mesh, scale } => {
-            all.extend(mesh_solids(mesh, scale, moves).into_iter().map(|(own, solid)| (pose * own, solid)));
+            let parts = mesh_solids(mesh, scale, moves).into_iter();
+            all.extend(parts.map(|(own, shape)| Solid::angular(pose * own, shape)));
         }
     }
 }
@@ -108,13 +157,13 @@ fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
 
 /// Returns the solids of a mesh. A moving mesh becomes its convex hull if it is convex, and several convex parts if not. A mesh at rest
 /// becomes its triangles.
-fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<Solid> {
+fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<(Pose, SharedShape)> {
     let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| scale * *vertex).collect();
     if !moves {
         // A closed surface has an inside. An open surface can be touched from both sides.
         let flags = match mesh.flaw() {
             None => TriMeshFlags::FIX_INTERNAL_EDGES,
-            Some(_) => TriMeshFlags::MERGE_DUPLICATE_VERTICES,
+            Some(_) => TriMeshFlags::FIX_INTERNAL_EDGES_TWO_SIDED,
         };
         let triangles = SharedShape::trimesh_with_flags(vertices, mesh.triangles().to_vec(), flags);
         return triangles.map(|triangles| vec![(Pose::IDENTITY, triangles)]).unwrap_or_default();

@@ -1,5 +1,7 @@
 //! Makes snapshots of time-stepping runs: the bodies, contacts and forces at one moment.
 
+use rapier3d_f64::prelude::Pose;
+
 use super::super::contact::ContactSnapshot;
 use super::super::{Balance, BodySnapshot, Reaction, Snapshot, State};
 use super::TimeStepping;
@@ -78,8 +80,11 @@ impl TimeStepping {
     /// Returns the two bodies with the greatest penetration, and their penetration, m (negative if they are apart). `None` if no bodies
     /// are near each other. If `some` are given, one of the two is among these.
     pub(super) fn deepest(&self, some: Option<&[usize]>) -> Option<([usize; 2], f64)> {
-        let Self { engine, model, state, .. } = self;
-        let pose = |i: usize| model.movable()[i].then(|| super::bodies::pose(state, i));
+        let Self { engine, model, state, rolling, .. } = self;
+        let pose = |i: usize| {
+            let orientation = rolling.unturned(i).unwrap_or(state.orientation[i]);
+            model.movable()[i].then(|| Pose::from_parts(state.location[i], orientation))
+        };
         let touches = engine.narrow_phase.contact_pairs().flat_map(Touch::of_pair);
         let counts = |touch: &Touch<'_>| {
             some.is_none_or(|some| touch.bodies.iter().any(|body| some.binary_search(body).is_ok()))

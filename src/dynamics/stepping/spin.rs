@@ -2,6 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
+use super::super::integrator::turn_freely;
+use super::super::model::is_isotropic;
+
 /// The largest rotation of a body within a step, rad. Faster rotations are cut off at this angle.
 const LARGEST: f64 = 3.0;
 
@@ -19,9 +22,50 @@ pub(super) fn leading(from: DQuat, to: DQuat, dt: f64) -> DVec3 {
     2.0 / dt / cosine * sine
 }
 
+/// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body as free rotation would rotate it within
+/// `dt`, s. The body has the orientation `from` and the angular momentum `momentum` (world axes, kg m²/s).
+pub(super) fn free(from: DQuat, momentum: DVec3, inverse_inertia: DVec3, dt: f64) -> DVec3 {
+    if momentum == DVec3::ZERO {
+        return DVec3::ZERO;
+    }
+    if is_isotropic(inverse_inertia) {
+        // The body rotates uniformly, by φ = |ω| dt about the direction of ω. See `leading` for the factor.
+        let angular_velocity = inverse_inertia.x * momentum;
+        return tangent_ratio(0.25 * dt * dt * angular_velocity.length_squared()) * angular_velocity;
+    }
+    leading(from, turn_freely(from, momentum, inverse_inertia, dt), dt)
+}
+
+/// Returns tan(h)/h for an angle h ≥ 0, rad, from its square. Larger angles than `LARGEST`/2 are cut off.
+fn tangent_ratio(squared: f64) -> f64 {
+    /// The first coefficients of the series of tan(h)/h in powers of h². Source: Abramowitz & Stegun, 4.3.67.
+    const SERIES: [f64; 6] = [1.0, 1.0 / 3.0, 2.0 / 15.0, 17.0 / 315.0, 62.0 / 2835.0, 1382.0 / 155_925.0];
+    // Up to this angle, the first term that is left out is below 1e-18.
+    const SMALL: f64 = 0.05;
+    if squared < SMALL * SMALL {
+        return SERIES.iter().rev().fold(0.0, |sum, coefficient| sum * squared + coefficient);
+    }
+    let angle = libm::sqrt(squared);
+    libm::tan(angle.min(0.5 * LARGEST)) / angle
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_ball_needs_no_orientation_to_rotate_freely() {
+        let (from, inverse, dt) = (DQuat::from_scaled_axis(DVec3::new(0.4, -1.1, 0.7)), 2.5, 0.01);
+        let axis = DVec3::new(0.6, 0.0, -0.8);
+        for angle in [1e-9, 0.02, 0.0999, 0.1001, 1.0, 2.9] {
+            let momentum = angle / dt / inverse * axis;
+            let expected = leading(from, turn_freely(from, momentum, DVec3::splat(inverse), dt), dt);
+            let found = free(from, momentum, DVec3::splat(inverse), dt);
+            // The orientations are rounded to 1e-16, and the tangent has the slope 1/cos².
+            let cos = libm::cos(0.5 * angle);
+            assert!((found - expected).length() < 1e-15 / dt / (cos * cos), "{angle}: {found} {expected}");
+        }
+    }
 
     #[test]
     fn a_straight_line_then_leads_to_the_other_orientation() {

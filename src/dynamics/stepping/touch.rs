@@ -143,13 +143,16 @@ pub(super) fn visit<'a>(
         }
         found.clear();
         for ((pair, manifold), _) in block.iter().zip(touching).filter(|(_, touching)| *touching) {
-            let touch = Touch::new(manifold);
-            found.extend(touch.map(|touch| (*pair, touch, touch.push_or_nothing())));
+            found.extend(Touch::new(manifold).map(|touch| (*pair, touch)));
         }
-        for (pair, touch, push) in &found {
+        let mut pushing = [false; AT_ONCE];
+        for (pushing, (_, touch)) in pushing.iter_mut().zip(&found) {
+            *pushing = touch.manifold.points.iter().any(|point| point.data.impulse != 0.0);
+        }
+        for ((pair, touch), pushing) in found.iter().zip(pushing) {
             meet(touch);
-            if push.impulse != 0.0 {
-                look(pair, touch, push);
+            if pushing && let Some(push) = touch.push() {
+                look(pair, touch, &push);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 mod contacts;
 mod joints;
+mod rolling;
 
 use std::sync::Arc;
 
