@@ -43,9 +43,13 @@ impl Moments {
         Moments { intervals: Vec::new(), ..Moments::of_ghosts(scene) }
     }
 
-    /// Adds a time (s), and the sample times of cameras whose shutters open then.
+    /// Adds a time (s), and the sample times of cameras whose shutters open then. The time of a frame adds nothing, so a still image of a
+    /// frame needs no new simulation.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {
+        if self.is_frame(time) {
+            return self;
+        }
         let times: Vec<f64> = self.times_of(time).collect();
         self.others.extend(times);
         self
@@ -104,6 +108,13 @@ impl Moments {
         intervals
     }
 
+    /// Returns whether a time (s) is exactly that of a frame.
+    fn is_frame(&self, time: f64) -> bool {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+        let nearest = (time * self.frame_rate).round() as usize;
+        nearest < self.frames && self.time(nearest) == time
+    }
+
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
     pub(super) fn time(&self, frame: usize) -> f64 {
         frame as f64 / self.frame_rate
@@ -151,7 +162,9 @@ mod tests {
         let moments = Moments::of(&scene("")).with(0.123);
         assert_eq!(moments.after(1), [0.123]);
         assert!(moments.after(0).is_empty() && moments.after(2).is_empty());
-        // A requested time that equals a frame's time adds nothing.
-        assert!(Moments::of(&scene("")).with(0.2).after(1).is_empty());
+        // A requested time that equals a frame's time adds nothing, so the run of the scene serves.
+        let own = Moments::of(&scene(""));
+        assert_eq!(own.clone().with(0.2), own);
+        assert_ne!(own.clone().with(0.5), own, "there is no frame at this time");
     }
 }

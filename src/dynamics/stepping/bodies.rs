@@ -9,6 +9,7 @@ use rapier3d_f64::prelude::{
 use super::super::contact::Contacts;
 use super::super::shape::Shape;
 use super::super::{Model, State};
+use super::mesh::MeshSolids;
 use super::mixing::Mixing;
 use super::rolling::ColliderSymmetries;
 use super::shape::{Solid, Symmetry};
@@ -50,6 +51,7 @@ pub(super) fn insert(
         touches && model.is_moved_by_forces(i) && model.shape(i).is_some_and(|shape| !plane::is_simple(shape))
     };
     let meets_others = (0..model.len()).any(is_other);
+    let mut meshes = MeshSolids::default();
     for i in 0..model.len() {
         let is_present = model.is_present(i);
         if !is_present {
@@ -58,7 +60,7 @@ pub(super) fn insert(
         let handle = engine.insert_body(body(model, state, i).enabled(is_present));
         let mut own = Vec::new();
         if contacts.surfaces.get(i).is_some_and(Option::is_some) {
-            for (collider, symmetries) in colliders(model, state, i, (length, meets_others)) {
+            for (collider, symmetries) in colliders(model, state, i, (length, meets_others), &mut meshes) {
                 let collider = mixing.describe(i, collider.user_data(i as u128));
                 own.push((engine.insert_collider(collider, Some(handle)), symmetries));
             }
@@ -110,6 +112,7 @@ fn colliders(
     state: &State,
     i: usize,
     (length, meets_others): (f64, bool),
+    meshes: &mut MeshSolids,
 ) -> Vec<(ColliderBuilder, Vec<Symmetry>)> {
     let Some(form) = model.shape(i) else { return Vec::new() };
     let from_body = Pose::from_parts(DVec3::ZERO, model.principal_axes(i).conjugate());
@@ -123,6 +126,6 @@ fn colliders(
         return solids.into_iter().map(build).collect();
     }
     let groups = plane::groups_of(form);
-    let solids = shape::solids(form, model.is_moved_by_forces(i));
+    let solids = shape::solids(form, model.is_moved_by_forces(i), meshes);
     solids.into_iter().map(|solid| build((solid, groups))).collect()
 }

@@ -1,19 +1,16 @@
 //! Translates shapes into the collision shapes of the physics engine.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use rapier3d_f64::parry::shape::TriMeshFlags;
 use rapier3d_f64::prelude::{Pose, SharedShape};
 
-use super::super::shape::{Mesh, Shape, cone_base};
+use super::super::shape::{Shape, cone_base};
+use super::mesh::MeshSolids;
 
 /// The number of sides of the pyramid frustum that replaces a conical frustum. Its corners lie outside the circle, and the middles of its
 /// sides inside, both by a quarter of a percent of the radius.
 const SIDES: u32 = 32;
-/// A mesh counts as convex if the volume of its convex hull exceeds its own volume by at most this fraction.
-const CONVEX: f64 = 1e-3;
 /// The deviation between a torus and the ring of capsules that replaces it, as a fraction of the tube's radius. A torus with a very thin
 /// tube deviates more.
 const TORUS: f64 = 0.01;
@@ -64,9 +61,9 @@ impl Symmetry {
 
 /// Returns the solids that make up a shape, in the shape's own frame. A plane has none, because [`plane`](super::plane) makes its solids.
 /// Moving bodies need solids with an inside; bodies at rest may be surfaces.
-pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
+pub(super) fn solids(shape: &Shape, moves: bool, meshes: &mut MeshSolids) -> Vec<Solid> {
     let mut all = Vec::new();
-    collect(shape, moves, Pose::IDENTITY, &mut all);
+    collect(shape, (moves, meshes), Pose::IDENTITY, &mut all);
     // A single compound shape lets the physics engine treat all contacts of the shape as those of one pair of bodies.
     if all.len() > 1 && all.iter().all(|solid| solid.shape.as_composite_shape().is_none()) {
         let symmetries = all.iter().flat_map(|solid| solid.symmetries.iter().copied()).collect();
@@ -76,7 +73,7 @@ pub(super) fn solids(shape: &Shape, moves: bool) -> Vec<Solid> {
     all
 }
 
-fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
+fn collect(shape: &Shape, (moves, meshes): (bool, &mut MeshSolids), pose: Pose, all: &mut Vec<Solid>) {
     let of_revolution = |pose: Pose, shape| Solid { pose, shape, symmetries: vec![Symmetry::about_y(pose)] };
     match *shape {
         Shape::Sphere { radius } => all.push(Solid {
@@ -115,11 +112,12 @@ fn collect(shape: &Shape, moves: bool, pose: Pose, all: &mut Vec<Solid>) {
         Shape::Plane { .. } | Shape::Axes { .. } => {}
         Shape::Compound(ref compound) => {
             for part in compound.parts() {
-                collect(&part.shape, moves, pose * Pose::from_parts(part.location, part.orientation), all);
+                let pose = pose * Pose::from_parts(part.location, part.orientation);
+                collect(&part.shape, (moves, &mut *meshes), pose, all);
             }
         }
         Shape::Mesh { ref mesh, scale } => {
-            let parts = mesh_solids(mesh, scale, moves).into_iter();
+            let parts = meshes.of(mesh, scale, moves).into_iter();
             all.extend(parts.map(|(own, shape)| Solid::angular(pose * own, shape)));
         }
     }
@@ -153,33 +151,4 @@ fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
     };
     (0..sides as u32)
         .map(move |i| SharedShape::capsule(corner(f64::from(i)), corner(f64::from(i) + 1.0), tube_radius))
-}
-
-/// Returns the solids of a mesh. A moving mesh becomes its convex hull if it is convex, and several convex parts if not. A mesh at rest
-/// becomes its triangles.
-fn mesh_solids(mesh: &Arc<Mesh>, scale: f64, moves: bool) -> Vec<(Pose, SharedShape)> {
-    let vertices: Vec<DVec3> = mesh.vertices().iter().map(|vertex| scale * *vertex).collect();
-    if !moves {
-        // A closed surface has an inside. An open surface can be touched from both sides.
-        let flags = match mesh.flaw() {
-            None => TriMeshFlags::FIX_INTERNAL_EDGES,
-            Some(_) => TriMeshFlags::FIX_INTERNAL_EDGES_TWO_SIDED,
-        };
-        let triangles = SharedShape::trimesh_with_flags(vertices, mesh.triangles().to_vec(), flags);
-        return triangles.map(|triangles| vec![(Pose::IDENTITY, triangles)]).unwrap_or_default();
-    }
-    let hull = SharedShape::convex_hull(&vertices);
-    let volume = Shape::volume(&Shape::Mesh { mesh: Arc::clone(mesh), scale }).unwrap_or(0.0);
-    match hull {
-        Some(hull) if hull.mass_properties(1.0).mass() <= volume * (1.0 + CONVEX) => {
-            vec![(Pose::IDENTITY, hull)]
-        }
-        hull => {
-            let parts = SharedShape::convex_decomposition(&vertices, mesh.triangles());
-            match parts.as_compound() {
-                Some(compound) => compound.shapes().to_vec(),
-                None => hull.into_iter().map(|hull| (Pose::IDENTITY, hull)).collect(),
-            }
-        }
-    }
 }

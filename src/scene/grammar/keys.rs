@@ -261,10 +261,14 @@ static BODY: TableSpec = TableSpec {
         .unit("s")
         .default("the start of the run")
         .also(&["birth", "born", "begin", "appears", "t0"]),
-        KeySpec::new("end", ANY, "When it disappears. An absent body neither acts nor is acted on")
-            .unit("s")
-            .default("it stays")
-            .also(&["death", "dies", "until", "vanishes", "t1"]),
+        KeySpec::new(
+            "end",
+            ANY,
+            "When it disappears. An absent body neither acts nor is acted on, and its joints hold nothing",
+        )
+        .unit("s")
+        .default("it stays")
+        .also(&["death", "dies", "until", "vanishes", "t1"]),
         KeySpec::new("force", VECTOR, "A constant force at its centre, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),

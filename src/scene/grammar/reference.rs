@@ -54,7 +54,7 @@ the body stays in contact and then sticks, slides or rolls according to the forc
 
 - **What collides**: all bodies except axes. Bodies connected by a joint pass through each other unless the joint has
   `collides = true`. Bodies with the same `collision_group` pass through each other, too, and a body with `collides = false` passes
-  through everything. Contacts of a torus cannot be computed; build it as a `compound`.
+  through everything. Contacts of a torus need `\"time-stepping\"`; or build it as a `compound`.
 - **The ground** lies at height 0 by default. It stops bodies, and has its own `restitution`, `friction` and
   `rolling_friction`. There is none with `ground = false` or in an environment without ground.
 - **Two surfaces**: the larger restitution, the geometric mean of the frictions and the larger rolling friction count. If only one of
@@ -90,7 +90,7 @@ repeat.grid = { count = [4, 10, 1], spacing = [0.42, 0.2, 0] }
 ```
 
 With `contacts = \"time-stepping\"`, all contacts of a timestep are solved together. The cost of a step is roughly proportional to the number of
-contacts, so thousands of bodies are possible: piles, towers and machines. All keys mean the same in both schemes. Choose by scene:
+contacts, so thousands of bodies are possible: piles, towers and machines. The keys that both schemes have mean the same in both. Choose by scene:
 
 | | `event-driven` | `time-stepping` |
 | --- | --- | --- |
@@ -109,9 +109,14 @@ contacts, so thousands of bodies are possible: piles, towers and machines. All k
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
   default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
-  weight: 1/480 s for 10 cm, 1/1920 s for 1 cm.
-- **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube. A moving mesh is its convex hull if it is
-  convex, and is otherwise split into convex parts. A fixed mesh keeps its triangles.
+  weight: 1/240 s for 10 cm, 1/960 s for 1 cm. `step` can be longer or shorter. A tower of many bodies sinks more, since each body carries all above.
+- **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube, so bodies that roll along it lose
+  energy at the kinks. A moving mesh is its convex hull if it is convex. Otherwise it is cut into convex parts along its own faces, up to 128
+  parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill
+  narrow notches. A fixed mesh keeps its triangles.
+- **Rolling**: balls, cylinders, cones, capsules and compounds of these about one axis roll smoothly at any speed, also as wheels on a hinge.
+- **Machines**: a body with `end` takes its joints with it when it disappears. So a joint to a small body with an `end` is a latch, for a
+  catapult or a crane. A slider with a motor is a winch.
 - **Fast bodies** do not pass through thin ones at any speed. Two bodies that are both fast may pass through each other.
 - **Forces** of all kinds act as in Euler–Cromer: they are evaluated at the beginning of each step.
 ";

@@ -22,7 +22,7 @@ const CONE: KeySpec = KeySpec::new(
 const TORUS: KeySpec =
     KeySpec::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
 const MESH: KeySpec =
-    KeySpec::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes")
+    KeySpec::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes. Its centre of mass is at the body's `location`, wherever the origin of the file is; for an open surface, the centre of its area")
         .also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
 
 pub(super) static SHAPE: TableSpec = TableSpec {
