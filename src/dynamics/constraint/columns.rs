@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::factor::IMPLIED;
 use super::jacobian::{move_members, product, products};
 use super::member::Member;
 use super::solver::Solver;
@@ -84,7 +85,7 @@ impl Solver {
     }
 
     /// Appends the velocity changes under a unit impulse along a constraint row when joints are active. The reactions of the joints move
-    /// other bodies as well.
+    /// other bodies as well. The column of a row along which the joints block all motion is empty.
     fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
         let Some(structure) = &self.structure else { return };
         let mut moved: Vec<Member> = self.members.clone();
@@ -95,10 +96,16 @@ impl Solver {
         unknown[row] = 1.0;
         move_members(structure, &self.jacobian, &unknown, &mut moved);
         products(structure, &self.jacobian, &moved, &mut unknown);
+        let free = unknown[row];
         unknown.iter_mut().for_each(|rate| *rate = -*rate);
         self.factor.solve(&mut unknown);
         move_members(structure, &self.jacobian, &unknown, &mut moved);
         let weight = product(structure, &self.jacobian, &moved, row).0;
+        if weight <= IMPLIED * free {
+            // The joints block all motion along this row. The remaining response is only a rounding error, of either sign.
+            columns.push(std::iter::empty(), 0.0);
+            return;
+        }
         let change = |(number, member): (usize, &Member)| Change {
             member: number,
             velocity: member.velocity,
@@ -121,5 +128,43 @@ impl Solver {
             Change { member: direction.member, velocity: linear, angular_velocity: angular }
         };
         columns.push(directions.iter().map(change), weight);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::super::super::world::Parts;
+    use super::super::super::{Anchor, Hinge, RigidBody, Shape, World};
+    use super::super::Freedom;
+    use super::*;
+
+    /// A plate has two parallel hinges, so it cannot turn against the limits of the first one.
+    #[test]
+    fn a_row_that_joints_block_responds_to_nothing() {
+        for i in 0..20 {
+            let turn =
+                DQuat::from_rotation_y(0.37 * f64::from(i)) * DQuat::from_rotation_x(0.2 * f64::from(i));
+            let mut world = World::new();
+            let plate = RigidBody::new(&Shape::Box { size: DVec3::new(2.0, 0.3, 1.0) }, 3.0);
+            let id = world.add(plate.with_orientation(turn));
+            for (x, limits) in [(-0.7, Some([-1.0, 1.0])), (0.9, None)] {
+                let at = DVec3::new(x, 0.1, 0.2);
+                let between = [Anchor::Point(turn * at), Anchor::Body { id, at }];
+                let hinge = Hinge::new(between, turn * DVec3::Z, turn.conjugate());
+                world.add_constraint(hinge.with(Freedom { limits, ..Freedom::default() }));
+            }
+            let Parts { model, mut state, .. } = world.into_parts();
+            let mut solver = Solver::default();
+            solver.prepare_sweeps(&model, 0.0, &mut state);
+            let is_limit = |row: &usize| solver.laws[*row] == Law::Inequality;
+            let limits: Vec<usize> = (0..solver.rows.len()).filter(is_limit).collect();
+            assert_eq!(limits.len(), 2);
+            for row in limits {
+                assert_eq!(solver.columns.weights()[row], 0.0, "turn {i}");
+                assert!(solver.columns.of(row).is_empty(), "turn {i}");
+            }
+        }
     }
 }

@@ -9,8 +9,8 @@ use super::structure::Structure;
 use super::{Direction, Member};
 
 /// A constraint row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. A smaller pivot
-/// is only a rounding error.
-const IMPLIED: f64 = 1e-11;
+/// is only a rounding error. The pivot is the response of the row to a unit impulse while the other rows hold.
+pub(in crate::dynamics) const IMPLIED: f64 = 1e-11;
 
 /// A symmetric matrix and its L D Lᵀ factors, with fixed sparsity patterns.
 #[derive(Clone, Debug, Default)]

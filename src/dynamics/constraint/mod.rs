@@ -41,6 +41,7 @@ mod sweep;
 
 pub use ball::Ball;
 pub use coordinate::Coordinate;
+pub(super) use factor::IMPLIED;
 pub use fixed::Fixed;
 pub use freedom::{Freedom, Motor, Target};
 pub use gear::Gear;
