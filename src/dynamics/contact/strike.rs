@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::constraint::Solver;
+use super::super::constraint::{IMPLIED, Solver};
 use super::super::motion::Twist;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
@@ -307,7 +307,9 @@ fn response(
     response_to(bodies, places, places.len(), (model, state), joints)
 }
 
-/// Computes the columns of J M⁻¹ Jᵀ that belong to impulses at the first `pushed` contact points.
+/// Computes the columns of J M⁻¹ Jᵀ that belong to impulses at the first `pushed` contact points. Where joints block all motion along an
+/// axis, the response would be only a rounding error. Instead, such an axis responds as without joints, and is not coupled to others: since
+/// its rate is 0, its impulse is 0, too.
 fn response_to(
     bodies: [usize; 2],
     places: &[Place],
@@ -317,13 +319,15 @@ fn response_to(
 ) -> Vec<f64> {
     let n = 3 * pushed;
     let mut response = vec![0.0; 3 * places.len() * n];
+    let mut blocked: Vec<(usize, f64)> = Vec::new();
     for column in 0..n {
         let place = &places[column / 3];
         let push = place.axes[column % 3];
         let pushes = [(-push, -place.arms[0].cross(push)), (push, place.arms[1].cross(push))];
+        let free = std::array::from_fn(|i| model.respond(bodies[i], state, pushes[i]));
         let twists = match joints.as_deref_mut() {
             Some(joints) => joints.respond(model, state, bodies, pushes),
-            None => std::array::from_fn(|i| model.respond(bodies[i], state, pushes[i])),
+            None => free,
         };
         for (row, place) in places.iter().enumerate() {
             let rate = place.rate(twists);
@@ -331,6 +335,15 @@ fn response_to(
                 response[(3 * row + axis) * n + column] = rate[axis];
             }
         }
+        let free = place.rate(free)[column % 3];
+        if joints.is_some() && response[column * n + column] <= IMPLIED * free {
+            blocked.push((column, free));
+        }
+    }
+    for (axis, free) in blocked {
+        response.iter_mut().skip(axis).step_by(n).for_each(|coupling| *coupling = 0.0);
+        response[axis * n..(axis + 1) * n].fill(0.0);
+        response[axis * n + axis] = free;
     }
     response
 }
