@@ -393,8 +393,8 @@ impl Dynamics for World {
             Ok(_) => {}
             Err(error) => broken = broken.or(Some(error)),
         });
-        let broken = broken.map(|error| self.model.cause(error));
-        broken.or(self.solver.take_failure()).map_or(Ok(()), Err)
+        let broken = broken.or(self.solver.take_failure());
+        broken.map_or(Ok(()), |error| Err(self.model.cause(error)))
     }
 
     fn snapshot(&mut self) -> Result<Snapshot, Breakdown> {
@@ -404,8 +404,8 @@ impl Dynamics for World {
         let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
         let mut system = System::new(model, solver);
         let snapshot = picture(&mut system, *time, state, (balance, rest, crowd), loads).checked();
-        let snapshot = snapshot.map_err(|error| model.cause(error));
-        solver.take_failure().map_or(snapshot, Err)
+        let snapshot = solver.take_failure().map_or(snapshot, Err);
+        snapshot.map_err(|error| model.cause(error))
     }
 
     fn impacts(&mut self) -> Vec<Impact> {
@@ -419,7 +419,7 @@ impl Dynamics for World {
 
 #[cfg(test)]
 mod tests {
-    use super::super::UniformGravity;
+    use super::super::{Anchor, Rod, UniformGravity};
     use super::*;
 
     #[test]
@@ -481,5 +481,26 @@ mod tests {
         assert_eq!(world.forces(), [DVec3::new(1.0, -2.0, 0.0)]);
         world.apply_force(id, DVec3::Z);
         assert_eq!(world.forces(), [DVec3::new(0.0, -2.0, 1.0)]);
+    }
+
+    #[test]
+    fn a_joint_whose_body_has_no_finite_place_is_not_called_broken() {
+        for method in METHODS {
+            let mut world = World::new();
+            world.set_integrator(method);
+            let id = world.add(RigidBody::new(&Shape::Sphere { radius: 0.1 }, 1.0).with_location(DVec3::X));
+            world.add_constraint(Rod {
+                between: [Anchor::Point(DVec3::ZERO), Anchor::centre(id)],
+                length: 1.0,
+            });
+            let _ = world.snapshot();
+            world.apply_force(id, DVec3::NAN);
+            let failure = world.advance(0.01, &[], &mut |_| {});
+            assert!(
+                matches!(failure, Err(Breakdown::Diverged { body, .. }) if body == id),
+                "{}: {failure:?}",
+                method.name
+            );
+        }
     }
 }

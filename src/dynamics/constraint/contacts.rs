@@ -285,14 +285,33 @@ impl Solver {
     }
 
     /// Returns the reason why the run stops if constraint `index` fails: a broken joint or a jammed contact. `missing` is the error of the
-    /// constraint.
+    /// constraint. If it is not finite, the run diverged, because a body of the constraint has no finite position.
     pub(super) fn broken(&self, model: &Model, index: usize, time: f64, missing: f64) -> Breakdown {
+        if !missing.is_finite()
+            && let Some(body) = self.lost_body(index)
+        {
+            return Breakdown::Diverged { body: BodyId::new(body), time };
+        }
         match index.checked_sub(model.constraints().len()) {
             None => Breakdown::Broken { constraint: index, time, missing },
             Some(contact) => {
                 Breakdown::Jammed { bodies: self.contacts[contact].bodies.map(BodyId::new), time }
             }
         }
+    }
+
+    /// Returns the body of constraint `index` that is most likely to blame for a value that is not finite: a movable body without a finite
+    /// position, or else its first movable body. `None` if there is none.
+    fn lost_body(&self, index: usize) -> Option<usize> {
+        let structure = self.structure.as_ref()?;
+        let place = structure.places.iter().find(|place| place.constraint == index)?;
+        let movable = || place.bodies.iter().filter(|member| self.members[**member].inverse_mass != 0.0);
+        let is_lost = |member: &&usize| {
+            let member = &self.members[**member];
+            !(member.location.is_finite() && member.orientation.is_finite())
+        };
+        let member = movable().find(is_lost).or(movable().next())?;
+        Some(structure.bodies[*member])
     }
 }
 

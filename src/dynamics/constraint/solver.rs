@@ -165,7 +165,8 @@ impl Solver {
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
                 let is_kept = missing <= FAILURE * self.rows[row].scale;
-                if !is_kept && failed.is_none_or(|(_, most)| missing > most) {
+                // A NaN is the largest error.
+                if !is_kept && failed.is_none_or(|(_, most)| missing.total_cmp(&most).is_gt()) {
                     failed = Some((place.constraint, missing));
                 }
             }
