@@ -32,6 +32,15 @@ impl Shape {
         }
     }
 
+    /// Returns the positions along a line at which it first enters the shape and last leaves it, m. The positions count from `at` (m) in the
+    /// unit direction `direction`, both in the frame of the body. Returns `None` if the line misses the shape, and for a plane.
+    #[must_use]
+    pub fn through(&self, at: DVec3, direction: DVec3) -> Option<[f64; 2]> {
+        let outside = at.length() + self.bounding_radius()?;
+        let last = |way: DVec3| Some(self.exit(at - outside * way, way)? - outside);
+        Some([-last(-direction)?, last(direction)?])
+    }
+
     /// Finds the exit point backwards along the ray, from a point outside of the shape. Each step is as long as the distance to the
     /// surface, so no step passes through the surface (sphere tracing).
     ///
@@ -247,5 +256,24 @@ mod tests {
             );
         }
         assert_eq!(globe().exit(DVec3::Y * 2.1, DVec3::X), None);
+    }
+
+    #[test]
+    fn lines_pass_through_shapes_between_two_surfaces() {
+        let can = Shape::Cylinder { radius: 0.5, height: 2.0 };
+        for (shape, at, direction, expected) in [
+            (can.clone(), DVec3::Y * 5.0, DVec3::Y, Some([-6.0, -4.0])),
+            (can.clone(), DVec3::new(0.3, -5.0, 0.0), DVec3::Y, Some([4.0, 6.0])),
+            (can.clone(), DVec3::Y * 0.5, DVec3::X, Some([-0.5, 0.5])),
+            (can, DVec3::new(0.6, 5.0, 0.0), DVec3::Y, None),
+            (Shape::Plane { normal: DVec3::Y }, DVec3::Y, DVec3::Y, None),
+        ] {
+            let found = shape.through(at, direction);
+            let near =
+                |found: [f64; 2], expected: [f64; 2]| (0..2).all(|i| (found[i] - expected[i]).abs() < 1e-9);
+            let is_right =
+                found.zip(expected).map_or(found == expected, |(found, expected)| near(found, expected));
+            assert!(is_right, "{shape:?} at {at} along {direction}: {found:?}");
+        }
     }
 }

@@ -233,7 +233,7 @@ fn axle(scene: &Scene, hinge: &Hinge, look: JointLook, arms: &[PlannedShape]) ->
 }
 
 /// The rail of a slider. It extends over the limits of the slider or, without limits, over its travel in the run. It is fastened to a
-/// fixed end if there is one. If the rail does not pass through the sliding body, a rod connects them.
+/// fixed end if there is one. If this end is a body, the rail starts at it. A rod connects the rail to each body that it does not reach.
 fn rail(
     scene: &Scene,
     slider: &Slider,
@@ -252,8 +252,8 @@ fn rail(
     let [least, most] = slider.freedom.limits.or(travel).unwrap_or([0.0; 2]);
     let direction = in_world(scene, base, along);
     // `foot` is the position on the rail that is nearest to the center of the sliding body, `beyond` the additional length of the rail at
-    // both ends, and `arm` the rod between rail and body.
-    let (foot, beyond, arm) = match rider {
+    // both ends, and `rod` connects rail and body.
+    let (foot, beyond, rod) = match rider {
         Anchor::Point(_) => (0.0, 0.0, None),
         Anchor::Body { id, at } => {
             let body = &scene.bodies[id.index()];
@@ -263,9 +263,36 @@ fn rail(
             (foot, 1.3 * reach, arm(scene, Anchor::Body { id, at: at + foot * own }, slider.between, look))
         }
     };
-    let reach = [least + foot - beyond, most + foot + beyond];
+    let (reach, strut) = fastened(scene, slider, base, along, [least + foot - beyond, most + foot + beyond]);
     let radius = look.radius.unwrap_or_else(|| rod_radius(scene, slider.between, reach[1] - reach[0]));
-    arm.into_iter().chain([PlannedShape::Bar { at: base, along, reach, radius }])
+    let strut = strut.and_then(|end| arm(scene, end, slider.between, look));
+    rod.into_iter().chain(strut).chain([PlannedShape::Bar { at: base, along, reach, radius }])
+}
+
+/// Extends a rail to the surface of the body that it is fastened to, if the line of the rail passes through this body. `reach` holds the
+/// positions of the rail's two ends along its direction `along`, relative to the anchor `base`. Otherwise, also returns the point of the
+/// rail that is nearest to the center of the body, unless the two bodies of the slider touch.
+fn fastened(
+    scene: &Scene,
+    slider: &Slider,
+    base: Anchor,
+    along: DVec3,
+    [low, high]: [f64; 2],
+) -> ([f64; 2], Option<Anchor>) {
+    let Anchor::Body { id, at } = base else { return ([low, high], None) };
+    let body = &scene.bodies[id.index()];
+    match body.drawn().through(at * body.look.scale, along) {
+        Some([begin, end]) => {
+            // The rail ends slightly below the surface, so that there is no gap where the surface is curved.
+            let depth = 0.05 * (end - begin);
+            ([low.min(end - depth), high.max(begin + depth)], None)
+        }
+        None => {
+            let nearest = (-at.dot(along)).clamp(low, high);
+            let strut = Anchor::Body { id, at: at + nearest * along };
+            ([low, high], Some(strut).filter(|_| !touch(scene, slider.between)))
+        }
+    }
 }
 
 /// The initial position of an anchor, m.

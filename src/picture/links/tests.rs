@@ -87,6 +87,36 @@ fn a_rail_is_as_long_as_the_way_of_what_slides() {
     }
 }
 
+/// The lift moves from y = 1 m to y = 2 m below a beam, whose lower side is at y = 3.9 m.
+#[test]
+fn a_rail_starts_at_the_body_that_it_is_fastened_to() {
+    let scene = |x: f64, between: &str| {
+        format!(
+            "simulation = {{ duration = 1, integrator = 'rk4' }}\n[body.beam]\nshape.box.size = [2, 0.2, 0.4]\n
+             location = [{x}, 4, 0]\nfixed = true\n[body.lift]\nshape.box.size = [0.4, 0.4, 0.4]\nmass = 1\n
+             location = [0, 1, 0]\nforce = [0, 2, 0]\n[joint.rail.slider]\nbetween = {between}\naxis = [0, 1, 0]"
+        )
+    };
+    for between in ["['beam', 'lift']", "['lift', 'beam']"] {
+        for frame in [0, 25] {
+            let found = forms(&scene(0.0, between), frame);
+            let [LinkShape::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
+            let [low, high] = if ends[0].y < ends[1].y { ends } else { [ends[1], ends[0]] };
+            assert!(near(low, 0.0, 1.0 - 1.3 * 0.2, 0.0) && near(high, 0.0, 3.91, 0.0), "{found:?}");
+        }
+    }
+    // The line of the rail misses the beam, so a rod connects them.
+    let found = forms(&scene(3.0, "['beam', 'lift']"), 0);
+    let [LinkShape::Rod { ends: [from, to], .. }, LinkShape::Rod { ends, .. }] = found[..] else {
+        panic!("{found:?}")
+    };
+    assert!(
+        near(ends[1], 0.0, 2.0 + 1.3 * 0.2, 0.0) && near(to, ends[1].x, ends[1].y, ends[1].z),
+        "{found:?}"
+    );
+    assert!(from.y > 3.9 && from.y < 4.0 && from.x > 2.0, "it starts below the surface: {from}");
+}
+
 /// A leg is glued below the corner of a table. The point of the joint is in the center of the leg, outside of the table.
 #[test]
 fn fixed_bodies_that_touch_need_no_rods() {
