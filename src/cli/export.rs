@@ -11,7 +11,7 @@ use jabuka::export::{
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::scene::ContactLaw;
-use jabuka::simulate::{Recorded, Selection};
+use jabuka::simulate::{Moments, Recorded, Selection};
 
 use super::progress::Progress;
 use super::run_arguments;
@@ -135,7 +135,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let cache = arguments.of_scene.cache()?;
     let progress = Progress::of_run(&scene, 0);
-    let run = run_arguments::simulated_to_breakdown(&scene, &cache, &progress);
+    let run = run_arguments::simulated_to_breakdown(&scene, &cache, Moments::of(&scene), &progress);
     let run = run.map_err(|error| progress.failed(&error))?;
     progress.finish();
     let selection = run_arguments::whole(&run, &selection);

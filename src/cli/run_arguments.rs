@@ -6,7 +6,7 @@ use jabuka::cache::Cache;
 use jabuka::output::OutputError;
 use jabuka::sandbox::Confinement;
 use jabuka::scene::{Override, View};
-use jabuka::simulate::{Moments, Recorded, Selection};
+use jabuka::simulate::{Moments, Recorded, Selection, SimulateError};
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;
@@ -127,11 +127,11 @@ pub(super) fn simulated<'a>(
 pub(super) fn simulated_to_breakdown<'a>(
     scene: &'a Scene,
     cache: &Cache,
+    moments: Moments,
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
-    let recorded =
-        cache.run_to_breakdown(scene, Moments::of(scene), progress.pair_counter(), |_| progress.step())?;
+    let recorded = cache.run_to_breakdown(scene, moments, progress.pair_counter(), |_| progress.step())?;
     say_resumed(&recorded, progress);
     Ok(recorded)
 }
@@ -160,10 +160,15 @@ pub(super) fn broken_down(recorded: &Recorded<'_>, selection: &Selection) -> Res
         1 => "1 frame before is kept".to_owned(),
         frames => format!("{frames} frames before are kept"),
     };
+    Err(report_breakdown(breakdown, &kept))
+}
+
+/// Prints why the simulation broke down, and what is `kept` of the run before that.
+pub(super) fn report_breakdown(breakdown: &SimulateError, kept: &str) -> Failure {
     let mut report = OutputError::from(breakdown.clone()).report();
     report.diagnostics.iter_mut().for_each(|diagnostic| diagnostic.message.push_str(&format!("; {kept}")));
     terminal::report(&report);
-    Err(Failure::Errors)
+    Failure::Errors
 }
 
 /// Simulates a scene as [`run`] does. If the simulation breaks down, the result holds the frames before the breakdown.
@@ -172,7 +177,7 @@ pub(super) fn run_to_breakdown<'a>(
     cache: &Cache,
     progress: &Progress,
 ) -> Result<Run<'a>, Failure> {
-    let recorded = simulated_to_breakdown(scene, cache, progress);
+    let recorded = simulated_to_breakdown(scene, cache, Moments::of(scene), progress);
     let run = recorded.and_then(|recorded| Ok(Run::of(recorded)?));
     run.map_err(|error| progress.failed(&error))
 }

@@ -8,7 +8,7 @@ use jabuka::output::{self, Folder};
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::{Images, Job, Sequence};
 use jabuka::scene::View;
-use jabuka::simulate::Moments;
+use jabuka::simulate::{Moments, SimulateError};
 use jabuka::{Run, Scene};
 
 use super::picture_arguments::PictureArguments;
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder);
     let protected = protected.and_then(|protected| protected.and_folder(&folder.join("images")));
     terminal::report_protected(protected.and_then(|protected| protected.check(&arguments.output)))?;
-    let folder = write_script(arguments, &scene, view, &folder)?;
+    let (folder, breakdown) = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
     let images = Images::open(&folder.path().join("images")).map_err(|error| failed(&error))?;
@@ -85,7 +85,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let (shown, took) = (visible_path(&arguments.output), start.elapsed().as_secs_f64());
     terminal::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
-    Ok(())
+    let kept = format!("the image at t = {} s is made", arguments.time);
+    breakdown.map_or(Ok(()), |breakdown| Err(run_arguments::report_breakdown(&breakdown, &kept)))
 }
 
 /// Returns the folder for the script of a still image. Other commands do not write to this folder.
@@ -95,17 +96,18 @@ fn script_folder(scene: &Scene, view: Option<&View>) -> PathBuf {
 }
 
 /// Simulates the scene and writes the script of the requested moment into `folder`. The returned folder stays locked, so that no other
-/// process changes the script before it is rendered.
+/// process changes the script before it is rendered. If the simulation breaks down after the requested moment, the error that ended it is
+/// returned, too.
 fn write_script(
     arguments: &Arguments,
     scene: &Scene,
     view: Option<&View>,
     folder: &Path,
-) -> Result<Folder, Failure> {
+) -> Result<(Folder, Option<SimulateError>), Failure> {
     let progress = Progress::of_run(scene, 0);
     let cache = arguments.of_scene.cache()?;
     let moments = Moments::of(scene).with(arguments.time);
-    let recorded = run_arguments::simulated(scene, &cache, moments, &progress);
+    let recorded = run_arguments::simulated_to_breakdown(scene, &cache, moments, &progress);
     let run =
         recorded.and_then(|recorded| Ok(Run::of(recorded)?)).map_err(|error| progress.failed(&error))?;
     let seen = run_arguments::seen(&run, view, &progress)?;
@@ -117,7 +119,7 @@ fn write_script(
     written.map_err(|error| progress.failed(&error))?;
     progress.finish();
     terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
-    Ok(folder)
+    Ok((folder, run.recorded().breakdown().cloned()))
 }
 
 /// Returns an error of usage if `time` (s) is outside of the simulated time.

@@ -173,7 +173,7 @@ impl<'a> Recorded<'a> {
     /// run's first or last moment. If the moment was not recorded, the run is simulated again.
     ///
     /// # Errors
-    /// If the run becomes non-finite before that time, or the recording cannot be read. Also if the moment was not recorded and the run
+    /// If the run broke down before that time, or the recording cannot be read. Also if the moment was not recorded and the run
     /// is one of the caller's own dynamics ([`of`](Self::of)): the scene's dynamics would give another motion.
     pub fn at(&self, time: f64) -> Result<Exposure, SimulateError> {
         let time = within(self.scene, time);
@@ -182,6 +182,9 @@ impl<'a> Recorded<'a> {
             && moments.times_of(time).all(|time| self.recording.moment_at(time).is_some())
         {
             return exposure(self.scene, &self.recording, moment);
+        }
+        if let Some(breakdown) = &self.breakdown {
+            return Err(breakdown.clone());
         }
         if self.of_own_dynamics {
             let message =

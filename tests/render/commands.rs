@@ -224,6 +224,40 @@ fn a_still_is_the_image_of_any_moment() {
     }
 }
 
+/// Two walls close in on a ball, and touch it at 0.5 s.
+const JAMMED: &str = "
+    simulation = { duration = 1, frame_rate = 10, gravity = [0, 0, 0], contacts = 'event-driven' }
+    output.size = [64, 36]
+    [body.ball]
+    shape.sphere.radius = 0.5
+    location = [0, 2, 0]
+    restitution = 1
+    [body.left]
+    shape.box.size = [1, 3, 3]
+    motion.formula.location = ['-1.5 + t', 2, 0]
+    [body.right]
+    shape.box.size = [1, 3, 3]
+    motion.formula.location = ['1.5 - t', 2, 0]
+";
+
+#[test]
+fn a_still_shows_a_moment_before_a_breakdown_and_none_after_it() {
+    let place = Place::new(JAMMED);
+    for (time, is_made) in [("0", true), ("0.43", true), ("0.7", false)] {
+        let image = format!("{time}.png");
+        let output = place.run(&["still", "scene.toml", "--time", time, "-o", &image]);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{time}: {said}");
+        assert!(said.contains("error[jammed]: "), "{time}: {said}");
+        assert_eq!(
+            said.contains(&format!("; the image at t = {time} s is made\n")),
+            is_made,
+            "{time}: {said}"
+        );
+        assert_eq!(place.path(&image).exists(), is_made, "{time}");
+    }
+}
+
 #[test]
 fn a_still_sees_the_clock_of_its_moment() {
     let sdl = "sphere { <0, 3, 0>, 1 pigment { color rgb <clock * 2 - 0.84, 0, 0> } finish { emission 1 } }";
