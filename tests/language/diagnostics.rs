@@ -268,7 +268,7 @@ fn a_setting_is_refused_at_its_place_in_the_argument() {
         ),
         (
             "simulation.gravity=[0,-1.6,0",
-            "error[bad-set]: the value begins as TOML, and is none\n --> --set:1:20\n",
+            "error[bad-set]: the value is not valid TOML: the list is never closed\n --> --set:1:20\n",
         ),
         ("output.size=[640, 0]", "--> --set:1:19\n"),
     ] {

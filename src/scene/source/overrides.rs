@@ -1,6 +1,8 @@
 //! The argument `--set KEY=VALUE`, which overrides a value of the scene file.
 
-use super::{Entry, Name, Node, Table, Value, toml};
+use ::toml::de::Error;
+
+use super::{Entry, Name, Node, Table, Value, brackets, corrections, syntax, toml};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Sources, Span};
 
 /// A value from the command line that overrides a value of the scene, such as `simulation.step=0.001`.
@@ -55,17 +57,43 @@ impl Override {
                 moved(node, by)
             }
             // A value that begins with a bracket or a quote is faulty TOML, not a string.
-            Err(_) if value.trim_start().starts_with(['[', '{', '"']) => {
-                let help = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
-                let message = "the value begins as TOML, and is none";
-                let error =
-                    Diagnostic::error(Code::BadSet, message).at(span, "a bracket, quote or comma is amiss");
-                return Err(error.help(help));
+            Err(error) if value.trim_start().starts_with(['[', '{', '"']) => {
+                return Err(not_toml(&error, &self.0, key, source));
             }
             Err(_) => Node { span, value: Value::String(value.into()) },
         };
         Ok((path, node))
     }
+}
+
+/// Creates the error for the value of a `--set` argument that begins like TOML but is not valid TOML. Its fix is the corrected value, if the
+/// intended one is clear. `key` is the text before the first `=`.
+fn not_toml(error: &Error, argument: &str, key: &str, source: SourceId) -> Diagnostic {
+    let value = &argument[key.len() + 1..];
+    let text = value.trim();
+    let by = key.len() + 1 + (value.len() - value.trim_start().len());
+    let unclosed = brackets::look(argument, source).unclosed;
+    let mut diagnostic = unclosed.unwrap_or_else(|| {
+        let mut diagnostic = syntax::diagnose(error, text, source);
+        diagnostic.labels.iter_mut().for_each(|label| label.span = shifted(label.span, by));
+        diagnostic
+    });
+    diagnostic.code = Code::BadSet;
+    diagnostic.message = format!("the value is not valid TOML: {}", diagnostic.message);
+    let cause = diagnostic.help.take().map_or(String::new(), |help| format!("{help}; "));
+    let shell = "a shell may need the whole setting in quotes: --set 'a.b=[1, 2, 3]'";
+    let diagnostic = diagnostic.help(format!("{cause}{shell}"));
+    match corrected(key.trim(), text, source) {
+        Some(better) => diagnostic.fix(Span::new(source, by..by + text.len()), better),
+        None => diagnostic,
+    }
+}
+
+/// Returns the corrected value of a key as valid TOML. `None` if the intended value is unclear.
+fn corrected(key: &str, value: &str, source: SourceId) -> Option<String> {
+    let line = corrections::correct(&format!("{key} = {value}"))?.text;
+    let better = line.strip_prefix(key)?.strip_prefix(" = ")?;
+    toml::parse_value(better, source).is_ok().then(|| better.to_owned())
 }
 
 /// Returns the keys that lead through nested tables to their only value. `None` if a table has more or fewer entries than one.
@@ -181,7 +209,32 @@ mod tests {
         assert_eq!(diagnostics.len(), 1);
         for argument in ["a=[1, 2", "a={ b = 1", "a=\"b", "a=[1 2]"] {
             let (_, diagnostics) = set("", argument);
-            assert!(diagnostics[0].message.starts_with("the value begins as TOML"), "{argument}");
+            assert!(diagnostics[0].message.starts_with("the value is not valid TOML: "), "{argument}");
+        }
+    }
+
+    #[test]
+    fn a_faulty_value_is_corrected() {
+        for (argument, cause, fixed) in [
+            (
+                "a=[.35,.35,0]",
+                "a digit is missing beside the decimal point",
+                Some((2, 13, "[0.35, 0.35, 0]")),
+            ),
+            ("a= [1 2 3]", "`1 2 3` is not a value", Some((3, 10, "[1, 2, 3]"))),
+            ("a=[1, 2", "the list is never closed", None),
+        ] {
+            let (root, diagnostics) = set("", argument);
+            let [error] = diagnostics.as_slice() else { panic!("{diagnostics:?}") };
+            assert!(root.get("a").is_none(), "{argument}");
+            assert_eq!(error.message, format!("the value is not valid TOML: {cause}"));
+            let edits = error.fix.as_ref().map(|fix| {
+                fix.edits
+                    .iter()
+                    .map(|edit| (edit.span.start, edit.span.end, edit.text.as_str()))
+                    .collect::<Vec<_>>()
+            });
+            assert_eq!(edits, fixed.map(|edit| vec![edit]), "{argument}");
         }
     }
 }
