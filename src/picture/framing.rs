@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::sight::Sight;
 use crate::scene::Output;
 use crate::simulate::Bounds;
 
@@ -13,19 +14,30 @@ const ABOVE: f64 = 0.11;
 const ABOVE_GRID: f64 = 0.36;
 /// The upward component of the direction to the camera for flat motion: a circle on the ground is seen as an ellipse, and not edge-on.
 const HIGH_ABOVE: f64 = 0.7;
+/// The smallest upward component for long flat motion of small bodies on the ground, such as a ball and pins on a lane. The picture then
+/// shows the horizon.
+const LOW_ABOVE: f64 = 0.15;
+/// Motion is long if its depth is below this fraction of its width across the picture.
+const LONG: f64 = 2.0 / 3.0;
+/// For long flat motion, the camera is so high that the depth of the motion is drawn at least this many times as high as the largest body
+/// is wide. The bodies in front then hide few of those behind.
+const CLEAR: f64 = 1.5;
 
 /// Chooses the direction from the middle of the motion towards a camera without a given position. The camera faces the plane of the
 /// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. If the ground has numbers, the camera
-/// is somewhat higher.
-pub(super) fn towards_camera(moving: Bounds, reads_ground: bool) -> DVec3 {
+/// is somewhat higher. For a long lane or road with small bodies, it is low.
+pub(super) fn towards_camera(moving: Bounds, sight: Sight) -> DVec3 {
     let extent = moving.max - moving.min;
     let from_the_side = extent.z > 2.0 * extent.x;
     let (across, depth) = if from_the_side { (extent.z, extent.x) } else { (extent.x, extent.z) };
     let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
-    let above = match (is_flat, reads_ground) {
+    let above = match (is_flat, sight) {
+        (true, Sight { reads_ground: false, on_ground: Some(width) }) if depth < LONG * across => {
+            (CLEAR * width / depth).clamp(LOW_ABOVE, HIGH_ABOVE)
+        }
         (true, _) => HIGH_ABOVE,
-        (false, true) => ABOVE_GRID,
-        (false, false) => ABOVE,
+        (false, Sight { reads_ground: true, .. }) => ABOVE_GRID,
+        (false, _) => ABOVE,
     };
     if from_the_side { DVec3::new(-FRONT, above, ASIDE) } else { DVec3::new(ASIDE, above, FRONT) }
 }
@@ -190,7 +202,7 @@ mod tests {
             Bounds { min: DVec3::new(0.0, 0.0, -40.0), max: DVec3::new(1.0, 1.0, 40.0) },
         ] {
             let field = Field::new(40.0, WIDE);
-            let framing = perspective(bounds, field, None, towards_camera(bounds, false));
+            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()));
             let (right, up, back) = axes(framing.location - framing.look_at);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {
@@ -208,7 +220,9 @@ mod tests {
     #[test]
     fn without_perspective_all_corners_are_in_the_picture_too() {
         let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
-        for towards in [towards_camera(bounds, false), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)] {
+        for towards in
+            [towards_camera(bounds, Sight::default()), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)]
+        {
             let (framing, width) = orthographic(bounds, WIDE, None, towards);
             let (right, up, _) = axes(towards);
             let mut fullest: f64 = 0.0;
@@ -225,7 +239,7 @@ mod tests {
     fn the_camera_looks_onto_the_plane_in_which_most_happens() {
         let towards = |size: [f64; 3]| {
             let half = DVec3::from_array(size) / 2.0;
-            towards_camera(Bounds { min: -half, max: half }, false).to_array()
+            towards_camera(Bounds { min: -half, max: half }, Sight::default()).to_array()
         };
         let front = [ASIDE, ABOVE, FRONT];
         for size in [[9.0, 5.0, 1.0], [1.0, 1.0, 1.0], [5.0, 3.0, 3.0], [100.0, 0.8, 1.2], [0.2, 100.0, 0.2]]
@@ -233,11 +247,28 @@ mod tests {
             assert_eq!(towards(size), front, "{size:?}");
         }
         let cube = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
-        assert_eq!(towards_camera(cube, true).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
+        let numbers = Sight { reads_ground: true, on_ground: None };
+        assert_eq!(towards_camera(cube, numbers).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
         assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([0.5, 6.0, 20.0]), [-FRONT, ABOVE, ASIDE]);
         assert_eq!(towards([2.0, 0.1, 20.0]), [-FRONT, HIGH_ABOVE, ASIDE]);
+    }
+
+    /// A lane of 10 m by 3 m. From a low camera, small bodies hide few of those behind; large bodies need a higher camera.
+    #[test]
+    fn the_camera_is_low_above_a_lane_with_small_bodies() {
+        let above = |size: [f64; 3], width: f64| {
+            let half = DVec3::from_array(size) / 2.0;
+            let sight = Sight { reads_ground: false, on_ground: Some(width) };
+            towards_camera(Bounds { min: -half, max: half }, sight).y
+        };
+        assert_eq!(above([10.0, 0.4, 3.0], 0.1), LOW_ABOVE);
+        assert!((above([10.0, 0.4, 3.0], 0.8) - 0.4).abs() < 1e-12);
+        assert!((above([3.0, 0.4, 10.0], 0.8) - 0.4).abs() < 1e-12, "from the side");
+        assert_eq!(above([10.0, 0.4, 3.0], 4.0), HIGH_ABOVE);
+        assert_eq!(above([10.0, 0.4, 8.0], 0.1), HIGH_ABOVE, "a table is not long");
+        assert_eq!(above([10.0, 5.0, 1.0], 0.1), ABOVE, "a wall is not flat");
     }
 
     #[test]

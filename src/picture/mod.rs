@@ -26,6 +26,7 @@ mod plan;
 mod pulley;
 mod scope;
 mod screen;
+mod sight;
 mod stage;
 #[cfg(test)]
 mod tests;

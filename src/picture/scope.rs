@@ -3,7 +3,7 @@
 
 use super::camera::{MovingCamera, half_width};
 use super::framing::{Field, rounded_outward, towards_camera};
-use super::plan::reads_ground;
+use super::sight::Sight;
 use crate::scene::{Body, Camera, Follow, Projection, Quantity, Scene};
 use crate::simulate::{Bounds, Reach, Span, Survey};
 
@@ -58,8 +58,7 @@ impl Scope {
         let width = 2.0 * half_width(largest).unwrap_or(0.0);
         let seen = |span: &Span| {
             let bounds = rounded_outward(span.seen);
-            let eye =
-                MovingCamera::new(camera, bounds, towards_camera(span.moving, reads_ground(scene)), scene);
+            let eye = MovingCamera::new(camera, bounds, towards_camera(span.moving, Sight::of(scene)), scene);
             width / eye.placed().width_of_view(span.bounds)
         };
         // The camera ignores strays: a few bodies that fly far away from many others.

@@ -3,7 +3,7 @@
 use super::super::camera::{MovingCamera, half_width};
 use super::super::framing;
 use super::super::scope::{Part, largest};
-use super::reads_ground;
+use super::super::sight::Sight;
 use crate::scene::{Body, Camera, Scene};
 use crate::simulate::{Bounds, Survey};
 
@@ -32,7 +32,7 @@ impl Largest {
         let body: &Body = largest(scene)?;
         let whole = survey.spans.last()?;
         let pixels = |view: f64| 2.0 * half_width(body).unwrap_or(0.0) / view * f64::from(scene.output.width);
-        let towards = framing::towards_camera(whole.moving, reads_ground(scene));
+        let towards = framing::towards_camera(whole.moving, Sight::of(scene));
         let on_whole = MovingCamera::new(camera, framing::rounded_outward(whole.seen), towards, scene);
         Some(Largest {
             name: body.name.to_string(),

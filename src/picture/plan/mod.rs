@@ -24,10 +24,11 @@ use super::links::{Link, Links, PlannedLink};
 use super::not_drawn::{self, NotDrawn};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
+use super::sight::Sight;
 use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Camera, GridPlane, Quantity, Scene};
+use crate::scene::{Camera, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
@@ -74,17 +75,12 @@ pub(crate) fn has_texts(scene: &Scene) -> bool {
     !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
-/// True if the scene has a grid on the ground.
-pub(super) fn reads_ground(scene: &Scene) -> bool {
-    scene.grid.is_some_and(|grid| grid.plane == GridPlane::Ground)
-}
-
 impl Plan {
     /// Plans the pictures of a scene by one of its cameras.
     pub fn new(scene: &Scene, camera: &Camera, survey: &Survey) -> Plan {
         let scope = Scope::new(scene, camera, survey);
         let (span, whole) = (&scope.span, scope.whole);
-        let towards = framing::towards_camera(span.moving, reads_ground(scene));
+        let towards = framing::towards_camera(span.moving, Sight::of(scene));
         let eye_on = |bounds: Bounds| {
             MovingCamera::new(&scope.camera, framing::rounded_outward(bounds), towards, scene)
         };
