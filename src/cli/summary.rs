@@ -97,7 +97,7 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
         return String::new();
     }
     let set = scene.overrides.iter().map(|value| format!(" --set {}", shell::word(value)));
-    format!("how right jabuka report {}{}\n", shell::path(path), set.collect::<String>())
+    format!("accuracy  jabuka report {}{}\n", shell::path(path), set.collect::<String>())
 }
 
 /// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also returns the largest overlap of
@@ -106,7 +106,7 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
 fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints, taken_by_joints } = totals;
     let taken =
-        format!("impacts   {impacts}, which {}; friction {}\n", energy_taken(lost), energy_taken(rubbed));
+        format!("impacts   {impacts}; contacts {}; friction {}\n", energy_taken(lost), energy_taken(rubbed));
     if law == ContactLaw::EventDriven {
         return taken;
     }
@@ -114,7 +114,7 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
     let gap = if joints > 0.0 { format!("; joints {gap} m off at most") } else { String::new() };
     let gap = match taken_by_joints {
         taken if joints > 0.0 && taken.abs() > DOUBTFUL * scale => {
-            format!("{gap}, which {}", energy_taken(taken))
+            format!("{gap}; joints and limits {}", energy_taken(taken))
         }
         _ => gap,
     };
@@ -176,10 +176,10 @@ mod tests {
             penetration: 0.00123,
             ..ContactTotals::default()
         };
-        let taken = "impacts   31415, which took 0.1235 J; friction took 0 J\n";
+        let taken = "impacts   31415; contacts took 0.1235 J; friction took 0 J\n";
         assert_eq!(contacts(totals, ContactLaw::EventDriven, 1.0), taken);
         let added = ContactTotals { lost: -159.94, ..totals };
-        let line = "impacts   31415, which added 159.9 J; friction took 0 J\n";
+        let line = "impacts   31415; contacts added 159.9 J; friction took 0 J\n";
         assert_eq!(contacts(added, ContactLaw::EventDriven, 1.0), line);
         let depth = "contacts  bodies 0.0012 m within each other at most\n";
         assert_eq!(contacts(totals, ContactLaw::TimeStepping, 1.0), format!("{taken}{depth}"));
@@ -188,7 +188,7 @@ mod tests {
             contacts(ContactTotals { taken_by_joints, ..joined }, ContactLaw::TimeStepping, 1000.0)
         };
         assert!(said(-10.0).ends_with("; joints 2.5e-5 m off at most\n"));
-        assert!(said(284.04).ends_with("; joints 2.5e-5 m off at most, which took 284 J\n"));
+        assert!(said(284.04).ends_with("; joints 2.5e-5 m off at most; joints and limits took 284 J\n"));
         assert_eq!([percent(0.0), percent(-0.00123), percent(3e-17)], ["0 %", "-0.12 %", "3e-15 %"]);
         assert_eq!([bytes(999), bytes(1_000), bytes(123_456_789)], ["999 B", "1.0 kB", "123 MB"]);
     }

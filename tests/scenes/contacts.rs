@@ -216,7 +216,7 @@ fn the_scene_spells_pi_for_every_ratio() {
         assert!(output.status.success(), "{output:?}");
         let said = stdout(&output);
         assert!(
-            said.contains(&format!("impacts   {count}, which took 0 J; friction took 0 J")),
+            said.contains(&format!("impacts   {count}; contacts took 0 J; friction took 0 J")),
             "{ratio}: {said}"
         );
     }

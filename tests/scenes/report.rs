@@ -97,7 +97,7 @@ fn a_summary_names_the_report_where_the_energy_drifts() {
         stdout(&command.args(more).output().unwrap())
     };
     let said = compile("scenes/explicit_euler.toml", &["--set", "title=It's wrong"]);
-    let line = "how right jabuka report scenes/explicit_euler.toml --set 'title=It'\\''s wrong'\n";
+    let line = "accuracy  jabuka report scenes/explicit_euler.toml --set 'title=It'\\''s wrong'\n";
     assert!(said.contains(line), "{said}");
     assert!(!compile("scenes/euler_cromer.toml", &[]).contains("jabuka report"));
 }

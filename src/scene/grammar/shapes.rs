@@ -22,7 +22,7 @@ const CONE: KeySpec = KeySpec::new(
 const TORUS: KeySpec =
     KeySpec::new("torus", Table(&TORUS_KEYS), "A ring around the y axis").also(&["ring", "donut"]);
 const MESH: KeySpec =
-    KeySpec::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes. Its centre of mass is at the body's `location`, wherever the origin of the file is; for an open surface, the centre of its area")
+    KeySpec::new("mesh", Table(&MESH_KEYS), "A solid with a triangle mesh from a file, in the file's axes")
         .also(&["obj", "stl", "model", "file", "trimesh", "triangles", "polyhedron", "mesh2"]);
 
 pub(super) static SHAPE: TableSpec = TableSpec {
@@ -249,7 +249,8 @@ static MESH_KEYS: TableSpec = TableSpec {
             "file",
             Asset,
             "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is \
-             fixed or has `mass` and `inertia`",
+             fixed or has `mass` and `inertia`. The body's `location` is the centre of its mass (of its area, \
+             if it is open), not the origin of the file",
         )
         .required()
         .also(&["path", "name", "source", "obj", "stl", "filename"]),
