@@ -108,7 +108,7 @@ pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Rec
     let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
     let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
     let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
-    // If the time cannot be set, the run counts as unused for longer than it was.
+    // If the modification time cannot be set, the run seems to have been unused for longer than it really was.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
     Recording::with_index(counts, index, Box::new(Kept { file, pages }))
 }

@@ -39,7 +39,7 @@ const STOPPED: &str = "checkpoint";
 /// The file extension of checkpoints that are being written.
 const SAVING: &str = "saving";
 /// The default interval between two checkpoints of a long run.
-const USUAL_INTERVAL: Duration = Duration::from_secs(30);
+const USUAL_INTERVAL: Duration = Duration::from_secs(10);
 
 /// The cache of recorded runs: a folder, and its limits.
 #[derive(Clone, Debug)]

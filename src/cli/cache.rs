@@ -13,7 +13,7 @@ use super::{Failure, terminal};
 /// unless JABUKA_CACHE_ALL is 1. If the kept runs exceed JABUKA_CACHE_SIZE megabytes (default: 2000; 0 keeps nothing), the least recently
 /// used runs are removed.
 ///
-/// A long run with `contacts = "time-stepping"` is saved every 30 s (or every JABUKA_CHECKPOINT_SECONDS). If it is stopped, the next
+/// A long run with `contacts = "time-stepping"` is saved every 10 s (or every JABUKA_CHECKPOINT_SECONDS). If it is stopped, the next
 /// command that needs the run continues it.
 #[derive(clap::Args)]
 pub(super) struct Arguments {

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use jabuka::cache::Cache;
 use jabuka::output::OutputError;
 use jabuka::sandbox::Confinement;
-use jabuka::scene::{Override, View};
+use jabuka::scene::{ContactLaw, Override, View};
 use jabuka::simulate::{Moments, Recorded, Selection, SimulateError};
 use jabuka::{Run, Scene};
 
 use super::progress::Progress;
 use super::scene_arguments::SceneArguments;
-use super::{Failure, terminal};
+use super::{Failure, interrupt, terminal};
 
 /// Command-line arguments that change a scene, and select frames and cameras of its run.
 #[derive(clap::Args)]
@@ -118,6 +118,7 @@ pub(super) fn simulated<'a>(
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
+    announce_checkpoints(scene, cache);
     let recorded = cache.run(scene, moments, progress.pair_counter(), |_| progress.step())?;
     say_resumed(&recorded, progress);
     Ok(recorded)
@@ -131,9 +132,17 @@ pub(super) fn simulated_to_breakdown<'a>(
     progress: &Progress,
 ) -> Result<Recorded<'a>, OutputError> {
     progress.phase("simulating");
+    announce_checkpoints(scene, cache);
     let recorded = cache.run_to_breakdown(scene, moments, progress.pair_counter(), |_| progress.step())?;
     say_resumed(&recorded, progress);
     Ok(recorded)
+}
+
+/// If the simulation of a scene is saved from time to time, Ctrl-C says so.
+fn announce_checkpoints(scene: &Scene, cache: &Cache) {
+    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) && cache.folder().is_some() {
+        interrupt::announced();
+    }
 }
 
 /// If the simulation continued a run that had been stopped, prints the time from which it continued.

@@ -1,7 +1,7 @@
 //! Prints to the terminal: results to standard output, messages to standard error.
 //!
-//! All terminal output passes through this module, so no text in it can send control commands to the terminal. If a line break in a name
-//! could start a new line, the caller escapes the name first.
+//! All output passes through this module. It makes control characters visible, so that no printed text can send commands to the terminal.
+//! It keeps line breaks, so a caller that prints a name must escape line breaks in the name first.
 //!
 //! Failed writes are ignored, because a reader may close the pipe early (`jabuka … | head`).
 

@@ -1,9 +1,9 @@
 //! Writes the bodies of a frame as one block of SDL, POV-Ray's scene description language.
 //!
 //! The constant part of a body's text is written once, when the block is planned. For each frame, only the poses of the bodies are
-//! inserted. Bodies of one plain material form a union that has the material, which POV-Ray parses fastest and with the least memory. The
-//! line of a body does not depend on the number of bodies in its union. So a new body at the end of a scene leaves the lines of all other
-//! bodies unchanged.
+//! inserted. All bodies of one uniform material form one union, and the union has the material. POV-Ray parses this form fastest and with
+//! the least memory. The line of a body does not depend on the number of bodies in its union. So a new body at the end of a scene leaves
+//! the lines of all other bodies unchanged.
 
 use std::fmt::Write as _;
 use std::sync::Arc;

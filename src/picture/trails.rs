@@ -247,7 +247,8 @@ fn stretch_at(points: &[TrailPoint], stride: usize) -> Option<(usize, usize)> {
     (frame == begin + frames).then_some((begin / frames, end))
 }
 
-/// The index of the next point at which a stretch may begin, or else of the last point. The first point does not count.
+/// Returns the index of the first point after `points[0]` at which a stretch may begin: a section of `STRETCH` pieces, which later frames
+/// use as well. If there is none, returns the index of the last point.
 fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
     let begins = |point: &TrailPoint| point.frame.is_some_and(|frame| frame.is_multiple_of(stride * STRETCH));
     let next = points.iter().skip(1).position(begins);

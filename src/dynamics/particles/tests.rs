@@ -229,7 +229,7 @@ fn places_on_surfaces_are_as_likely_as_their_area() {
     is(&Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) }, 3.0 / 22.0, &|place| place.y > 1.0 - 1e-12);
     // The wall of a cylinder has the area 2πrh, its two ends have 2πr². So the wall's fraction of the area is h/(h + r).
     is(&Shape::Cylinder { radius: 1.0, height: 3.0 }, 0.75, &|place| place.y.abs() < 1.5 - 1e-9);
-    // The two half balls of a capsule have the area 4πr². The whole capsule has 2πrh.
+    // The two hemispheres of a capsule have an area of 4πr². The whole capsule has an area of 2πrh, where h includes the hemispheres.
     is(&Shape::Capsule { radius: 1.0, height: 6.0 }, 1.0 / 3.0, &|place| place.y.abs() > 2.0);
     // The wall of this cone has a slant height of 5 and the area 15π; the base has 9π. Three quarters of the wall are below half the
     // height.

@@ -1,7 +1,7 @@
 //! Time integration with the physics engine. Steps have equal lengths between two births or deaths of bodies. Requested moments within a
 //! step are interpolated.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
@@ -157,10 +157,27 @@ impl TimeStepping {
             }
             books.mean[i].1 = input.turning;
         }
+        self.guide(end, dt);
+    }
+
+    /// Moves the guided bodies to their poses at time `end`, s, and passes these poses on to the physics engine, but not the spins of round
+    /// bodies.
+    fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        for i in (0..self.handles.len()).filter(|&i| self.model.is_guided(i)) {
-            if let Some(body) = self.engine.bodies.get_mut(self.handles[i]) {
-                body.set_next_kinematic_position(bodies::pose(&self.state, i));
+        let Self { model, state, engine, handles, rolling, .. } = self;
+        for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
+            let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
+            let mut pose = bodies::pose(state, i);
+            let leading = spin::leading(from, pose.rotation, dt);
+            let turning = model.angular_velocity(i, state);
+            let untaken = leading - rolling.take(engine, i, (from, turning, leading), dt);
+            if untaken != leading {
+                pose.rotation = spin::advanced(from, untaken, dt);
+                // Remembers that the engine does not rotate the body by its spin.
+                let _: Option<DQuat> = rolling.turn(i, [from, pose.rotation], dt);
+            }
+            if let Some(body) = engine.bodies.get_mut(*handle) {
+                body.set_next_kinematic_position(pose);
             }
         }
     }
@@ -175,6 +192,9 @@ impl TimeStepping {
             if model.inverse_mass()[i] == 0.0 {
                 let after = (state.velocity[i], model.angular_velocity(i, state));
                 books.mean[i] = middle(books.before[i], after);
+                if rolling.spin(i) != DVec3::ZERO && model.is_guided(i) {
+                    moved.push((*handle, bodies::pose(state, i)));
+                }
                 continue;
             }
             let Some(body) = engine.bodies.get(*handle) else { continue };

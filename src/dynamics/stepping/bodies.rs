@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
-    ActiveEvents, ColliderBuilder, InteractionGroups, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder,
-    RigidBodyHandle,
+    ActiveEvents, ActiveHooks, ColliderBuilder, InteractionGroups, MassProperties, PhysicsWorld, Pose,
+    RigidBodyBuilder, RigidBodyHandle,
 };
 
 use super::super::contact::Contacts;
@@ -61,7 +61,10 @@ pub(super) fn insert(
         let mut own = Vec::new();
         if contacts.surfaces.get(i).is_some_and(Option::is_some) {
             for (collider, symmetries) in colliders(model, state, i, (length, meets_others), &mut meshes) {
-                let collider = mixing.describe(i, collider.user_data(i as u128));
+                let mut collider = mixing.describe(i, collider.user_data(i as u128));
+                if model.shape(i).is_some_and(is_tubular) {
+                    collider.active_hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
+                }
                 own.push((engine.insert_collider(collider, Some(handle)), symmetries));
             }
         }
@@ -72,6 +75,18 @@ pub(super) fn insert(
         }
     }
     (handles, all_symmetries)
+}
+
+/// Returns true for capsules, tori and compounds with such parts.
+///
+/// The physics engine keeps the points and normals of contacts that have hardly moved. At a narrow curved surface, friction then gains
+/// energy: a chain of tori never comes to rest. Contacts for which the engine makes a call are found again in each step.
+fn is_tubular(shape: &Shape) -> bool {
+    match shape {
+        Shape::Capsule { .. } | Shape::Torus { .. } => true,
+        Shape::Compound(compound) => compound.parts().iter().any(|part| is_tubular(&part.shape)),
+        _ => false,
+    }
 }
 
 /// Returns the rigid body for the physics engine, still without its colliders. Its frame is that of the principal axes of inertia.

@@ -38,7 +38,7 @@ impl Plane {
     }
 }
 
-/// A part of a face of the solid, with the plane of the face. The outside of the solid is in front.
+/// A polygon: a face of the solid or a part of it, with the plane of that face. The normal of the plane points out of the solid.
 struct Facet {
     corners: Corners,
     plane: Plane,

@@ -15,6 +15,7 @@ use rapier3d_f64::prelude::{
 
 use super::joint::Joints;
 use super::shape::Symmetry;
+use super::spin::advanced;
 use super::touch::Touch;
 
 /// A smaller rotation by the spin within a step, rad, is left to the physics engine.
@@ -31,7 +32,7 @@ struct RoundBody {
     axis: Option<DVec3>,
     /// Whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
     is_called: bool,
-    /// Whether the engine makes these calls in all steps, because it cannot compute the friction of the body.
+    /// Whether the engine makes these calls in all steps, for another reason than the rotation of the body.
     is_always_called: bool,
     /// The part of the leading angular velocity that belongs to the spin; see `spin::leading`.
     leading: DVec3,
@@ -123,8 +124,8 @@ impl Rolling {
         round.unturned?;
         // The engine advances orientations along a straight line, q + ½ ω q dt. So both parts of the angular velocity add up.
         let change = to * from.conjugate();
-        let half = DVec3::new(change.x, change.y, change.z) / change.w + 0.5 * dt * round.leading;
-        Some((from + DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * from).normalize())
+        let turning = 2.0 / dt / change.w * DVec3::new(change.x, change.y, change.z) + round.leading;
+        Some(advanced(from, turning, dt))
     }
 
     /// Returns the orientation that the physics engine found for a body in the last step, without the rotation by the spin; `None` if

@@ -22,6 +22,13 @@ pub(super) fn leading(from: DQuat, to: DQuat, dt: f64) -> DVec3 {
     2.0 / dt / cosine * sine
 }
 
+/// Returns the orientation to which the physics engine rotates a body within `dt` seconds, from an orientation and an angular velocity
+/// (world axes, rad/s).
+pub(super) fn advanced(from: DQuat, turning: DVec3, dt: f64) -> DQuat {
+    let half = 0.5 * dt * turning;
+    (from + DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * from).normalize()
+}
+
 /// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body as free rotation would rotate it within
 /// `dt`, s. The body has the orientation `from` and the angular momentum `momentum` (world axes, kg m²/s).
 pub(super) fn free(from: DQuat, momentum: DVec3, inverse_inertia: DVec3, dt: f64) -> DVec3 {
@@ -74,8 +81,7 @@ mod tests {
             let from = DQuat::from_scaled_axis(DVec3::new(0.4, -1.1, 0.7));
             let to = DQuat::from_scaled_axis(turn) * from;
             let omega = leading(from, to, dt);
-            let half = 0.5 * dt * omega;
-            let reached = (from + DQuat::from_xyzw(half.x, half.y, half.z, 0.0) * from).normalize();
+            let reached = advanced(from, omega, dt);
             assert!(reached.abs_diff_eq(to, 1e-15), "{reached} {to}");
         }
     }

@@ -191,7 +191,7 @@ impl Links {
         &self.springs
     }
 
-    /// The parts of springs and joints that are fastened to a body, with their positions in a frame.
+    /// Returns the drawn parts of springs and joints that are fastened to a body, with their positions at the moment of `frame`.
     pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);

@@ -1,4 +1,4 @@
-//! The errors of making a film or a contact sheet.
+//! The errors that can occur while a film or a contact sheet is made.
 
 use std::fmt;
 use std::io;

@@ -187,7 +187,7 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     1.0
 }
 
-/// Describes a computed mass or moment of inertia that is not positive and finite.
+/// Returns the words of an error message for a computed mass or moment of inertia that has become infinite or zero.
 fn extreme(number: f64) -> &'static str {
     if number > 0.0 { "larger than any number" } else { "smaller than any number" }
 }

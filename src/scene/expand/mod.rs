@@ -125,7 +125,8 @@ struct Expander<'a> {
     names: usize,
     groups: Groups,
     of_defaults: HashSet<Span>,
-    /// True within `[defaults]`. A default formula is evaluated only in the bodies, forces and so on that use it.
+    /// True while the table `[defaults]` is expanded. Its formulas are not evaluated there, but in each body, force and so on that uses
+    /// them.
     is_default: bool,
     /// The source span of each variable's name.
     variable_spans: HashMap<String, Span>,

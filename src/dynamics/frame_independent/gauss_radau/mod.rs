@@ -135,8 +135,8 @@ impl GaussRadau {
         rest.iter_mut().for_each(|work| see(work, DVec3::X * field.loads.power.work, 3));
     }
 
-    /// Returns a suitable length of the step (s) for the motion at the end of this step, and the body that limits it. The length is NaN if
-    /// a slope is not finite.
+    /// Returns the length of the next step (s) that the accuracy allows, and the body that limits it. The length is judged by the motion at
+    /// the end of the present step of length `dt`. It is NaN if a time derivative is not finite.
     fn suitable(&self, field: &Field<'_>, dt: f64) -> (f64, BodyId) {
         let mut shortest = (f64::INFINITY, 0);
         let mut see = |i: usize, ends: &[End], size: f64| {

@@ -1,5 +1,7 @@
 //! Tests of time-stepping: friction, stacks, rebounds and thin walls.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
@@ -42,6 +44,29 @@ fn what_friction_takes_is_booked() {
     assert!((way / expected - 1.0).abs() < 0.01);
     assert!((end.balance.accounts.friction / -4.5 - 1.0).abs() < 0.01);
     assert!(end.balance.drift.abs() < 0.01);
+}
+
+/// Two rings hang in each other, the upper one fixed, and the lower one begins with a swing. Friction must bring it to rest, and may at no
+/// time add energy.
+#[test]
+fn a_ring_that_hangs_in_another_comes_to_rest() {
+    let mut scene = Scene::default();
+    let ring = Shape::Torus { radius: 0.1, tube_radius: 0.02 };
+    scene.add(ring.clone(), |body| body.with_fixed(true).with_orientation(DQuat::from_rotation_x(FRAC_PI_2)));
+    let hung = scene.add(ring, |body| {
+        let turn = DQuat::from_rotation_z(FRAC_PI_2);
+        body.with_location(-0.1595 * DVec3::Y).with_orientation(turn).with_velocity(DVec3::new(0.3, 0.0, 0.2))
+    });
+    let mut stepping = scene.stepping();
+    let mut energy = f64::INFINITY;
+    for k in 1..=20 {
+        let now = run(&mut stepping, 0.5 * f64::from(k)).balance;
+        assert!(now.total < energy + 1e-3, "{k}: {} after {energy}", now.total);
+        energy = now.total;
+    }
+    let end = run(&mut stepping, 12.0).bodies[hung.index()];
+    println!("{} {}", end.velocity, end.angular_velocity);
+    assert!(end.velocity.length() < 0.02, "{}", end.velocity);
 }
 
 /// Ten boxes of 1 m stand on each other. They may sink into each other slightly, but must stay in place.

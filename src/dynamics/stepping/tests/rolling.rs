@@ -1,6 +1,7 @@
 //! Tests of round bodies in time-stepping: they roll, slide and turn against closed forms.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -98,4 +99,53 @@ fn a_cart_with_fast_wheels_drives_straight() {
     assert!((body.velocity.x / (turning * radius) - 1.0).abs() < 1e-3, "{}", body.velocity);
     assert!(body.velocity.y.abs() < 1e-3 && (body.location.y - radius).abs() < 2e-3, "{}", body.location);
     assert!(body.location.z.abs() < 0.05, "{}", body.location);
+}
+
+/// The given motion of a roller at a fixed place: it turns about the z axis so that its top moves along x.
+struct Turning {
+    at: DVec3,
+    turning: f64,
+}
+
+impl Motion for Turning {
+    fn at(&self, t: f64) -> Kinematics {
+        Kinematics {
+            location: self.at,
+            velocity: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            orientation: DQuat::from_rotation_z(-self.turning * t) * DQuat::from_rotation_x(FRAC_PI_2),
+            angular_velocity: -self.turning * DVec3::Z,
+        }
+    }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        DVec3::ZERO
+    }
+}
+
+/// A plank lies on two rollers that a given motion turns at 20 rad/s. They must accelerate it to the speed of their surface, and not lift it.
+#[test]
+fn guided_rollers_carry_a_plank() {
+    let (radius, turning) = (0.3, 20.0);
+    let mut scene = Scene::default();
+    let rollers =
+        [-20.0, 20.0].map(|x| (wheel(&mut scene, radius, |body| body.with_location(x * DVec3::X)), x));
+    let plank = scene.add(Shape::Box { size: DVec3::new(100.0, 0.1, 0.2) }, |body| {
+        body.with_location((radius + 0.05) * DVec3::Y - 5.0 * DVec3::X)
+    });
+    let mut world = scene.world(GRAVITY);
+    for (roller, x) in rollers {
+        world.follow(roller, Arc::new(Turning { at: x * DVec3::X, turning }));
+    }
+    let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
+    for k in 1..=20 {
+        let body = run(&mut stepping, 0.1 * f64::from(k)).bodies[plank.index()];
+        assert!((body.location.y - radius - 0.05).abs() < 1e-3, "{}", body.location);
+        if k == 5 {
+            // The plank still slides, so friction is μ m g.
+            assert!((body.velocity.x / (0.5 * GRAVITY * 0.5) - 1.0).abs() < 0.02, "{}", body.velocity);
+        }
+    }
+    let end = run(&mut stepping, 2.0).bodies[plank.index()];
+    assert!((end.velocity.x / (turning * radius) - 1.0).abs() < 1e-3, "{}", end.velocity);
 }
