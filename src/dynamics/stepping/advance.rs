@@ -174,7 +174,9 @@ impl TimeStepping {
             if untaken != leading {
                 pose.rotation = spin::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.
-                let _: Option<DQuat> = rolling.turn(i, [from, pose.rotation], dt);
+                let _: Option<(DQuat, bool)> = rolling.turn(i, [from, pose.rotation], dt);
+            } else {
+                rolling.set(i);
             }
             if let Some(body) = engine.bodies.get_mut(*handle) {
                 body.set_next_kinematic_position(pose);
@@ -200,9 +202,12 @@ impl TimeStepping {
             let Some(body) = engine.bodies.get(*handle) else { continue };
             let (from, velocity, turning) = (state.orientation[i], body.linvel(), body.angvel());
             let mut pose = *body.position();
-            let turned = rolling.turn(i, [from, pose.rotation], dt);
-            pose.rotation = turned.unwrap_or(pose.rotation);
-            let mut is_moved = turned.is_some();
+            let (orientation, is_turned) =
+                rolling.turn(i, [from, pose.rotation], dt).unwrap_or((pose.rotation, false));
+            if is_turned {
+                pose.rotation = orientation;
+            }
+            let mut is_moved = is_turned;
             let way = dt * velocity;
             if inputs[i].is_fast
                 && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
@@ -217,7 +222,7 @@ impl TimeStepping {
             }
             state.velocity[i] = velocity;
             state.location[i] = pose.translation;
-            state.orientation[i] = pose.rotation;
+            state.orientation[i] = orientation;
             // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
             let change = turning - books.mean[i].1;
             inputs[i].turning = turning;
@@ -253,6 +258,7 @@ impl TimeStepping {
                 body.set_position(bodies::pose(&self.state, i), false);
                 body.set_linvel(self.state.velocity[i], false);
                 self.inputs[i] = EngineInput::read(body);
+                self.rolling.set(i);
             }
         }
     }

@@ -66,7 +66,7 @@ impl TimeStepping {
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);
         self.books.near = near;
         self.inputs = EngineInput::read_all(&engine, &self.handles);
-        self.rolling.resume(&engine);
+        self.rolling.resume(&engine, &self.handles);
         self.engine = engine;
         true
     }

@@ -106,7 +106,7 @@ impl TimeStepping {
         let inserted = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
         let (handles, symmetries) = inserted;
         let joints = Joints::insert(&mut engine, links, &handles, &model);
-        let rolling = Rolling::new(&engine, symmetries, &joints, length);
+        let rolling = Rolling::new(&engine, symmetries, (&model, &joints), length);
         TimeStepping {
             time: parts.time,
             step: parts.step,

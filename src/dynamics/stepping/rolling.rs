@@ -10,9 +10,12 @@
 
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderHandle, ContactModificationContext, InteractionGroups, PhysicsWorld, RigidBodyHandle,
+    ActiveHooks, Collider, ColliderHandle, ContactModificationContext, InteractionGroups, PhysicsWorld,
+    RigidBodyHandle,
 };
 
+use super::super::Model;
+use super::super::model::is_isotropic;
 use super::joint::Joints;
 use super::shape::Symmetry;
 use super::spin::advanced;
@@ -36,7 +39,10 @@ struct RoundBody {
     is_always_called: bool,
     /// The part of the leading angular velocity that belongs to the spin; see `spin::leading`.
     leading: DVec3,
-    /// The orientation that the engine found in the last step, without the rotation by the spin; `None` if there was no spin.
+    /// Whether the engine need not know the orientation of the body: a ball of equal moments of inertia, without joints.
+    is_ball: bool,
+    /// The orientation of the body in the engine if it differs from the true one: for a body with a spin, after the last step, and always for
+    /// a ball.
     unturned: Option<DQuat>,
 }
 
@@ -56,14 +62,14 @@ impl Rolling {
     pub(super) fn new(
         engine: &PhysicsWorld,
         symmetries: Vec<ColliderSymmetries>,
-        joints: &Joints,
+        (model, joints): (&Model, &Joints),
         length: f64,
     ) -> Rolling {
         let hinges = joints.hinges(engine, symmetries.len());
-        let round = symmetries.into_iter().zip(hinges).map(|(colliders, hinges)| {
+        let round = symmetries.into_iter().zip(hinges).enumerate().map(|(i, (colliders, hinges))| {
             let parts = colliders.iter().flat_map(|(_, parts)| parts.iter().copied());
             let hinges = hinges?.into_iter().map(|(centre, axis)| Symmetry::Axis { centre, axis });
-            let axis = common_axis(parts.chain(hinges).collect(), ALIGNED * length)?;
+            let axis = common_axis(&parts.chain(hinges).collect::<Vec<_>>(), ALIGNED * length)?;
             let colliders: Vec<ColliderHandle> = colliders.into_iter().map(|(handle, _)| handle).collect();
             let is_called = is_called(engine, &colliders);
             Some(RoundBody {
@@ -72,6 +78,8 @@ impl Rolling {
                 is_called,
                 is_always_called: is_called,
                 leading: DVec3::ZERO,
+                // The moments of inertia of an absent body are not known yet.
+                is_ball: axis.is_none() && model.is_present(i) && is_isotropic(model.inverse_inertia()[i]),
                 unturned: None,
             })
         });
@@ -79,10 +87,21 @@ impl Rolling {
         Rolling { spin: vec![DVec3::ZERO; round.len()], round }
     }
 
-    /// Finds out which calls the physics engine makes, after it has been restored from a checkpoint.
-    pub(super) fn resume(&mut self, engine: &PhysicsWorld) {
-        for round in self.round.iter_mut().flatten() {
+    /// Finds out which calls the physics engine makes, and the orientations of balls in it, after it has been restored from a checkpoint.
+    /// `handles` holds the engine's handle of each body.
+    pub(super) fn resume(&mut self, engine: &PhysicsWorld, handles: &[RigidBodyHandle]) {
+        for (round, handle) in self.round.iter_mut().zip(handles) {
+            let Some(round) = round else { continue };
             round.is_called = is_called(engine, &round.colliders);
+            let orientation = engine.bodies.get(*handle).map(|body| *body.rotation());
+            round.unturned = orientation.filter(|_| round.is_ball);
+        }
+    }
+
+    /// Notes that the orientation of a body has been set in the physics engine.
+    pub(super) fn set(&mut self, body: usize) {
+        if let Some(round) = &mut self.round[body] {
+            round.unturned = None;
         }
     }
 
@@ -116,20 +135,22 @@ impl Rolling {
         self.spin[body]
     }
 
-    /// Returns the orientation of a body after a step of `dt`, with the rotation by its spin; `None` if it has no spin. The physics engine
-    /// has rotated the body from one orientation to another.
-    pub(super) fn turn(&mut self, body: usize, [from, to]: [DQuat; 2], dt: f64) -> Option<DQuat> {
+    /// Returns the orientation of a body after a step of `dt`, with the rotation by its spin. The body had the orientation `from`, and the
+    /// physics engine ended at the orientation `to`. Also returns whether the orientation must be set in the engine. `None` if the
+    /// orientation in the engine is the true one.
+    pub(super) fn turn(&mut self, body: usize, [from, to]: [DQuat; 2], dt: f64) -> Option<(DQuat, bool)> {
         let round = self.round[body].as_mut()?;
-        round.unturned = (round.leading != DVec3::ZERO).then_some(to);
+        let begin = round.unturned.filter(|_| round.is_ball).unwrap_or(from);
+        round.unturned = (round.is_ball || round.leading != DVec3::ZERO).then_some(to);
         round.unturned?;
         // The engine advances orientations along a straight line, q + ½ ω q dt. So both parts of the angular velocity add up.
-        let change = to * from.conjugate();
+        let change = to * begin.conjugate();
         let turning = 2.0 / dt / change.w * DVec3::new(change.x, change.y, change.z) + round.leading;
-        Some(advanced(from, turning, dt))
+        Some((advanced(from, turning, dt), !round.is_ball))
     }
 
-    /// Returns the orientation that the physics engine found for a body in the last step, without the rotation by the spin; `None` if
-    /// there was no spin. The engine's contacts belong to this orientation.
+    /// Returns the orientation that a body has in the physics engine after a step, if it differs from the true one. The engine's contacts
+    /// belong to this orientation.
     pub(super) fn unturned(&self, body: usize) -> Option<DQuat> {
         self.round[body].as_ref()?.unturned
     }
@@ -153,7 +174,7 @@ impl Rolling {
 }
 
 /// Returns the axis through the centre of mass about which all parts are symmetric: `Some(None)` if every axis is, `None` if none is.
-fn common_axis(parts: Vec<Symmetry>, tolerance: f64) -> Option<Option<DVec3>> {
+fn common_axis(parts: &[Symmetry], tolerance: f64) -> Option<Option<DVec3>> {
     let own = |part: &Symmetry| match *part {
         Symmetry::Axis { axis, .. } => Some(axis),
         Symmetry::Point { centre } if centre.length() > tolerance => Some(centre.normalize()),
@@ -180,9 +201,7 @@ fn lies_flat(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -
 /// Returns whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
 fn is_called(engine: &PhysicsWorld, colliders: &[ColliderHandle]) -> bool {
     let colliders = colliders.iter().filter_map(|collider| engine.colliders.get(*collider));
-    colliders
-        .map(|collider| collider.active_hooks())
-        .any(|hooks| hooks.contains(ActiveHooks::MODIFY_SOLVER_CONTACTS))
+    colliders.map(Collider::active_hooks).any(|hooks| hooks.contains(ActiveHooks::MODIFY_SOLVER_CONTACTS))
 }
 
 /// Makes the physics engine call [`Rolling::modify`] for the contacts of a collider, or no longer call it.
@@ -212,20 +231,20 @@ mod tests {
 
     #[test]
     fn a_ball_is_symmetric_about_every_axis_and_a_wheel_about_one() {
-        assert_eq!(common_axis(vec![POINT], 1e-9), Some(None));
+        assert_eq!(common_axis(&[POINT], 1e-9), Some(None));
         let wheel = about(0.3 * DVec3::Y, DVec3::Y);
-        assert_eq!(common_axis(vec![POINT, wheel], 1e-9), Some(Some(DVec3::Y)));
+        assert_eq!(common_axis(&[POINT, wheel], 1e-9), Some(Some(DVec3::Y)));
         // The hinge of a wheel has the opposite direction.
-        assert_eq!(common_axis(vec![wheel, about(DVec3::ZERO, -DVec3::Y)], 1e-9), Some(Some(DVec3::Y)));
+        assert_eq!(common_axis(&[wheel, about(DVec3::ZERO, -DVec3::Y)], 1e-9), Some(Some(DVec3::Y)));
         let dumbbell = [1.0, -1.0].map(|x| Symmetry::Point { centre: x * DVec3::X });
-        assert_eq!(common_axis(dumbbell.to_vec(), 1e-9), Some(Some(DVec3::X)));
+        assert_eq!(common_axis(&dumbbell, 1e-9), Some(Some(DVec3::X)));
     }
 
     #[test]
     fn what_has_two_axes_or_corners_is_not_round() {
-        assert_eq!(common_axis(vec![POINT, Symmetry::None], 1e-9), None);
-        assert_eq!(common_axis(Vec::new(), 1e-9), None);
-        assert_eq!(common_axis(vec![about(DVec3::ZERO, DVec3::Y), about(DVec3::ZERO, DVec3::X)], 1e-9), None);
-        assert_eq!(common_axis(vec![about(0.1 * DVec3::X, DVec3::Y)], 1e-9), None);
+        assert_eq!(common_axis(&[POINT, Symmetry::None], 1e-9), None);
+        assert_eq!(common_axis(&[], 1e-9), None);
+        assert_eq!(common_axis(&[about(DVec3::ZERO, DVec3::Y), about(DVec3::ZERO, DVec3::X)], 1e-9), None);
+        assert_eq!(common_axis(&[about(0.1 * DVec3::X, DVec3::Y)], 1e-9), None);
     }
 }
