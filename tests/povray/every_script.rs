@@ -25,8 +25,9 @@ fn every_script_of_the_gallery_is_parsed_without_a_word() {
     });
 }
 
+/// Parses a script, and renders a single pixel without light, since all bodies of many scripts stand in one scene.
 fn parse(folder: &Path, input: &str) -> povray::Said {
-    povray::run(folder, &[input, "+Oparsed.png", "+W1", "+H1", "+WT1", "-MB"])
+    povray::run(folder, &[input, "+Oparsed.png", "+W1", "+H1", "+WT1", "+Q0", "-MB"])
 }
 
 /// The largest number of bytes of a scene's scripts that POV-Ray reads, about a minute's work.

@@ -91,6 +91,7 @@ impl TimeStepping {
         self.driven.begin(&self.model, begin, &self.state, &mut self.loads);
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
+        self.displacement.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
         self.push(end, dt);
         let Self { books, engine, rolling, mixing, joints, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
@@ -186,10 +187,11 @@ impl TimeStepping {
 
     /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
-        let Self { model, state, engine, handles, books, joints, inputs, rolling, .. } = self;
+        let Self { model, state, engine, handles, books, joints, inputs, rolling, displacement, .. } = self;
+        displacement.end(engine, joints);
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
-        let mut moved = Vec::new();
+        let (mut moved, mut carried) = (Vec::new(), Vec::new());
         for (i, handle) in handles.iter().enumerate() {
             if model.inverse_mass()[i] == 0.0 {
                 let after = (state.velocity[i], model.angular_velocity(i, state));
@@ -200,24 +202,27 @@ impl TimeStepping {
                 continue;
             }
             let Some(body) = engine.bodies.get(*handle) else { continue };
-            let (from, velocity, turning) = (state.orientation[i], body.linvel(), body.angvel());
+            let from = state.orientation[i];
+            let (mut velocity, mut turning) = (body.linvel(), body.angvel());
+            inputs[i].turning = turning;
             let mut pose = *body.position();
             let (orientation, is_turned) =
                 rolling.turn(i, [from, pose.rotation], dt).unwrap_or((pose.rotation, false));
             if is_turned {
                 pose.rotation = orientation;
             }
-            let mut is_moved = is_turned;
             let way = dt * velocity;
-            if inputs[i].is_fast
-                && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length()
-            {
+            let is_stopped = inputs[i].is_fast
+                && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length();
+            if is_stopped {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
-                is_moved = true;
+            } else if let Some(mean) = displacement.mean(engine, i, body, bodies::pose(state, i), dt) {
+                (velocity, turning) = mean;
+                carried.push((*handle, velocity));
             }
-            if is_moved {
+            if is_stopped || is_turned {
                 moved.push((*handle, pose));
             }
             state.velocity[i] = velocity;
@@ -225,7 +230,6 @@ impl TimeStepping {
             state.orientation[i] = orientation;
             // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
             let change = turning - books.mean[i].1;
-            inputs[i].turning = turning;
             books.turned[i] = DVec3::ZERO;
             if change != DVec3::ZERO {
                 let inertia = model.inertia()[i];
@@ -238,6 +242,11 @@ impl TimeStepping {
         for (handle, pose) in moved {
             if let Some(body) = engine.bodies.get_mut(handle) {
                 body.set_position(pose, false);
+            }
+        }
+        for (handle, velocity) in carried {
+            if let Some(body) = engine.bodies.get_mut(handle) {
+                body.set_linvel(velocity, false);
             }
         }
     }

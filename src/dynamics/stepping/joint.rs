@@ -215,6 +215,16 @@ impl Joints {
         }
     }
 
+    /// Returns a joint as the physics engine describes it.
+    pub(super) fn get<'a>(&self, engine: &'a PhysicsWorld, joint: usize) -> Option<&'a GenericJoint> {
+        Some(&engine.impulse_joints.get(self.handles[joint])?.data)
+    }
+
+    /// Returns the indices of the bodies at the two ends of a joint; `None` for an end at a fixed point of the world.
+    pub(super) fn bodies(&self, joint: usize) -> [Option<usize>; 2] {
+        self.bodies[joint]
+    }
+
     /// The number of joints.
     pub(super) fn len(&self) -> usize {
         self.handles.len()

@@ -13,6 +13,7 @@ mod bodies;
 mod bookkeeping;
 mod checkpoint;
 mod convex_parts;
+mod displacement;
 mod engine_input;
 mod hooks;
 mod joint;
@@ -31,6 +32,7 @@ mod touch;
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
 use self::bookkeeping::Bookkeeping;
+use self::displacement::Displacement;
 use self::engine_input::EngineInput;
 use self::joint::Joints;
 use self::mixing::Mixing;
@@ -76,6 +78,7 @@ pub struct TimeStepping {
     half_thickness: Vec<f64>,
     mixing: Mixing,
     joints: Joints,
+    displacement: Displacement,
     rolling: Rolling,
     books: Bookkeeping,
     driven: NonPotentialWork,
@@ -116,6 +119,7 @@ impl TimeStepping {
             ledger: parts.ledger,
             calendar: parts.calendar,
             books: Bookkeeping::new(model.len(), length, joints.held(model.len())),
+            displacement: Displacement::new(model.len(), &joints),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
             shows_contacts: true,

@@ -17,12 +17,11 @@ fn swing(scene: &Scene, kind: LinkKind) -> TimeStepping {
     TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &[Link { kind, collides: false }])
 }
 
-/// A pendulum starts at 30° and swings for 20 s, with steps of 1/240 s. A rod must keep the energy, and so the height, within one percent.
-/// Ball joints, hinges and ropes may lose up to eight percent.
+/// A pendulum starts at 30° and swings for 20 s, with steps of 1/240 s. It must keep its energy, and so its height, within a thousandth.
 #[test]
-fn pendulums_keep_their_length_and_most_of_their_energy() {
+fn pendulums_keep_their_length_and_their_energy() {
     let angle = std::f64::consts::FRAC_PI_6;
-    for (name, loss) in [("rod", 0.01), ("ball", 0.08), ("hinge", 0.08), ("rope", 0.08)] {
+    for name in ["rod", "ball", "hinge", "rope"] {
         let mut scene = Scene::default();
         let (ends, start) = bob(&mut scene, angle);
         let between = [ends[0], Anchor::centre(BodyId::new(0))];
@@ -44,7 +43,48 @@ fn pendulums_keep_their_length_and_most_of_their_energy() {
         // The lost energy, as a fraction of the initial potential energy above the lowest point.
         let lost = (start.y - highest) / (1.0 + start.y);
         println!("{name}: {lost} of the energy lost, length off by {worst} m");
-        assert!(lost.abs() < loss && worst < 1e-4, "{name} {lost} {worst}");
+        assert!(lost.abs() < 1e-3 && worst < 1e-4, "{name} {lost} {worst}");
+    }
+}
+
+/// A bar rotates freely about a joint at its end, at 10 rad/s for 10 s. Nothing brakes it. The joint yields by ½ (ω dt)² of the distance to
+/// the bar's centre, so the speed may differ by a part of this order.
+#[test]
+fn joints_do_not_brake_a_free_rotation() {
+    let spin = 10.0 * DVec3::Z;
+    for name in ["hinge", "ball", "rope", "chain"] {
+        let mut scene = Scene::default();
+        let long = Shape::Box { size: DVec3::new(1.0, 0.1, 0.1) };
+        let bar = |scene: &mut Scene, x: f64| {
+            scene.add(long.clone(), |body| {
+                body.with_location(x * DVec3::X)
+                    .with_angular_velocity(spin)
+                    .with_velocity(spin.cross(x * DVec3::X))
+            })
+        };
+        let bar_1 = bar(&mut scene, 0.5);
+        let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: bar_1, at: -0.5 * DVec3::X }];
+        let kinds = match name {
+            "hinge" => vec![LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY))],
+            "ball" => vec![LinkKind::Ball(Ball { between: ends })],
+            "rope" => vec![LinkKind::Rope(Rope { between: [ends[0], Anchor::centre(bar_1)], length: 0.5 })],
+            _ => {
+                let bar_2 = bar(&mut scene, 1.5);
+                let one = Anchor::Body { id: bar_1, at: 0.5 * DVec3::X };
+                let two = Anchor::Body { id: bar_2, at: -0.5 * DVec3::X };
+                vec![
+                    LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY)),
+                    LinkKind::Fixed(Fixed { between: [one, two], turned: DQuat::IDENTITY }),
+                ]
+            }
+        };
+        let links: Vec<Link> = kinds.into_iter().map(|kind| Link { kind, collides: false }).collect();
+        let mut stepping = TimeStepping::new(scene.world(0.0), &scene.contacts(), &links);
+        let start = stepping.snapshot().unwrap().balance.kinetic;
+        let end = run(&mut stepping, 10.0).balance;
+        println!("{name}: {} of the energy kept", end.kinetic / start);
+        assert!((end.kinetic / start - 1.0).abs() < 0.005, "{name} {}", end.kinetic / start);
+        assert!(end.drift.abs() < 1e-6, "{name} {}", end.drift);
     }
 }
 
