@@ -5,9 +5,10 @@ use glam::{DQuat, DVec3};
 
 use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
+use super::bounce::Bounce;
 use super::engine_input::EngineInput;
 use super::hooks::Hooks;
-use super::{TimeStepping, bodies, set_step, spin};
+use super::{TimeStepping, bodies, calls, set_step, spin};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
@@ -93,10 +94,11 @@ impl TimeStepping {
         self.state.accounts.add(dt, self.loads.power);
         self.displacement.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
         self.push(end, dt);
-        let Self { books, engine, rolling, mixing, joints, .. } = self;
+        let Self { books, engine, rolling, mixing, joints, slow, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
         set_step(&mut engine.integration_parameters, dt);
-        engine.step_with_events(&Hooks { mixing, rolling }, &books.events);
+        let bounce = Bounce { dt, slow: *slow };
+        engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.events);
         self.steps += 1;
         if let Some(body) = self.engine.quarantine().bodies().first() {
             let body = BodyId::new(body.into_raw_parts().0 as usize);
@@ -133,7 +135,8 @@ impl TimeStepping {
     /// Passes the forces on the bodies and their angular velocities to the physics engine, before a step of `dt` that ends at time `end`,
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
-        let Self { model, state, loads, engine, handles, books, half_thickness, inputs, rolling, .. } = self;
+        let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
+        let Self { rolling, calls, mixing, slow, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -146,11 +149,17 @@ impl TimeStepping {
             let turning = model.angular_velocity(i, state);
             let wanted = EngineInput {
                 force: loads.force[i],
-                turning: leading - rolling.take(engine, i, (orientation, turning, leading), dt),
+                turning: leading
+                    - rolling.take(engine, calls.colliders(i), i, (orientation, turning, leading), dt),
                 // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at
                 // rest.
                 is_fast: dt * state.velocity[i].length() > half_thickness[i],
             };
+            let is_bouncing = mixing.has_restitution && state.velocity[i].length_squared() > *slow * *slow;
+            calls.set(engine, i, is_bouncing || rolling.is_spun(i));
+            if !rolling.is_ball(i) {
+                calls.turn(engine, i, orientation, calls::ANGLE);
+            }
             if !input.is_same(&wanted) {
                 let Some(body) = engine.bodies.get_mut(handles[i]) else { continue };
                 wanted.write(body);
@@ -165,13 +174,15 @@ impl TimeStepping {
     /// bodies.
     fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        let Self { model, state, engine, handles, rolling, .. } = self;
+        let Self { model, state, engine, handles, rolling, calls, .. } = self;
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
             let leading = spin::leading(from, pose.rotation, dt);
             let turning = model.angular_velocity(i, state);
-            let untaken = leading - rolling.take(engine, i, (from, turning, leading), dt);
+            let untaken = leading - rolling.take(engine, calls.colliders(i), i, (from, turning, leading), dt);
+            calls.set(engine, i, rolling.is_spun(i));
+            calls.turn(engine, i, pose.rotation, calls::GUIDED_ANGLE);
             if untaken != leading {
                 pose.rotation = spin::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.

@@ -3,13 +3,14 @@
 //! A checkpoint holds everything that changes with time: the state, the accounts, the presence of bodies, and the physics engine with its
 //! contacts. Everything constant follows from the scene.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
 use serde::{Deserialize, Serialize};
 
 use super::super::{EnergyLedger, State};
 use super::TimeStepping;
 use super::engine_input::EngineInput;
+use super::fresh_contacts;
 
 /// Everything in a run that changes with time, except the physics engine.
 #[derive(Serialize, Deserialize)]
@@ -26,6 +27,8 @@ struct Moment {
     near: Vec<[ColliderHandle; 2]>,
     /// The bodies that have appeared since the last step.
     newcomers: Vec<usize>,
+    /// The orientation of each body when the engine last found its contacts anew because of its rotation.
+    orientation: Vec<DQuat>,
 }
 
 impl TimeStepping {
@@ -43,24 +46,28 @@ impl TimeStepping {
             away: self.model.away(),
             near: self.books.near.clone(),
             newcomers: self.newcomers.clone(),
+            orientation: self.calls.orientation.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
 
     /// Restores a saved moment. Returns false and changes nothing if the bytes do not belong to this run.
     pub(super) fn load(&mut self, bytes: &[u8]) -> bool {
-        let Ok((moment, engine)) = postcard::from_bytes::<(Moment, PhysicsWorld)>(bytes) else {
+        let Ok((moment, mut engine)) = postcard::from_bytes::<(Moment, PhysicsWorld)>(bytes) else {
             return false;
         };
         let bodies = self.model.len();
         let is_ours = moment.state.len() == bodies
+            && moment.orientation.len() == bodies
             && moment.away.iter().all(|(body, ..)| *body < bodies)
             && self.handles.iter().all(|handle| engine.bodies.contains(*handle));
         if !is_ours {
             return false;
         }
-        let Moment { time, steps, state, ledger, over, away, near, newcomers } = moment;
+        let Moment { time, steps, state, ledger, over, away, near, newcomers, orientation } = moment;
         self.newcomers = newcomers;
+        fresh_contacts::find_contacts_anew(&mut engine);
+        self.calls.resume(&engine, orientation);
         self.model.set_away(&away, &mut self.state);
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);

@@ -4,6 +4,7 @@ use rapier3d_f64::prelude::{
     ColliderHandle, ColliderSet, ContactModificationContext, PairFilterContext, PhysicsHooks, SolverFlags,
 };
 
+use super::bounce::Bounce;
 use super::mixing::Mixing;
 use super::rolling::Rolling;
 
@@ -11,6 +12,7 @@ use super::rolling::Rolling;
 pub(super) struct Hooks<'a> {
     pub(super) mixing: &'a Mixing,
     pub(super) rolling: &'a Rolling,
+    pub(super) bounce: Bounce,
 }
 
 impl PhysicsHooks for Hooks<'_> {
@@ -21,13 +23,15 @@ impl PhysicsHooks for Hooks<'_> {
     }
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
-        self.rolling.modify(context);
         let one = body_of(context.colliders, context.collider1);
         let two = body_of(context.colliders, context.collider2);
-        let (Some(one), Some(two), Some(manifold)) = (one, two, context.rigid_mut()) else { return };
-        if let Some(friction) = self.mixing.friction(one, two) {
+        if let (Some(one), Some(two), Some(manifold)) = (one, two, context.rigid_mut())
+            && let Some(friction) = self.mixing.friction(one, two)
+        {
             *manifold.friction = friction;
         }
+        self.bounce.modify(context);
+        self.rolling.modify(context);
     }
 }
 

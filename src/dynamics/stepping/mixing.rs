@@ -18,6 +18,8 @@ pub(super) struct Mixing {
     known: Vec<f64>,
     /// For each body, whether some of its contact pairs need a callback to compute the friction.
     asked: Vec<bool>,
+    /// Whether any body has a restitution.
+    pub(super) has_restitution: bool,
 }
 
 impl Mixing {
@@ -47,7 +49,8 @@ impl Mixing {
         let all_speak = (0..surfaces.len()).filter(is_there).all(|i| surfaces[i].friction.is_some());
         let is_known = common.is_some() || all_speak;
         let asked = surfaces.iter().map(|surface| !is_known && surface.friction.is_none()).collect();
-        Mixing { surfaces, apart: contacts.apart.clone(), known, asked }
+        let has_restitution = surfaces.iter().any(|surface| surface.restitution.is_some_and(|own| own > 0.0));
+        Mixing { surfaces, apart: contacts.apart.clone(), known, asked, has_restitution }
     }
 
     /// Sets the friction, the restitution and the callbacks of a body's collider.

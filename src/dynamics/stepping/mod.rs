@@ -11,10 +11,13 @@
 mod advance;
 mod bodies;
 mod bookkeeping;
+mod bounce;
+mod calls;
 mod checkpoint;
 mod convex_parts;
 mod displacement;
 mod engine_input;
+mod fresh_contacts;
 mod hooks;
 mod joint;
 mod mesh;
@@ -32,6 +35,7 @@ mod touch;
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
 use self::bookkeeping::Bookkeeping;
+use self::calls::Calls;
 use self::displacement::Displacement;
 use self::engine_input::EngineInput;
 use self::joint::Joints;
@@ -55,6 +59,9 @@ const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
 /// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
+/// The speed of a body that counts as resting, for a thickness of 1 m of the thinnest moving body, m/s. Speeds grow with the root of the
+/// thickness, as they do in a fall.
+const SLOW: f64 = 0.1;
 
 /// Fast bodies stop this far in front of a surface or behind it, as a fraction of the thickness of the thinnest moving body.
 const SLOP: f64 = 0.002;
@@ -77,9 +84,12 @@ pub struct TimeStepping {
     /// Half of each body's thickness, m. A body that moves farther than this within a step counts as fast.
     half_thickness: Vec<f64>,
     mixing: Mixing,
+    /// Bodies that are slower than this are at rest, m/s: the speed after a fall by a small part of the thinnest moving body.
+    slow: f64,
     joints: Joints,
     displacement: Displacement,
     rolling: Rolling,
+    calls: Calls,
     books: Bookkeeping,
     driven: NonPotentialWork,
     /// Whether snapshots list the contacts.
@@ -105,11 +115,14 @@ impl TimeStepping {
         let mut engine = PhysicsWorld::new();
         let length = bodies::typical_length(&model, contacts, &moves);
         engine.gravity = glam::DVec3::ZERO;
+        fresh_contacts::find_contacts_anew(&mut engine);
         engine.integration_parameters = parameters(length, !links.is_empty());
         let inserted = bodies::insert(&mut engine, &mut model, &mut state, contacts, &mixing, length);
         let (handles, symmetries) = inserted;
         let joints = Joints::insert(&mut engine, links, &handles, &model);
-        let rolling = Rolling::new(&engine, symmetries, (&model, &joints), length);
+        let rolling = Rolling::new(&engine, &symmetries, (&model, &joints), length);
+        let colliders = symmetries.iter().map(|own| own.iter().map(|(handle, _)| *handle).collect());
+        let calls = Calls::new(&engine, colliders, &state.orientation);
         TimeStepping {
             time: parts.time,
             step: parts.step,
@@ -128,9 +141,11 @@ impl TimeStepping {
             model,
             state,
             rolling,
+            calls,
             inputs: EngineInput::read_all(&engine, &handles),
-            engine,
             handles,
+            slow: SLOW * length.sqrt(),
+            engine,
             mixing,
             joints,
         }
@@ -163,6 +178,8 @@ fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
         // The physics engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
         normalized_max_corrective_velocity: 3.0 / length.sqrt(),
         warmstart_joints: true,
+        normalized_contact_recycle_distance: std::env::var("JB_REC").map_or(0.05, |v| v.parse().unwrap()),
+        contact_recycling: std::env::var_os("JB_NOREC").is_none(),
         ..IntegrationParameters::default()
     }
 }

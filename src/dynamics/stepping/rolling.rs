@@ -9,10 +9,7 @@
 //! the body is rotated by the spin.
 
 use glam::{DQuat, DVec3};
-use rapier3d_f64::prelude::{
-    ActiveHooks, Collider, ColliderHandle, ContactModificationContext, InteractionGroups, PhysicsWorld,
-    RigidBodyHandle,
-};
+use rapier3d_f64::prelude::{ColliderHandle, ContactModificationContext, PhysicsWorld, RigidBodyHandle};
 
 use super::super::Model;
 use super::super::model::is_isotropic;
@@ -30,13 +27,8 @@ const ALIGNED: f64 = 1e-6;
 
 /// A body whose surface is symmetric under rotations about its centre of mass, or about an axis through it.
 struct RoundBody {
-    colliders: Vec<ColliderHandle>,
     /// The axis of the symmetry and of all hinges, a unit vector in the engine's frame of the body; `None` for a ball without joints.
     axis: Option<DVec3>,
-    /// Whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
-    is_called: bool,
-    /// Whether the engine makes these calls in all steps, for another reason than the rotation of the body.
-    is_always_called: bool,
     /// The part of the leading angular velocity that belongs to the spin; see `spin::leading`.
     leading: DVec3,
     /// Whether the engine need not know the orientation of the body: a ball of equal moments of inertia, without joints.
@@ -61,22 +53,17 @@ impl Rolling {
     /// Finds the round bodies. `symmetries` holds the colliders of each body, and `length` is the thickness of the thinnest moving body, m.
     pub(super) fn new(
         engine: &PhysicsWorld,
-        symmetries: Vec<ColliderSymmetries>,
+        symmetries: &[ColliderSymmetries],
         (model, joints): (&Model, &Joints),
         length: f64,
     ) -> Rolling {
         let hinges = joints.hinges(engine, symmetries.len());
-        let round = symmetries.into_iter().zip(hinges).enumerate().map(|(i, (colliders, hinges))| {
+        let round = symmetries.iter().zip(hinges).enumerate().map(|(i, (colliders, hinges))| {
             let parts = colliders.iter().flat_map(|(_, parts)| parts.iter().copied());
             let hinges = hinges?.into_iter().map(|(centre, axis)| Symmetry::Axis { centre, axis });
             let axis = common_axis(&parts.chain(hinges).collect::<Vec<_>>(), ALIGNED * length)?;
-            let colliders: Vec<ColliderHandle> = colliders.into_iter().map(|(handle, _)| handle).collect();
-            let is_called = is_called(engine, &colliders);
             Some(RoundBody {
-                colliders,
                 axis,
-                is_called,
-                is_always_called: is_called,
                 leading: DVec3::ZERO,
                 // The moments of inertia of an absent body are not known yet.
                 is_ball: axis.is_none() && model.is_present(i) && is_isotropic(model.inverse_inertia()[i]),
@@ -87,12 +74,10 @@ impl Rolling {
         Rolling { spin: vec![DVec3::ZERO; round.len()], round }
     }
 
-    /// Finds out which calls the physics engine makes, and the orientations of balls in it, after it has been restored from a checkpoint.
-    /// `handles` holds the engine's handle of each body.
+    /// Reads the orientations of balls in the physics engine, after it has been restored from a checkpoint. `handles` holds the engine's handle of each body.
     pub(super) fn resume(&mut self, engine: &PhysicsWorld, handles: &[RigidBodyHandle]) {
         for (round, handle) in self.round.iter_mut().zip(handles) {
             let Some(round) = round else { continue };
-            round.is_called = is_called(engine, &round.colliders);
             let orientation = engine.bodies.get(*handle).map(|body| *body.rotation());
             round.unturned = orientation.filter(|_| round.is_ball);
         }
@@ -109,7 +94,8 @@ impl Rolling {
     /// which the physics engine would rotate it, rad/s. Returns the part of `leading` that the engine must not get.
     pub(super) fn take(
         &mut self,
-        engine: &mut PhysicsWorld,
+        engine: &PhysicsWorld,
+        colliders: &[ColliderHandle],
         body: usize,
         (orientation, turning, leading): (DQuat, DVec3, DVec3),
         dt: f64,
@@ -119,15 +105,19 @@ impl Rolling {
         let [spin, leading] = [turning, leading].map(|all| axis.map_or(all, |axis| all.dot(axis) * axis));
         let is_fast = spin.length_squared() * dt * dt > ANGLE * ANGLE;
         // A disk that lies flat rotates against friction at all of its points, which have no common velocity.
-        let is_spun = is_fast && !axis.is_some_and(|axis| lies_flat(engine, &round.colliders, axis));
-        if is_spun != round.is_called && !round.is_always_called {
-            round.is_called = is_spun;
-            for collider in &round.colliders {
-                call(engine, *collider, is_spun);
-            }
-        }
+        let is_spun = is_fast && !axis.is_some_and(|axis| lies_flat(engine, colliders, axis));
         (self.spin[body], round.leading) = if is_spun { (spin, leading) } else { (DVec3::ZERO, DVec3::ZERO) };
         round.leading
+    }
+
+    /// Whether the engine must call [`Rolling::modify`] for the contacts of a body in the present step.
+    pub(super) fn is_spun(&self, body: usize) -> bool {
+        self.spin[body] != DVec3::ZERO
+    }
+
+    /// Whether the engine need not know the orientation of a body.
+    pub(super) fn is_ball(&self, body: usize) -> bool {
+        self.round[body].as_ref().is_some_and(|round| round.is_ball)
     }
 
     /// The spin of a body in the present step, world axes, rad/s.
@@ -196,27 +186,6 @@ fn common_axis(parts: &[Symmetry], tolerance: f64) -> Option<Option<DVec3>> {
 fn lies_flat(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -> bool {
     let pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
     pairs.flat_map(Touch::of_pair).any(|touch| touch.normal().dot(axis).abs() > FLAT)
-}
-
-/// Returns whether the physics engine calls [`Rolling::modify`] for the contacts of these colliders.
-fn is_called(engine: &PhysicsWorld, colliders: &[ColliderHandle]) -> bool {
-    let colliders = colliders.iter().filter_map(|collider| engine.colliders.get(*collider));
-    colliders.map(Collider::active_hooks).any(|hooks| hooks.contains(ActiveHooks::MODIFY_SOLVER_CONTACTS))
-}
-
-/// Makes the physics engine call [`Rolling::modify`] for the contacts of a collider, or no longer call it.
-fn call(engine: &mut PhysicsWorld, collider: ColliderHandle, is_called: bool) {
-    let Some(collider) = engine.colliders.get_mut(collider) else { return };
-    collider.set_active_hooks(if is_called {
-        collider.active_hooks() | ActiveHooks::MODIFY_SOLVER_CONTACTS
-    } else {
-        collider.active_hooks() - ActiveHooks::MODIFY_SOLVER_CONTACTS
-    });
-    // The engine keeps contacts that have hardly changed, with the velocities of the last call. A change of groups makes it find all
-    // contacts of the collider again.
-    let groups = collider.solver_groups();
-    collider.set_solver_groups(InteractionGroups::none());
-    collider.set_solver_groups(groups);
 }
 
 #[cfg(test)]

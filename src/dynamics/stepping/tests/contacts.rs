@@ -277,3 +277,113 @@ fn dominoes_fall_to_the_last() {
     assert!(fallen[9] < 15, "{fallen:?}");
     assert_eq!(fallen[39], 20, "{fallen:?}");
 }
+
+/// Bodies fall flat on the ground from 1 m, with a restitution of 0.8. They must rise to 0.64 m without spin. The impact happens within a
+/// step, so the height may be wrong by the path of one step.
+#[test]
+fn what_falls_flat_rebounds_without_spin() {
+    const RESTITUTION: f64 = 0.8;
+    let lying = DQuat::from_rotation_z(0.5 * std::f64::consts::PI);
+    let shapes = [
+        ("cylinder", Shape::Cylinder { radius: 0.1, height: 0.2 }, DQuat::IDENTITY, 0.1),
+        ("lying cylinder", Shape::Cylinder { radius: 0.1, height: 0.4 }, lying, 0.1),
+        ("cone", Shape::Cone { radius: 0.1, top_radius: 0.0, height: 0.2 }, DQuat::IDENTITY, 0.05),
+        ("cube", cube(0.2), DQuat::IDENTITY, 0.1),
+        ("plate", Shape::Box { size: DVec3::new(1.0, 0.1, 0.6) }, DQuat::IDENTITY, 0.05),
+        ("lying capsule", Shape::Capsule { radius: 0.1, height: 0.6 }, lying, 0.1),
+    ];
+    for (name, shape, orientation, rest) in shapes {
+        for step in [STEP, 0.25 * STEP] {
+            let mut scene = Scene::default().with_ground(0.0);
+            let start = (1.0 + rest) * DVec3::Y;
+            scene.add(shape.clone(), |body| body.with_location(start).with_orientation(orientation));
+            scene.surfaces[1] = Some(Surface { restitution: Some(RESTITUTION), ..Surface::default() });
+            let mut stepping = scene.stepping();
+            stepping.set_step(step);
+            let (mut highest, mut spin) = (0.0_f64, 0.0_f64);
+            for k in 50..100 {
+                let body = run(&mut stepping, 0.01 * f64::from(k)).bodies[1];
+                highest = highest.max(body.location.y - rest);
+                spin = spin.max(body.angular_velocity.length());
+            }
+            let fallen = RESTITUTION * RESTITUTION;
+            let tolerance = 2.0 * step * libm::sqrt(2.0 * GRAVITY);
+            println!("{name}: {highest} m, {spin} rad/s");
+            assert!((highest - fallen).abs() < tolerance, "{name}, {step} s: {highest} m");
+            assert!(spin < 1e-6, "{name}, {step} s: {spin} rad/s");
+        }
+    }
+}
+
+/// Two cubes without friction collide face to face, one of them at rest, with a restitution of 1. They must exchange their velocities.
+#[test]
+fn cubes_exchange_their_velocities() {
+    let mut scene = Scene::default();
+    let surface = Some(Surface { restitution: Some(1.0), friction: Some(0.0), ..Surface::default() });
+    scene.add(cube(0.2), |body| body.with_velocity(2.0 * DVec3::X));
+    // Half of each face touches the other one.
+    scene.add(cube(0.2), |body| body.with_location(DVec3::new(1.0, 0.1, 0.0)));
+    scene.surfaces = vec![surface; 2];
+    let mut stepping = TimeStepping::new(scene.world(0.0), &scene.contacts(), &[]);
+    let end = run(&mut stepping, 1.0);
+    let momentum = end.bodies[0].velocity + end.bodies[1].velocity;
+    assert!((momentum - 2.0 * DVec3::X).length() < 1e-12, "{momentum}");
+    assert!((end.balance.kinetic / 2.0 - 1.0).abs() < 1e-9, "{}", end.balance.kinetic);
+    let rotates = end.bodies.iter().all(|body| body.angular_velocity.z.abs() > 1.0);
+    assert!(rotates && end.bodies.iter().all(|body| body.angular_velocity.x.abs() < 1e-9));
+}
+
+/// A spinning ball falls on the ground with a restitution of 0.9, and slides during the impact. Friction must give it μ (1 + e) v, where v is its
+/// speed at the impact.
+#[test]
+fn friction_in_an_impact_counts_the_rebound() {
+    let mut scene = Scene::default().with_ground(0.0);
+    let ball = Shape::Sphere { radius: 0.1 };
+    scene.add(ball, |body| body.with_location(0.6 * DVec3::Y).with_angular_velocity(-200.0 * DVec3::Z));
+    let surface = Surface { restitution: Some(0.9), friction: Some(0.5), ..Surface::default() };
+    scene.surfaces = vec![Some(surface); 2];
+    let end = run(&mut scene.stepping(), 0.4).bodies[1];
+    let rebound = end.velocity.y + GRAVITY * (0.4 - libm::sqrt(2.0 * 0.5 / GRAVITY));
+    let gained = 0.5 * 1.9 * rebound / 0.9;
+    assert!((end.velocity.x / gained - 1.0).abs() < 0.02, "{} {gained}", end.velocity);
+}
+
+/// Cylinders and capsules roll slowly on a level box. Nothing drives or brakes them.
+#[test]
+fn slow_rolling_is_even_on_a_box() {
+    let lying = DQuat::from_rotation_x(0.5 * std::f64::consts::PI);
+    for shape in [Shape::Cylinder { radius: 0.2, height: 0.3 }, Shape::Capsule { radius: 0.2, height: 0.8 }] {
+        let mut scene = Scene::default();
+        let floor = Shape::Box { size: DVec3::new(20.0, 1.0, 4.0) };
+        scene.add(floor, |body| body.with_location(-0.5 * DVec3::Y).with_fixed(true));
+        scene.add(shape, |body| {
+            body.with_location(0.2 * DVec3::Y)
+                .with_orientation(lying)
+                .with_velocity(0.1 * DVec3::X)
+                .with_angular_velocity(-0.5 * DVec3::Z)
+        });
+        let end = run(&mut scene.stepping(), 5.0).bodies[1];
+        assert!((end.velocity.x - 0.1).abs() < 1e-4, "{}", end.velocity);
+    }
+}
+
+/// Twenty coins lie on each other without gaps. At the start, the contacts yield until they carry the coins. The top coin may sink by little
+/// more than one thickness.
+#[test]
+fn a_stack_of_coins_sinks_little_at_the_start() {
+    const THICK: f64 = 0.002;
+    let mut scene = Scene::default().with_ground(0.0);
+    for k in 0..20 {
+        let at = (f64::from(k) + 0.5) * THICK * DVec3::Y;
+        scene.add(Shape::Cylinder { radius: 0.012, height: THICK }, |body| body.with_location(at));
+    }
+    let mut stepping = scene.stepping();
+    stepping.set_step(5e-4);
+    let mut lowest = f64::INFINITY;
+    for k in 1..=40 {
+        lowest = lowest.min(run(&mut stepping, 0.005 * f64::from(k)).bodies[20].location.y);
+    }
+    let sunk = 19.5 * THICK - lowest;
+    println!("{sunk} m");
+    assert!(sunk < 1.25 * THICK, "{sunk}");
+}

@@ -1,0 +1,102 @@
+//! Tells the physics engine which contacts to find anew, and for which contacts to make a callback.
+//!
+//! The engine keeps contacts that have hardly changed, and freezes their lever arms in world axes. This makes tall stacks stable, but it is
+//! wrong for bodies that rotate: a coin on a turntable would creep outwards. Contacts with a callback are never kept.
+
+use glam::DQuat;
+use rapier3d_f64::prelude::{ActiveHooks, Collider, ColliderHandle, InteractionGroups, PhysicsWorld};
+
+/// The contacts of a body are found anew when the body has rotated by this angle, rad. With 0.003 rad, slender towers fall.
+pub(super) const ANGLE: f64 = 0.01;
+/// The same angle for a body with a given motion.
+pub(super) const GUIDED_ANGLE: f64 = 0.003;
+
+/// The colliders of all bodies, and the callbacks for their contacts.
+pub(super) struct Calls {
+    bodies: Vec<Caller>,
+    /// The orientation of each body when its contacts were last found anew because of its rotation.
+    pub(super) orientation: Vec<DQuat>,
+}
+
+struct Caller {
+    colliders: Vec<ColliderHandle>,
+    /// Whether the engine makes a callback for each contact of these colliders.
+    is_called: bool,
+    /// Whether it does so in all steps.
+    is_always_called: bool,
+}
+
+impl Calls {
+    /// `colliders` holds the colliders of each body, and `orientation` the orientation of each body.
+    pub(super) fn new(
+        engine: &PhysicsWorld,
+        colliders: impl Iterator<Item = Vec<ColliderHandle>>,
+        orientation: &[DQuat],
+    ) -> Calls {
+        let caller = |colliders: Vec<ColliderHandle>| {
+            let is_called = is_called(engine, &colliders);
+            Caller { colliders, is_called, is_always_called: is_called }
+        };
+        Calls { bodies: colliders.map(caller).collect(), orientation: orientation.to_vec() }
+    }
+
+    /// Continues with an engine that has been restored from a checkpoint.
+    pub(super) fn resume(&mut self, engine: &PhysicsWorld, orientation: Vec<DQuat>) {
+        self.orientation = orientation;
+        for body in &mut self.bodies {
+            body.is_called = is_called(engine, &body.colliders);
+        }
+    }
+
+    /// The colliders of a body.
+    pub(super) fn colliders(&self, body: usize) -> &[ColliderHandle] {
+        &self.bodies[body].colliders
+    }
+
+    /// Sets whether the engine makes a callback for each contact of a body.
+    pub(super) fn set(&mut self, engine: &mut PhysicsWorld, body: usize, is_called: bool) {
+        let body = &mut self.bodies[body];
+        if is_called == body.is_called || body.is_always_called {
+            return;
+        }
+        body.is_called = is_called;
+        for handle in &body.colliders {
+            if let Some(collider) = engine.colliders.get_mut(*handle) {
+                collider.set_active_hooks(if is_called {
+                    collider.active_hooks() | ActiveHooks::MODIFY_SOLVER_CONTACTS
+                } else {
+                    collider.active_hooks() - ActiveHooks::MODIFY_SOLVER_CONTACTS
+                });
+                find_anew(collider);
+            }
+        }
+    }
+
+    /// Makes the engine find the contacts of a body anew if the body has rotated by `angle` (rad) since the last time.
+    pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat, angle: f64) {
+        // The product of two unit quaternions is the cosine of half the angle between them.
+        if self.orientation[body].dot(orientation).abs() >= 1.0 - angle * angle / 8.0 {
+            return;
+        }
+        self.orientation[body] = orientation;
+        let Caller { colliders, is_called, .. } = &self.bodies[body];
+        for handle in colliders.iter().filter(|_| !is_called) {
+            if let Some(collider) = engine.colliders.get_mut(*handle) {
+                find_anew(collider);
+            }
+        }
+    }
+}
+
+/// Returns whether the engine makes a callback for each contact of these colliders.
+fn is_called(engine: &PhysicsWorld, colliders: &[ColliderHandle]) -> bool {
+    let colliders = colliders.iter().filter_map(|collider| engine.colliders.get(*collider));
+    colliders.map(Collider::active_hooks).any(|hooks| hooks.contains(ActiveHooks::MODIFY_SOLVER_CONTACTS))
+}
+
+/// Makes the engine find all contacts of a collider anew in the next step. A change of groups does so.
+fn find_anew(collider: &mut Collider) {
+    let groups = collider.solver_groups();
+    collider.set_solver_groups(InteractionGroups::none());
+    collider.set_solver_groups(groups);
+}
