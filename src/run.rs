@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::{EmitError, Emitter};
 use crate::not_drawn;
 use crate::picture::{Largest, Part, Plan, number};
-use crate::scene::{ContactLaw, Scene, Shutter, View};
+use crate::scene::{ContactLaw, Scene, Shutter, View, thinnest};
 use crate::simulate::{
     Corrected, Crossing, Exposure, Frame, Frames, Overlap, Recorded, SimulateError, StretchedJoint, Survey,
 };
@@ -111,13 +111,13 @@ impl<'a> Run<'a> {
             .chain(crossings)
             .chain(self.survey().overlap.iter().map(overlap))
             .chain(self.survey().stretched.iter().map(stretched))
+            .chain(sunken(self.scene(), self.survey()))
+            .chain(energy_added(self.scene(), self.survey()))
             .chain(thin)
             .chain(small)
             .chain(grid)
             .chain(plan.not_drawn().iter().map(not_drawn::warning))
-            .chain(
-                first_order(self.scene(), self.survey().drift).or_else(|| drift(self.scene(), self.survey())),
-            )
+            .chain(first_order(self.scene(), self.survey()).or_else(|| drift(self.scene(), self.survey())))
             .collect()
     }
 
@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
 
 /// The codes of all warnings that [`Run::warnings`] can return.
 #[cfg(feature = "render")]
-pub(crate) const RUN_WARNINGS: [Code; 10] = [
+pub(crate) const RUN_WARNINGS: [Code; 12] = [
     Code::CorrectedStart,
     Code::Crossing,
     Code::Overlap,
@@ -172,6 +172,8 @@ pub(crate) const RUN_WARNINGS: [Code; 10] = [
     Code::TooFine,
     Code::NotDrawn,
     Code::EnergyDrift,
+    Code::EnergyAdded,
+    Code::DeepOverlap,
     Code::JointGivesWay,
     Code::FirstOrder,
 ];
@@ -189,16 +191,17 @@ fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
 }
 
 /// Returns a warning if a first-order method makes event-driven contacts inaccurate. The warning gives the energy error.
-fn first_order(scene: &Scene, drift: f64) -> Option<Diagnostic> {
+fn first_order(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     const NOTICEABLE: f64 = 1e-6;
     let simulation = &scene.simulation;
     let method = simulation.method;
     let is_exact = simulation.contacts == Some(ContactLaw::EventDriven);
-    let is_said = is_exact && method.order == 1 && drift.abs() > NOTICEABLE;
-    let percent = rounded(drift * 100.0);
+    let is_said = is_exact && method.order == 1 && survey.drift.abs() > NOTICEABLE;
+    let percent = rounded(survey.drift * 100.0);
     let message = format!(
-        "the contacts of this run are not exact: with `{}`, the energy drifts by {percent} % of the largest kinetic energy",
-        method.name
+        "`{}` is of first order, so this run is not exact: the energy drifts by {percent} % of the {}",
+        method.name,
+        survey.drift_scale.name()
     );
     let warning = Diagnostic::warning(Code::FirstOrder, message);
     let help = "write `integrator = \"velocity-verlet\"` or `\"rk4\"` in [simulation]";
@@ -290,6 +293,36 @@ fn stretched(stretched: &StretchedJoint) -> Diagnostic {
     let message = format!("the joint `{joint}` gives way by {} m at t = {time} s{others}", rounded(*gap));
     let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
     Diagnostic::warning(Code::JointGivesWay, message).help(help)
+}
+
+/// Returns a warning if bodies sink deeply into each other under time-stepping.
+fn sunken(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    /// The largest penetration without a warning, as a fraction of the thickness of the thinnest moving body.
+    const ALLOWED: f64 = 0.25;
+    let (totals, thinnest) = (survey.contacts?, thinnest(&scene.bodies)?);
+    let is_stepped = scene.simulation.contacts == Some(ContactLaw::TimeStepping);
+    let part = totals.penetration / thinnest;
+    let message = format!(
+        "bodies sink into each other by up to {} m, {:.0} % of the thickness of the thinnest moving body",
+        rounded(totals.penetration),
+        100.0 * part
+    );
+    let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
+    (is_stepped && part > ALLOWED).then(|| Diagnostic::warning(Code::DeepOverlap, message).help(help))
+}
+
+/// Returns a warning if contacts or joints give much energy to the bodies under time-stepping.
+fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    /// The largest energy that needs no warning, as a fraction of the energy that the drift is relative to.
+    const ALLOWED: f64 = 0.05;
+    let totals = survey.contacts?;
+    let is_stepped = scene.simulation.contacts == Some(ContactLaw::TimeStepping);
+    let sources = [("contacts", totals.lost + totals.rubbed), ("joints and limits", totals.taken_by_joints)];
+    let (source, taken) = sources.into_iter().min_by(|one, two| one.1.total_cmp(&two.1))?;
+    let message = format!("{source} add {} J to the energy of the bodies, but they can only take energy", rounded(-taken));
+    let help = "take a smaller `simulation.step`";
+    let is_much = -taken > ALLOWED * survey.drift_energy;
+    (is_stepped && is_much).then(|| Diagnostic::warning(Code::EnergyAdded, message).help(help))
 }
 
 /// Returns the warning that two bodies overlap.

@@ -20,8 +20,9 @@ pub struct Balance {
     pub linear_momentum: DVec3,
     /// The total angular momentum about the origin of the world, Σ x × m v + L, kg m²/s.
     pub angular_momentum: DVec3,
-    /// The dimensionless integration error of the energy: (E − E₀ − all accounts) / the largest kinetic energy so far. It is 0 as long as
-    /// nothing has moved.
+    /// The integration error of the energy, E − E₀ − all accounts, J.
+    pub error: f64,
+    /// The integration error of the energy, relative to the largest kinetic energy so far. It is 0 as long as nothing has moved.
     pub drift: f64,
 }
 
@@ -84,13 +85,10 @@ impl EnergyLedger {
         let total = kinetic + potential;
         let accounts = state.accounts;
         let largest_kinetic = self.largest_kinetic.max(kinetic);
-        let drift = if largest_kinetic > 0.0 {
-            (total - self.brought_in - accounts.total()) / largest_kinetic
-        } else {
-            0.0
-        };
+        let error = total - self.brought_in - accounts.total();
+        let drift = if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 };
         let (linear_momentum, angular_momentum) = momenta(model, state);
-        Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift }
+        Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, error, drift }
     }
 }
 

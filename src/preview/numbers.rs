@@ -46,7 +46,8 @@ pub(super) fn poses(
 /// without a potential have brought in; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without
 /// contacts.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
-    let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift } = balance;
+    let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift, .. } =
+        balance;
     put(bytes, &[time, *kinetic, *potential, *total]);
     put(bytes, &[accounts.total(), *drift]);
     put(bytes, &linear_momentum.to_array());

@@ -51,6 +51,7 @@ pub use look::{
     Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
+pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::Places;
 pub use preset::Preset;

@@ -109,3 +109,10 @@ impl Body {
         self.shape.scaled(self.look.scale)
     }
 }
+
+/// Returns the thickness of the thinnest body that forces move and that touches others, m. `None` if there is no such body.
+pub(crate) fn thinnest(bodies: &[Body]) -> Option<f64> {
+    let touches = |body: &&Body| body.collider.is_some() && !body.start.fixed && body.motion.is_none();
+    let thickness = bodies.iter().filter(touches).filter_map(|body| body.shape.half_thickness());
+    thickness.min_by(f64::total_cmp).map(|half| 2.0 * half)
+}

@@ -7,8 +7,8 @@ use crate::scene::ContactLaw;
 
 /// The energy that the energy error of a run is relative to.
 ///
-/// Usually this is the largest kinetic energy. It may be very small under time-stepping, if bodies only settle or a machine lifts them
-/// slowly. If contacts take more energy than the largest kinetic energy, or motions and motors do more work, the error is relative to that
+/// Usually this is the largest kinetic energy. With contacts it may be very small, if bodies only settle, if they fall between two frames,
+/// or if a machine lifts them slowly. If contacts take more energy than the largest kinetic energy, or motions and motors do more work, the error is relative to that
 /// larger energy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -63,18 +63,17 @@ impl EnergyError {
         self.magnitude = self.magnitude.max(balance.kinetic + balance.potential.abs());
         self.taken = balance.accounts.taken_by_contacts();
         self.work = (balance.accounts.work + balance.accounts.motors).abs();
-        let error = balance.drift * self.largest_kinetic;
-        if error.abs() > self.largest.abs() {
-            self.largest = error;
+        if balance.error.abs() > self.largest.abs() {
+            self.largest = balance.error;
         }
-        error
+        balance.error
     }
 
     /// Returns the kind of energy that the error of the whole run is relative to, and the value of this energy, J. `contacts` is the
     /// contact law of the scene.
     pub(crate) fn scale(&self, contacts: Option<ContactLaw>) -> (EnergyScale, f64) {
         let mut scale = (EnergyScale::LargestKinetic, self.largest_kinetic);
-        if contacts == Some(ContactLaw::TimeStepping) {
+        if contacts.is_some() {
             for other in [(EnergyScale::TakenByContacts, self.taken), (EnergyScale::Work, self.work)] {
                 scale = if other.1 > scale.1 { other } else { scale };
             }
@@ -82,13 +81,13 @@ impl EnergyError {
         scale
     }
 
-    /// Returns the largest error, relative to the energy that `scale` returns. 0 if nothing moved, or if time-stepping only moved bodies by
+    /// Returns the largest error, relative to the energy that `scale` returns. 0 if nothing moved, or if contacts only moved bodies by
     /// rounding errors.
     pub(crate) fn drift(&self, contacts: Option<ContactLaw>) -> f64 {
         /// Energies below this fraction of `magnitude` are rounding errors of contacts and joints.
         const ROUNDING: f64 = 1e-10;
         let (_, energy) = self.scale(contacts);
-        if contacts == Some(ContactLaw::TimeStepping) && energy <= ROUNDING * self.magnitude {
+        if contacts.is_some() && energy <= ROUNDING * self.magnitude {
             return 0.0;
         }
         if energy > 0.0 { self.largest / energy } else { 0.0 }
@@ -100,34 +99,29 @@ mod tests {
     use super::*;
     use crate::dynamics::Accounts;
 
-    /// The balance of a frame with a kinetic energy (J), an energy taken by impacts (J), and a drift.
-    fn balance(kinetic: f64, taken: f64, drift: f64) -> Balance {
+    /// The balance of a frame with a kinetic energy, an energy taken by impacts, and an error, J.
+    fn balance(kinetic: f64, taken: f64, error: f64) -> Balance {
         let accounts = Accounts { impacts: -taken, ..Accounts::default() };
-        Balance { kinetic, accounts, drift, ..Balance::default() }
+        Balance { kinetic, accounts, error, ..Balance::default() }
     }
 
     #[test]
     fn bodies_that_settle_are_compared_with_what_contacts_took() {
         let mut error = EnergyError::default();
         error.add(&balance(2.0, 0.0, 0.0));
-        assert_eq!(error.add(&balance(1.0, 8.0, 0.5)), 1.0);
-        let stepped = Some(ContactLaw::TimeStepping);
-        assert_eq!(
-            (error.scale(stepped), error.drift(stepped)),
-            ((EnergyScale::TakenByContacts, 8.0), 0.125)
-        );
-        let exact = Some(ContactLaw::EventDriven);
-        for contacts in [None, exact] {
-            let expected = ((EnergyScale::LargestKinetic, 2.0), 0.5);
-            assert_eq!((error.scale(contacts), error.drift(contacts)), expected);
+        assert_eq!(error.add(&balance(1.0, 8.0, 1.0)), 1.0);
+        for law in [ContactLaw::TimeStepping, ContactLaw::EventDriven] {
+            let expected = ((EnergyScale::TakenByContacts, 8.0), 0.125);
+            assert_eq!((error.scale(Some(law)), error.drift(Some(law))), expected);
         }
+        assert_eq!((error.scale(None), error.drift(None)), ((EnergyScale::LargestKinetic, 2.0), 0.5));
     }
 
     #[test]
     fn bodies_that_a_motor_lifts_slowly_are_compared_with_its_work() {
         let accounts = Accounts { motors: 20.0, impacts: -1.0, ..Accounts::default() };
         let mut error = EnergyError::default();
-        error.add(&Balance { kinetic: 0.1, accounts, drift: 1.0, ..Balance::default() });
+        error.add(&Balance { kinetic: 0.1, accounts, error: 0.1, ..Balance::default() });
         let stepped = Some(ContactLaw::TimeStepping);
         assert_eq!((error.scale(stepped), error.drift(stepped)), ((EnergyScale::Work, 20.0), 0.005));
     }
@@ -135,7 +129,7 @@ mod tests {
     #[test]
     fn rounding_errors_of_a_body_at_rest_are_no_drift() {
         let mut error = EnergyError::default();
-        error.add(&Balance { kinetic: 1e-20, potential: -50.0, drift: 1e8, ..Balance::default() });
+        error.add(&Balance { kinetic: 1e-20, potential: -50.0, error: 1e-12, ..Balance::default() });
         assert_eq!(error.drift(Some(ContactLaw::TimeStepping)), 0.0);
         assert_eq!(error.drift(None), 1e8);
     }
@@ -143,7 +137,7 @@ mod tests {
     #[test]
     fn bodies_that_move_are_compared_with_their_kinetic_energy() {
         let mut error = EnergyError::default();
-        error.add(&balance(10.0, 8.0, -0.1));
+        error.add(&balance(10.0, 8.0, -1.0));
         assert_eq!(error.drift(Some(ContactLaw::TimeStepping)), -0.1);
         assert_eq!(EnergyError::default().drift(None), 0.0);
     }

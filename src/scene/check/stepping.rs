@@ -6,7 +6,7 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{METHODS, Motor, suitable_step};
-use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings};
+use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
 const ELASTIC: f64 = 0.9;
@@ -26,10 +26,8 @@ pub(super) fn choose_step(
     if simulation.contacts != Some(ContactLaw::TimeStepping) || is_chosen || gravity == 0.0 {
         return (simulation, counts);
     }
-    let touches = |body: &&Body| body.collider.is_some() && !body.start.fixed && body.motion.is_none();
-    let thickness = bodies.iter().filter(touches).filter_map(|body| body.shape.half_thickness());
-    let Some(thinnest) = thickness.min_by(f64::total_cmp) else { return (simulation, counts) };
-    let step = suitable_step(2.0 * thinnest, gravity).min(counts.step);
+    let Some(thinnest) = thinnest(bodies) else { return (simulation, counts) };
+    let step = suitable_step(thinnest, gravity).min(counts.step);
     (SimulationSettings { step, ..simulation }, Counts { step, ..counts })
 }
 

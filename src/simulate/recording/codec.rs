@@ -33,7 +33,7 @@ use crate::dynamics::Accounts;
 use crate::scene::Scene;
 
 /// The number of floating-point values in the header of a moment, before the bodies.
-const HEAD: usize = 12 + Accounts::NAMES.len();
+const HEAD: usize = 13 + Accounts::NAMES.len();
 /// The number of values that describe a body.
 const NUMBERS: usize = 16;
 /// The index of the first value of each column of a body, and the end of the last column.

@@ -120,10 +120,11 @@ impl Head {
             kinetic: n[1],
             potential: n[2],
             total: n[3],
-            drift: n[4],
-            linear_momentum: DVec3::new(n[5], n[6], n[7]),
-            angular_momentum: DVec3::new(n[8], n[9], n[10]),
-            accounts: Accounts::from_array(std::array::from_fn(|i| n[11 + i])),
+            error: n[4],
+            drift: n[5],
+            linear_momentum: DVec3::new(n[6], n[7], n[8]),
+            angular_momentum: DVec3::new(n[9], n[10], n[11]),
+            accounts: Accounts::from_array(std::array::from_fn(|i| n[12 + i])),
         };
         Entry {
             frame: self.frame,

@@ -30,9 +30,9 @@ impl Encoder {
         let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
         bytes.extend_from_slice(&number.to_le_bytes());
         put(bytes, &[snapshot.time]);
-        let Balance { kinetic, potential, total, drift, linear_momentum, angular_momentum, accounts } =
+        let Balance { kinetic, potential, total, error, drift, linear_momentum, angular_momentum, accounts } =
             snapshot.balance;
-        put(bytes, &[kinetic, potential, total, drift]);
+        put(bytes, &[kinetic, potential, total, error, drift]);
         put(bytes, &linear_momentum.to_array());
         put(bytes, &angular_momentum.to_array());
         put(bytes, &accounts.to_array());

@@ -20,6 +20,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
         kinetic: 1.0,
         potential: 2.0,
         total: 3.0,
+        error: 4.5,
         drift: 4.0,
         linear_momentum: DVec3::X,
         angular_momentum: DVec3::Y,
