@@ -319,7 +319,10 @@ fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     let is_stepped = scene.simulation.contacts == Some(ContactLaw::TimeStepping);
     let sources = [("contacts", totals.lost + totals.rubbed), ("joints and limits", totals.taken_by_joints)];
     let (source, taken) = sources.into_iter().min_by(|one, two| one.1.total_cmp(&two.1))?;
-    let message = format!("{source} add {} J to the energy of the bodies, but they can only take energy", rounded(-taken));
+    let message = format!(
+        "{source} add {} J to the energy of the bodies, but they can only take energy",
+        rounded(-taken)
+    );
     let help = "take a smaller `simulation.step`";
     let is_much = -taken > ALLOWED * survey.drift_energy;
     (is_stepped && is_much).then(|| Diagnostic::warning(Code::EnergyAdded, message).help(help))

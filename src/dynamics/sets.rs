@@ -10,7 +10,7 @@ impl Sets {
         Sets((0..numbers).collect())
     }
 
-    /// Returns the smallest index in the set of `number`, which identifies the set.
+    /// Returns the smallest index in the set that contains the index `number`. The smallest index identifies a set.
     pub(super) fn first(&mut self, number: usize) -> usize {
         let mut first = number;
         while self.0[first] != first {

@@ -238,7 +238,7 @@ impl MovingCamera {
     }
 }
 
-/// Half of the largest width of a body along its own axes, in its drawn size, m. `None` for a plane.
+/// Half of the largest extent of a drawn body along its own axes, m. `None` for a plane.
 pub(super) fn half_width(body: &Body) -> Option<f64> {
     let drawn = body.drawn();
     let reach = |direction| drawn.support(DQuat::IDENTITY, direction);

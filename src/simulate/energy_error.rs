@@ -53,7 +53,7 @@ pub(crate) struct EnergyError {
     work: f64,
     /// The largest sum of the kinetic energy and the magnitude of the potential energy so far, J. It determines the rounding errors of all
     /// energies.
-    magnitude: f64,
+    pub(crate) magnitude: f64,
 }
 
 impl EnergyError {

@@ -75,10 +75,11 @@ pub struct ContactTotals {
 }
 
 impl ContactTotals {
-    /// Replaces energies by 0 if they are within the rounding error of the largest kinetic energy, J.
-    fn rounded(self, largest_kinetic: f64) -> ContactTotals {
+    /// Replaces energies by 0 if they are within the rounding error of all energies. `magnitude` is the largest sum of the kinetic energy and
+    /// the magnitude of the potential energy, J.
+    fn rounded(self, magnitude: f64) -> ContactTotals {
         const ROUNDING: f64 = 1e-11;
-        let round = |taken: f64| if taken.abs() <= ROUNDING * largest_kinetic { 0.0 } else { taken };
+        let round = |taken: f64| if taken.abs() <= ROUNDING * magnitude { 0.0 } else { taken };
         ContactTotals { lost: round(self.lost), rubbed: round(self.rubbed), ..self }
     }
 }
@@ -235,7 +236,7 @@ impl<'a> Surveyor<'a> {
             overlap: overlaps.finish(),
             corrected,
             requested,
-            contacts: contacts.map(|contacts| contacts.rounded(error.largest_kinetic)),
+            contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             stretched: gaps.finish(scene),
             drift: error.drift(law),
             drift_scale,

@@ -97,7 +97,8 @@ struct Pair<'a> {
     pb: &'a Pose,
     parts: [usize; 2],
     within: f64,
-    /// A limit for overlaps, m. Points that overlap by more than twice this are on the far side of a convex part.
+    /// The largest expected overlap, m. A point that overlaps by more than twice as much lies on the far side of a convex part, and is
+    /// ignored.
     depth: f64,
     found: Vec<Touch>,
 }

@@ -241,7 +241,7 @@ impl World {
         self.rest = held;
     }
 
-    /// Releases the held groups that contain these bodies or touch them.
+    /// Lets groups of bodies that are held at rest move again if they contain one of `bodies` or touch one.
     pub(super) fn let_held_by_go(&mut self, bodies: &[usize]) {
         let is_held_by =
             |contact: &Arc<LastingContact>| contact.bodies.iter().any(|body| bodies.contains(body));

@@ -41,8 +41,9 @@ impl Largest {
         })
     }
 
-    /// True if the size of the body needs a warning: always if the camera frames only the start of a run, otherwise if the body looks
-    /// like a dot. If the camera follows a body, the size in a picture of the whole run counts.
+    /// Returns true if a warning must say that the body is too small. If the camera shows the whole run, this is so if the body is smaller
+    /// than [`SMALLEST_SEEN`]. If the camera follows a body, the size that the body would have in a picture of the whole run decides. If the
+    /// camera shows only the start of the run, it does so because the body would be too small otherwise.
     pub(super) fn is_too_small(&self, part: Part) -> bool {
         match part {
             Part::Whole => self.pixels < SMALLEST_SEEN,

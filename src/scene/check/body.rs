@@ -37,6 +37,7 @@ pub(super) fn read(
     let mut palette = Palette::default();
     let mut last: Option<Last> = None;
     let mut bodies = Vec::with_capacity(root.bodies().len());
+    let mut arranged = None;
     for table in root.bodies() {
         let (name, span) = (table.name(), table.span());
         if let Some(like) = bodies.last().filter(|_| context.has_too_many_wrong_copies(name)) {
@@ -61,6 +62,14 @@ pub(super) fn read(
             if let Some(motion) = &motion {
                 // Take the initial pose from the motion, not from the body's table. Rest lengths of springs are computed from this pose.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
+                let is_first = view.has("repeat");
+                if is_first {
+                    arranged = Some([start.location, location]);
+                } else if let Some([first, path]) = arranged.take() {
+                    let has_no_effect = first != start.location && path == location;
+                    let span = view.key_span("motion").filter(|_| has_no_effect);
+                    context.diagnostics.extend(span.map(|span| same_path(name, span)));
+                }
                 start = RigidBody { location, orientation, ..start };
             }
             let collider = contact::collider(name, view, &shape, simulation, context);
@@ -96,6 +105,15 @@ pub(super) fn read(
         bodies.push(body);
     }
     bodies
+}
+
+/// Returns the warning that the copies of a body follow the same path, although they start at different places. `name` is the name of a
+/// copy.
+fn same_path(name: &str, span: Span) -> Diagnostic {
+    let group = name.split('[').next().unwrap_or(name);
+    let message = format!("all copies of `{group}` follow the same path: their places have no effect");
+    let help = "write the places of the motion with the index `i`, such as `location = [\"i\", 0, 0]`";
+    Diagnostic::warning(Code::NoEffect, message).at(span, "it gives all copies the same place").help(help)
 }
 
 /// Reads the initial state and the mass properties of a body.

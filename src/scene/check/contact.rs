@@ -195,6 +195,10 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
         if height - lowest <= BELOW * (body.start.location.abs().max_element() + reach.abs()) {
             continue;
         }
+        if table.look(|view| view.table("shape").has_unknown()) {
+            // A placeholder replaces the unknown shape.
+            continue;
+        }
         let before = context.diagnostics.len();
         let name = table.name();
         let message = format!("`{name}` begins below the ground");

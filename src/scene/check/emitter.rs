@@ -194,12 +194,32 @@ impl Reader<'_, '_> {
         Births { start, end, at_once: u64::from(burst), every: view.number("every").unwrap_or(f64::INFINITY) }
     }
 
+    /// Warns of colors and sizes that change over a life, if lives do not end.
+    fn warn_of_endless_lives(&mut self) {
+        let is_list = [
+            ("color", self.view.colors("color").is_some_and(|colors| colors.len() > 1)),
+            ("size", self.view.numbers("size").is_some_and(|sizes| sizes.len() > 1)),
+        ];
+        for (key, _) in is_list.into_iter().filter(|(_, is_list)| *is_list) {
+            let message = format!("only the first `{key}` of `{}` has an effect", self.name);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
+            let help = "give the particles a `lifetime`, over which they change";
+            let span = self.view.key_span(key);
+            self.context.diagnostics.extend(
+                span.map(|span| warning.at(span, "particles without `lifetime` do not age").help(help)),
+            );
+        }
+    }
+
     /// Reads the lifetime of the particles, and returns it with the longest lifetime, s.
     ///
     /// If a formula gives the lifetime, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to the
     /// longest lifetime.
     fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
         let lifetime = self.view.drawn("lifetime").unwrap_or(Drawn::Constant(f64::INFINITY));
+        if let Drawn::Constant(f64::INFINITY) = lifetime {
+            self.warn_of_endless_lives();
+        }
         let longest = match &lifetime {
             Drawn::Constant(lifetime) => *lifetime,
             Drawn::Formula(formula) => {

@@ -247,11 +247,11 @@ static BODY: TableSpec = TableSpec {
         KeySpec::new("velocity", VECTOR, "Its velocity at the start")
             .unit("m/s")
             .default_numbers(&[0.0, 0.0, 0.0])
-            .also(&["v", "speed"]),
+            .also(&["v", "speed", "initial_velocity"]),
         KeySpec::new("angular_velocity", VECTOR, "Its angular velocity at the start, in world axes")
             .unit("rad/s")
             .default_numbers(&[0.0, 0.0, 0.0])
-            .also(&["spin", "omega"]),
+            .also(&["spin", "omega", "initial_angular_velocity"]),
         KeySpec::new(
             "start",
             ANY,

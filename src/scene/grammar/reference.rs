@@ -99,13 +99,14 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
 | a touching Newton's cradle | as many balls leave as arrive | the balls swing together |
 | resting bodies | touch exactly | sink into each other by up to a percent of their thickness |
 | integrators | any that keeps joints | `euler-cromer` |
-| joints | all, exact to rounding | `ball`, `hinge`, `slider`, `fixed`, `rod`, `rope`; they give way a little |
+| joints | all, exact to rounding | not `gear` and `pulley`; the others give way a little |
 | forces and torques of joints, in labels, arrows and tables | yes | refused |
 | a motor with `angle` or `position` | exact, or with a `stiffness` | with a `stiffness` |
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. The drift is relative to the largest kinetic
+- **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give
+  way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
   default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
@@ -114,7 +115,10 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
   energy at the kinks. A moving mesh is its convex hull if it is convex. Otherwise it is cut into convex parts along its own faces, up to 128
   parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill
   narrow notches. A fixed mesh keeps its triangles.
-- **Rolling**: balls, cylinders, cones, capsules and compounds of these about one axis roll smoothly at any speed, also as wheels on a hinge.
+- **Rolling**: balls, cylinders, cones and capsules roll smoothly at any speed, also as wheels on a hinge. So do compounds of them that share one
+  axis. A frustum has 32 sides, so it loses speed. A hoop (a torus) is unreliable.
+- **Pressing**: a motor that presses a body onto another one with far more than its weight needs a smaller step. The summary and a warning tell
+  when joints or contacts add energy.
 - **Machines**: a body with `end` takes its joints with it when it disappears. So a joint to a small body with an `end` is a latch, for a
   catapult or a crane. A slider with a motor is a winch.
 - **Fast bodies** do not pass through thin ones at any speed. Two bodies that are both fast may pass through each other.
@@ -251,8 +255,9 @@ on = [\"ball\", \"brick[*,3]\", \"domino[0]\"]
 ```
 
 A body with a `repeat` becomes several bodies, each named by the body's name and an index. Formulas of the body know the index: `i`, and in a
-grid also `j` and `k`. The position in the arrangement is added to `location` and orientation. In a list of bodies, the
-name alone means all copies, and `*` all of a row. In `between`, the name alone makes a chain of springs from each copy to the next.
+grid also `j` and `k`. The position in the arrangement is added to `location` and `orientation`, but not to the places of a `motion`: write
+these with the index. In a list of bodies, the name alone means all copies, and `*` all of a row. In `between`, the name alone makes a chain
+of springs from each copy to the next.
 
 ```toml
 [body.hook]

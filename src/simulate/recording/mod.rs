@@ -1,7 +1,8 @@
-//! The recording of a run: its states at all frames and at the requested moments between them, readable in any order.
+//! The recording of a run: the states at its moments, which are the frames and the requested times between them. They can be read in any
+//! order.
 //!
-//! Memory does not grow with the run: a [`Store`] keeps the moments in pages. A page holds at most 32 moments or about 1 MB, and can be
-//! read without the pages before it. A run can be read while it is still being recorded.
+//! A [`Store`] keeps the moments in pages, for example in a file, so that memory does not grow with the run. A page is full after 32 moments
+//! or about 1 MB, and can be read without the pages before it. A run can be read while it is still being recorded.
 
 mod codec;
 mod events;

@@ -164,6 +164,10 @@ impl Reader<'_, '_, '_> {
     fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
         let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
         let Some((number, joint)) = found else {
+            if self.context.names.joints.contains_key(name) {
+                // The joint has an error, which has been reported.
+                return None;
+            }
             let names = self.joints.iter().map(|joint| joint.name.as_str());
             let near = crate::diagnostic::nearest(name, names.take(1000));
             let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
