@@ -136,7 +136,7 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, calls, mixing, slow, .. } = self;
+        let Self { rolling, calls, mixing, displacement, slow, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -145,8 +145,12 @@ impl TimeStepping {
             }
             state.angular_momentum[i] += dt * loads.torque[i];
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
-            let leading = spin::free(orientation, momentum, model.inverse_inertia()[i], dt);
             let turning = model.angular_velocity(i, state);
+            let leading = if displacement.is_thin(i) {
+                spin::steady(turning, dt)
+            } else {
+                spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
+            };
             let wanted = EngineInput {
                 force: loads.force[i],
                 turning: leading
@@ -229,7 +233,9 @@ impl TimeStepping {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
-            } else if let Some(mean) = displacement.mean(engine, i, body, bodies::pose(state, i), dt) {
+            } else if let Some(mean) =
+                displacement.mean(engine, (i, body), (bodies::pose(state, i), books.before[i].0), turning, dt)
+            {
                 (velocity, turning) = mean;
                 carried.push((*handle, velocity));
             }

@@ -10,8 +10,10 @@
 //! VII.1.4. So bodies on joints get their mean velocity, unless contacts, limits or overstretched ropes push them. Those push bodies apart
 //! without a lasting velocity.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
-use rapier3d_f64::prelude::{JointAxis, PhysicsWorld, Pose, RigidBody};
+use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody};
 
 use super::super::{Model, State};
 use super::joint::Joints;
@@ -20,26 +22,57 @@ use super::{bodies, spin};
 
 /// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
 const ROTATION: f64 = 4.0;
+/// The smallest ratio of the two changes of a velocity by joints, at the start and at the end of a step, that counts as symmetric.
+const SYMMETRIC: f64 = 0.5;
+/// A body counts as a thin rod if its moment of inertia about a hinge is larger than this multiple of its smallest moment.
+const THIN: f64 = 4.0;
+/// A body that rotates by a larger angle within a step keeps the velocities of the engine, rad. With mean velocities, such steps are unstable.
+const FASTEST: f64 = 0.2;
 /// The largest excess length of a rope that has no effect, relative to the length of the rope.
 const TAUT: f64 = 1e-7;
 
 /// Tells which bodies get their mean velocity.
 pub(super) struct Displacement {
-    /// For each joint, whether it is a rope that was longer at the start of the step than its rotation explains.
-    overstretched: Vec<bool>,
+    /// For each joint, whether at the start of the step it was a rope that was longer than its rotation explains, or a hinge or slider at
+    /// its limit.
+    is_stopped: Vec<bool>,
     /// For each body, whether a joint holds it.
     held: Vec<bool>,
+    /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. Such a body gets the mean of its
+    /// angular velocity about this axis only: about other axes, the small moments of inertia of rods would make errors grow.
+    axis: Vec<Option<DVec3>>,
+    /// For each body, whether it is a thin rod on a hinge across it.
+    is_thin: Vec<bool>,
     /// For each body, whether it gets its mean velocity after the present step.
     gets_mean: Vec<bool>,
 }
 
 impl Displacement {
-    pub(super) fn new(bodies: usize, joints: &Joints) -> Displacement {
+    pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> Displacement {
+        let bodies = model.len();
         let held = joints.held(bodies);
-        Displacement { overstretched: vec![false; joints.len()], gets_mean: held.clone(), held }
+        let mut axis = vec![None; bodies];
+        for k in 0..joints.len() {
+            let Some(joint) = joints.get(engine, k) else { continue };
+            if joint.locked_axes == JointAxesMask::LOCKED_REVOLUTE_AXES {
+                for (body, frame) in
+                    joints.bodies(k).into_iter().zip([joint.local_frame1, joint.local_frame2])
+                {
+                    if let Some(body) = body {
+                        axis[body] = Some(frame.rotation * DVec3::X);
+                    }
+                }
+            }
+        }
+        let is_thin = |(i, axis): (usize, &Option<DVec3>)| {
+            let inertia = model.inertia()[i];
+            axis.is_some_and(|axis| axis.dot(inertia * axis) > THIN * inertia.min_element())
+        };
+        let is_thin = axis.iter().enumerate().map(is_thin).collect();
+        Displacement { is_stopped: vec![false; joints.len()], gets_mean: held.clone(), held, axis, is_thin }
     }
 
-    /// Measures the ropes at the start of a step of `dt`, s.
+    /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.
     ///
     /// If the ends move across the rope with relative velocity v, a step makes a taut rope of length L longer by ½ (v dt)²/L.
     pub(super) fn begin(
@@ -49,55 +82,94 @@ impl Displacement {
         (model, state): (&Model, &State),
         dt: f64,
     ) {
-        for (k, overstretched) in self.overstretched.iter_mut().enumerate() {
-            let Some(joint) = joints.get(engine, k).filter(|joint| !joint.coupled_axes.is_empty()) else {
+        for (k, is_stopped) in self.is_stopped.iter_mut().enumerate() {
+            let Some(joint) = joints.get(engine, k).filter(|joint| !joint.limit_axes.is_empty()) else {
                 continue;
             };
             let end = |side: usize, frame: Pose| match joints.bodies(k)[side] {
                 Some(body) => {
-                    let place = bodies::pose(state, body) * frame.translation;
-                    let arm = place - state.location[body];
-                    (place, state.velocity[body] + model.angular_velocity(body, state).cross(arm))
+                    let pose = bodies::pose(state, body) * frame;
+                    let arm = pose.translation - state.location[body];
+                    (pose, state.velocity[body] + model.angular_velocity(body, state).cross(arm))
                 }
-                None => (frame.translation, DVec3::ZERO),
+                None => (frame, DVec3::ZERO),
             };
             let (one, two) = (end(0, joint.local_frame1), end(1, joint.local_frame2));
-            let (between, velocity) = (two.0 - one.0, two.1 - one.1);
-            let length = joint.limits[JointAxis::LinX as usize].max;
-            let across = velocity.reject_from(between).length_squared() * dt * dt;
-            let by_rotation = 0.5 * across / between.length();
-            *overstretched = between.length() - length > ROTATION * by_rotation + TAUT * length;
+            let (between, velocity) = (two.0.translation - one.0.translation, two.1 - one.1);
+            let limits = |axis: JointAxis| joint.limits[axis as usize];
+            *is_stopped = if !joint.coupled_axes.is_empty() {
+                let length = limits(JointAxis::LinX).max;
+                let across = velocity.reject_from(between).length_squared() * dt * dt;
+                let by_rotation = 0.5 * across / between.length();
+                between.length() - length > ROTATION * by_rotation + TAUT * length
+            } else if joint.limit_axes == JointAxesMask::LIN_X {
+                let limits = limits(JointAxis::LinX);
+                let place = between.dot(one.0.rotation * DVec3::X);
+                place <= limits.min || place >= limits.max
+            } else {
+                let limits = limits(JointAxis::AngX);
+                let turn = one.0.rotation.conjugate() * two.0.rotation;
+                let angle = 2.0 * libm::atan2(turn.x, turn.w);
+                let middle = 0.5 * (limits.min + limits.max);
+                libm::remainder(angle - middle, TAU).abs() >= 0.5 * (limits.max - limits.min)
+            };
         }
+    }
+
+    /// Whether a body must rotate at a constant angular velocity within a step, not freely.
+    ///
+    /// If the angular momentum of a thin rod is not exactly perpendicular to the rod, free rotation is fast about the rod's own axis. A hinge
+    /// across the rod corrects this rotation at the end of the step only, and the errors would grow.
+    pub(super) fn is_thin(&self, body: usize) -> bool {
+        self.is_thin[body]
     }
 
     /// Finds the bodies that get their mean velocity, after the physics engine has made a step.
     pub(super) fn end(&mut self, engine: &PhysicsWorld, joints: &Joints) {
         self.gets_mean.clone_from(&self.held);
-        for (k, overstretched) in self.overstretched.iter().enumerate() {
+        for (k, is_stopped) in self.is_stopped.iter().enumerate() {
             let Some(joint) = joints.get(engine, k) else { continue };
             let is_rope = !joint.coupled_axes.is_empty();
             let is_pushing = joint.limits.iter().any(|limit| limit.impulse != 0.0);
-            if is_pushing && (!is_rope || *overstretched) {
+            if *is_stopped || (is_pushing && !is_rope) {
                 joints.bodies(k).into_iter().flatten().for_each(|body| self.gets_mean[body] = false);
             }
         }
     }
 
-    /// Returns the mean velocity and the mean angular velocity of a body in a step of `dt`, as the physics engine counts it. `from` is the
-    /// pose of the body in the engine before the step. `None` if the body keeps the velocities of the engine.
+    /// Returns the mean velocity and the mean angular velocity of a body in a step of `dt`, as the engine counts it. `from` is the pose of
+    /// the body in the engine before the step, `before` is its velocity then, and `turning` is the angular velocity that the engine gave
+    /// it. `None` if the body keeps the velocities of the engine.
+    ///
+    /// In a step that is symmetric in time, joints change the velocity at the start of the step as much as at its end. If they do not, the
+    /// correction belongs to an error of the joints, and must not last.
     pub(super) fn mean(
         &self,
         engine: &PhysicsWorld,
-        i: usize,
-        body: &RigidBody,
-        from: Pose,
+        (i, body): (usize, &RigidBody),
+        (from, before): (Pose, DVec3),
+        turning: DVec3,
         dt: f64,
     ) -> Option<(DVec3, DVec3)> {
-        if !self.gets_mean[i] || is_touched(engine, body) {
+        let is_fast = turning.length_squared() * dt * dt > FASTEST * FASTEST;
+        if !self.gets_mean[i] || is_fast || is_touched(engine, body) {
             return None;
         }
         let to = body.position();
-        Some(((to.translation - from.translation) / dt, spin::leading(from.rotation, to.rotation, dt)))
+        let velocity = (to.translation - from.translation) / dt;
+        let (at_start, at_end) = (body.linvel() - before, velocity - body.linvel());
+        if at_start.dot(at_end) < SYMMETRIC * at_end.length_squared() {
+            return None;
+        }
+        let mean = spin::leading(from.rotation, to.rotation, dt);
+        let mean = match self.axis[i] {
+            None => mean,
+            Some(axis) => {
+                let axis = from.rotation * axis;
+                turning + (mean - turning).dot(axis) * axis
+            }
+        };
+        Some((velocity, mean))
     }
 }
 

@@ -132,7 +132,7 @@ impl TimeStepping {
             ledger: parts.ledger,
             calendar: parts.calendar,
             books: Bookkeeping::new(model.len(), length, joints.held(model.len())),
-            displacement: Displacement::new(model.len(), &joints),
+            displacement: Displacement::new(&engine, &model, &joints),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
             shows_contacts: true,

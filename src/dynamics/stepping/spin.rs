@@ -37,10 +37,15 @@ pub(super) fn free(from: DQuat, momentum: DVec3, inverse_inertia: DVec3, dt: f64
     }
     if is_isotropic(inverse_inertia) {
         // The body rotates uniformly, by φ = |ω| dt about the direction of ω. See `leading` for the factor.
-        let angular_velocity = inverse_inertia.x * momentum;
-        return tangent_ratio(0.25 * dt * dt * angular_velocity.length_squared()) * angular_velocity;
+        return steady(inverse_inertia.x * momentum, dt);
     }
     leading(from, turn_freely(from, momentum, inverse_inertia, dt), dt)
+}
+
+/// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body as a rotation at the constant angular
+/// velocity `turning` would rotate it within `dt`, s.
+pub(super) fn steady(turning: DVec3, dt: f64) -> DVec3 {
+    tangent_ratio(0.25 * dt * dt * turning.length_squared()) * turning
 }
 
 /// Returns tan(h)/h for an angle h ≥ 0, rad, from its square. Larger angles than `LARGEST`/2 are cut off.

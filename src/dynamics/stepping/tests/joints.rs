@@ -88,6 +88,43 @@ fn joints_do_not_brake_a_free_rotation() {
     }
 }
 
+/// A thin rod rotates about a hinge at its end, at 40 rad/s. Its moment of inertia about its own axis is 5,000 times smaller than about the
+/// hinge. Rounding errors must not grow, and nothing may add energy.
+#[test]
+fn a_thin_rod_on_a_hinge_is_stable() {
+    let mut scene = Scene::default();
+    let spin = 40.0 * DVec3::Z;
+    let rod = scene.add(Shape::Box { size: DVec3::new(1.0, 0.01, 0.01) }, |body| {
+        body.with_location(0.5 * DVec3::X).with_angular_velocity(spin).with_velocity(20.0 * DVec3::Y)
+    });
+    let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: rod, at: -0.5 * DVec3::X }];
+    let hinge = LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY));
+    let link = Link { kind: hinge, collides: false };
+    let mut stepping = TimeStepping::new(scene.world(0.0), &scene.contacts(), &[link]);
+    let start = stepping.snapshot().unwrap().balance.kinetic;
+    let end = run(&mut stepping, 4.0);
+    assert!((end.bodies[0].location.length() - 0.5).abs() < 0.01, "{}", end.bodies[0].location);
+    assert!(end.balance.kinetic < 1.001 * start && end.balance.kinetic > 0.5 * start);
+}
+
+/// A door swings against the limit of its hinge at 3 rad/s. It must stay there.
+#[test]
+fn a_limit_does_not_throw_a_door_back() {
+    let mut scene = Scene::default();
+    let spin = 3.0 * DVec3::Y;
+    let door = scene.add(Shape::Box { size: DVec3::new(1.0, 2.0, 0.05) }, |body| {
+        body.with_location(0.5 * DVec3::X)
+            .with_angular_velocity(spin)
+            .with_velocity(spin.cross(0.5 * DVec3::X))
+    });
+    let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: door, at: -0.5 * DVec3::X }];
+    let freedom = Freedom { limits: Some([-1.5, 1.5]), motor: None };
+    let hinge = Hinge::new(ends, DVec3::Y, DQuat::IDENTITY).with(freedom);
+    let link = Link { kind: LinkKind::Hinge(hinge), collides: false };
+    let end = run(&mut TimeStepping::new(scene.world(0.0), &scene.contacts(), &[link]), 2.0).bodies[0];
+    assert!(end.angular_velocity.length() < 0.02, "{}", end.angular_velocity);
+}
+
 /// A hinge must stop at its limit when its body falls. A motor must bring a wheel to its target speed and no further.
 #[test]
 fn limits_stop_a_hinge_and_motors_turn_it() {
