@@ -11,6 +11,14 @@ pub struct Fix {
     pub is_said: bool,
 }
 
+impl Fix {
+    /// Returns true if there are edits, and all of them belong to the same text.
+    pub(super) fn is_in_one_text(&self) -> bool {
+        let first = self.edits.first();
+        first.is_some_and(|first| self.edits.iter().all(|edit| edit.span.source == first.span.source))
+    }
+}
+
 /// The replacement of a range of text by new text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {

@@ -55,7 +55,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
         group = group.element(Level::HELP.message(help));
     }
     let mut groups = vec![group];
-    if let Some(fix) = diagnostic.fix.as_ref().filter(|fix| !fix.is_said && !fix.edits.is_empty()) {
+    if let Some(fix) = diagnostic.fix.as_ref().filter(|fix| !fix.is_said && fix.is_in_one_text()) {
         groups.push(
             Group::with_title(Level::HELP.secondary_title("write it so"))
                 .element(patches(&fix.edits, sources)),
@@ -64,7 +64,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
     groups
 }
 
-/// Makes an excerpt that shows the lines of a fix before and after the edits. All edits of a fix are in one text.
+/// Makes an excerpt that shows the lines of a fix before and after the edits, which must be in one text.
 fn patches<'a>(edits: &'a [Edit], sources: &'a Sources) -> Snippet<'a, Patch<'a>> {
     let source = sources.get(edits[0].span.source);
     let text = &source.text;

@@ -284,6 +284,17 @@ fn a_setting_is_refused_at_its_place_in_the_argument() {
     }
 }
 
+/// Two settings that belong together as one key have a correction that spans two texts, so it cannot be shown as one excerpt.
+#[test]
+fn settings_that_are_one_key_are_refused() {
+    let mut command = jabuka();
+    command.arg("check").arg(support::scene("parabola"));
+    let output = command.args(["--set", "output.width=400", "--set", "output.height=225"]).output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("unknown keys `width` and `height` in [output]"), "{said}");
+}
+
 #[test]
 fn a_setting_without_an_equals_sign_is_wrong_usage() {
     for setting in ["simulation.step", "", "=1"] {
