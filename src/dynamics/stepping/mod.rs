@@ -178,8 +178,6 @@ fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
         // The physics engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
         normalized_max_corrective_velocity: 3.0 / length.sqrt(),
         warmstart_joints: true,
-        normalized_contact_recycle_distance: std::env::var("JB_REC").map_or(0.05, |v| v.parse().unwrap()),
-        contact_recycling: std::env::var_os("JB_NOREC").is_none(),
         ..IntegrationParameters::default()
     }
 }
