@@ -88,7 +88,7 @@ impl<'a> ResultCollector<'a> {
     fn failure(&mut self, task: &RenderTask, said: &str) -> Result<(), RenderError> {
         /// If this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
         const HOPELESS: usize = 8;
-        // Other moments of the failed frame may be in rendering already. Their images are ignored.
+        // POV-Ray may still be rendering other moments of the failed frame. Their images are ignored.
         self.exposures.remove(&task.index);
         if !self.failed.insert(task.index) {
             return Ok(());

@@ -8,13 +8,13 @@ use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::bounce::Bounce;
 use super::engine_input::EngineInput;
 use super::hooks::Hooks;
-use super::{TimeStepping, bodies, calls, set_step, spin};
+use super::{TimeStepping, bodies, kept_contacts, set_step, spin};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
 
 impl TimeStepping {
-    /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
+    /// Advances to time `t` in steps that end at each birth and death. KeptContacts `see` with a snapshot for each of `moments`.
     pub(super) fn advance_by_events(
         &mut self,
         t: f64,
@@ -92,7 +92,7 @@ impl TimeStepping {
         self.driven.begin(&self.model, begin, &self.state, &mut self.loads);
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
-        self.displacement.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
+        self.mean_velocity.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
         self.push(end, dt);
         let Self { books, engine, rolling, mixing, joints, slow, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
@@ -136,7 +136,7 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, calls, mixing, displacement, slow, .. } = self;
+        let Self { rolling, kept_contacts, mixing, mean_velocity, slow, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -146,7 +146,7 @@ impl TimeStepping {
             state.angular_momentum[i] += dt * loads.torque[i];
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
-            let leading = if displacement.is_thin(i) {
+            let leading = if mean_velocity.is_thin(i) {
                 spin::steady(turning, dt)
             } else {
                 spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
@@ -154,15 +154,21 @@ impl TimeStepping {
             let wanted = EngineInput {
                 force: loads.force[i],
                 turning: leading
-                    - rolling.take(engine, calls.colliders(i), i, (orientation, turning, leading), dt),
+                    - rolling.take(
+                        engine,
+                        kept_contacts.colliders(i),
+                        i,
+                        (orientation, turning, leading),
+                        dt,
+                    ),
                 // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at
                 // rest.
                 is_fast: dt * state.velocity[i].length() > half_thickness[i],
             };
             let is_bouncing = mixing.has_restitution && state.velocity[i].length_squared() > *slow * *slow;
-            calls.set(engine, i, is_bouncing || rolling.is_spun(i));
+            kept_contacts.set(engine, i, is_bouncing || rolling.is_spun(i));
             if !rolling.is_ball(i) {
-                calls.turn(engine, i, orientation, calls::ANGLE);
+                kept_contacts.turn(engine, i, orientation, kept_contacts::ANGLE);
             }
             if !input.is_same(&wanted) {
                 let Some(body) = engine.bodies.get_mut(handles[i]) else { continue };
@@ -178,15 +184,16 @@ impl TimeStepping {
     /// bodies.
     fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        let Self { model, state, engine, handles, rolling, calls, .. } = self;
+        let Self { model, state, engine, handles, rolling, kept_contacts, .. } = self;
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
             let leading = spin::leading(from, pose.rotation, dt);
             let turning = model.angular_velocity(i, state);
-            let untaken = leading - rolling.take(engine, calls.colliders(i), i, (from, turning, leading), dt);
-            calls.set(engine, i, rolling.is_spun(i));
-            calls.turn(engine, i, pose.rotation, calls::GUIDED_ANGLE);
+            let untaken =
+                leading - rolling.take(engine, kept_contacts.colliders(i), i, (from, turning, leading), dt);
+            kept_contacts.set(engine, i, rolling.is_spun(i));
+            kept_contacts.turn(engine, i, pose.rotation, kept_contacts::GUIDED_ANGLE);
             if untaken != leading {
                 pose.rotation = spin::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.
@@ -202,8 +209,8 @@ impl TimeStepping {
 
     /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
-        let Self { model, state, engine, handles, books, joints, inputs, rolling, displacement, .. } = self;
-        displacement.end(engine, joints);
+        let Self { model, state, engine, handles, books, joints, inputs, rolling, mean_velocity, .. } = self;
+        mean_velocity.end(engine, joints);
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
         let (mut moved, mut carried) = (Vec::new(), Vec::new());
@@ -233,9 +240,13 @@ impl TimeStepping {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
-            } else if let Some(mean) =
-                displacement.mean(engine, (i, body), (bodies::pose(state, i), books.before[i].0), turning, dt)
-            {
+            } else if let Some(mean) = mean_velocity.mean(
+                engine,
+                (i, body),
+                (bodies::pose(state, i), books.before[i].0),
+                turning,
+                dt,
+            ) {
                 (velocity, turning) = mean;
                 carried.push((*handle, velocity));
             }

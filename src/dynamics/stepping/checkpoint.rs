@@ -46,7 +46,7 @@ impl TimeStepping {
             away: self.model.away(),
             near: self.books.near.clone(),
             newcomers: self.newcomers.clone(),
-            orientation: self.calls.orientation.clone(),
+            orientation: self.kept_contacts.orientation.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
@@ -67,7 +67,7 @@ impl TimeStepping {
         let Moment { time, steps, state, ledger, over, away, near, newcomers, orientation } = moment;
         self.newcomers = newcomers;
         fresh_contacts::find_contacts_anew(&mut engine);
-        self.calls.resume(&engine, orientation);
+        self.kept_contacts.resume(&engine, orientation);
         self.model.set_away(&away, &mut self.state);
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);

@@ -1,7 +1,7 @@
 //! Makes the physics engine find contacts anew in each step.
 //!
-//! The engine keeps the points of a contact as long as the bodies have hardly moved, up to a millimetre. A body that rolls moves away from
-//! such points, and its weight acts off its centre: slow cylinders would accelerate by themselves.
+//! The engine keeps the points of a contact until the bodies have moved by a millimetre. A rolling body moves away from these points, so
+//! the contact force acts beside its centre: slow cylinders would accelerate by themselves.
 
 use parry3d_f64::query::{
     ClosestPoints, Contact, ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher,

@@ -12,14 +12,14 @@ mod advance;
 mod bodies;
 mod bookkeeping;
 mod bounce;
-mod calls;
 mod checkpoint;
 mod convex_parts;
-mod displacement;
 mod engine_input;
 mod fresh_contacts;
 mod hooks;
 mod joint;
+mod kept_contacts;
+mod mean_velocity;
 mod mesh;
 mod mixing;
 mod non_potential_work;
@@ -35,10 +35,10 @@ mod touch;
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
 
 use self::bookkeeping::Bookkeeping;
-use self::calls::Calls;
-use self::displacement::Displacement;
 use self::engine_input::EngineInput;
 use self::joint::Joints;
+use self::kept_contacts::KeptContacts;
+use self::mean_velocity::MeanVelocity;
 use self::mixing::Mixing;
 use self::non_potential_work::NonPotentialWork;
 use self::rolling::Rolling;
@@ -59,8 +59,8 @@ const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
 /// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
-/// The speed of a body that counts as resting, for a thickness of 1 m of the thinnest moving body, m/s. Speeds grow with the root of the
-/// thickness, as they do in a fall.
+/// A slower body counts as resting, if the thinnest moving body has a thickness of 1 m, m/s. For other thicknesses, the limit grows with
+/// the root of the thickness, as the speed after a fall does.
 const SLOW: f64 = 0.1;
 
 /// Fast bodies stop this far in front of a surface or behind it, as a fraction of the thickness of the thinnest moving body.
@@ -87,9 +87,9 @@ pub struct TimeStepping {
     /// Bodies that are slower than this are at rest, m/s: the speed after a fall by a small part of the thinnest moving body.
     slow: f64,
     joints: Joints,
-    displacement: Displacement,
+    mean_velocity: MeanVelocity,
     rolling: Rolling,
-    calls: Calls,
+    kept_contacts: KeptContacts,
     books: Bookkeeping,
     driven: NonPotentialWork,
     /// Whether snapshots list the contacts.
@@ -122,7 +122,7 @@ impl TimeStepping {
         let joints = Joints::insert(&mut engine, links, &handles, &model);
         let rolling = Rolling::new(&engine, &symmetries, (&model, &joints), length);
         let colliders = symmetries.iter().map(|own| own.iter().map(|(handle, _)| *handle).collect());
-        let calls = Calls::new(&engine, colliders, &state.orientation);
+        let kept_contacts = KeptContacts::new(&engine, colliders, &state.orientation);
         TimeStepping {
             time: parts.time,
             step: parts.step,
@@ -132,7 +132,7 @@ impl TimeStepping {
             ledger: parts.ledger,
             calendar: parts.calendar,
             books: Bookkeeping::new(model.len(), length, joints.held(model.len())),
-            displacement: Displacement::new(&engine, &model, &joints),
+            mean_velocity: MeanVelocity::new(&engine, &model, &joints),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
             shows_contacts: true,
@@ -141,7 +141,7 @@ impl TimeStepping {
             model,
             state,
             rolling,
-            calls,
+            kept_contacts,
             inputs: EngineInput::read_all(&engine, &handles),
             handles,
             slow: SLOW * length.sqrt(),

@@ -1,14 +1,14 @@
 //! The velocities of bodies that joints hold.
 //!
 //! The physics engine solves each step twice: first with a correction of the joints' errors of position, then without it. It moves the
-//! bodies by the first solution, and keeps the velocities of the second one. These are perpendicular to the joints' levers at the start of
-//! the step. The levers rotate by an angle φ within the step, so the next step would take 1 − cos φ of the speed away, and pendulums would
-//! lose their energy: a body of angular velocity ω by ½ ω² Δt of its speed per second.
+//! bodies by the first solution, and keeps the velocities of the second one. These velocities are perpendicular to the joints' levers at
+//! the start of the step. The levers rotate by an angle φ within the step, so the next step multiplies the speed by cos φ. A pendulum
+//! would lose its energy: at the angular velocity ω, the speed would fall by the part ½ ω² Δt in each second.
 //!
-//! The displacement in the step, divided by its length, is the mean velocity. With it, a step is symmetric in time, and no energy is lost:
-//! it is the method SHAKE, with a linearised constraint. Source: E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical Integration*,
-//! VII.1.4. So bodies on joints get their mean velocity, unless contacts, limits or overstretched ropes push them. Those push bodies apart
-//! without a lasting velocity.
+//! The mean velocity of a step is its displacement divided by its duration. With this velocity, the step is symmetric in time, and loses no
+//! energy. This is the method SHAKE with linearised constraints. Source: E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
+//! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit or an overstretched rope
+//! pushes them: its displacement only corrects an overlap or a length, and must not become a velocity.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ const FASTEST: f64 = 0.2;
 const TAUT: f64 = 1e-7;
 
 /// Tells which bodies get their mean velocity.
-pub(super) struct Displacement {
+pub(super) struct MeanVelocity {
     /// For each joint, whether at the start of the step it was a rope that was longer than its rotation explains, or a hinge or slider at
     /// its limit.
     is_stopped: Vec<bool>,
@@ -47,8 +47,8 @@ pub(super) struct Displacement {
     gets_mean: Vec<bool>,
 }
 
-impl Displacement {
-    pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> Displacement {
+impl MeanVelocity {
+    pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> MeanVelocity {
         let bodies = model.len();
         let held = joints.held(bodies);
         let mut axis = vec![None; bodies];
@@ -69,7 +69,7 @@ impl Displacement {
             axis.is_some_and(|axis| axis.dot(inertia * axis) > THIN * inertia.min_element())
         };
         let is_thin = axis.iter().enumerate().map(is_thin).collect();
-        Displacement { is_stopped: vec![false; joints.len()], gets_mean: held.clone(), held, axis, is_thin }
+        MeanVelocity { is_stopped: vec![false; joints.len()], gets_mean: held.clone(), held, axis, is_thin }
     }
 
     /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.

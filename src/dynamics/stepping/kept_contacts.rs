@@ -12,7 +12,7 @@ pub(super) const ANGLE: f64 = 0.01;
 pub(super) const GUIDED_ANGLE: f64 = 0.003;
 
 /// The colliders of all bodies, and the callbacks for their contacts.
-pub(super) struct Calls {
+pub(super) struct KeptContacts {
     bodies: Vec<Caller>,
     /// The orientation of each body when its contacts were last found anew because of its rotation.
     pub(super) orientation: Vec<DQuat>,
@@ -26,18 +26,18 @@ struct Caller {
     is_always_called: bool,
 }
 
-impl Calls {
+impl KeptContacts {
     /// `colliders` holds the colliders of each body, and `orientation` the orientation of each body.
     pub(super) fn new(
         engine: &PhysicsWorld,
         colliders: impl Iterator<Item = Vec<ColliderHandle>>,
         orientation: &[DQuat],
-    ) -> Calls {
+    ) -> KeptContacts {
         let caller = |colliders: Vec<ColliderHandle>| {
             let is_called = is_called(engine, &colliders);
             Caller { colliders, is_called, is_always_called: is_called }
         };
-        Calls { bodies: colliders.map(caller).collect(), orientation: orientation.to_vec() }
+        KeptContacts { bodies: colliders.map(caller).collect(), orientation: orientation.to_vec() }
     }
 
     /// Continues with an engine that has been restored from a checkpoint.
