@@ -266,6 +266,13 @@ impl Solver {
         free
     }
 
+    /// Returns the changes of velocity and of angular velocity of a body by the last impulses that [`respond`](Self::respond) applied;
+    /// `None` for a body without joints.
+    pub(in crate::dynamics) fn response_of(&self, body: usize) -> Option<(DVec3, DVec3)> {
+        let member = self.structure.as_ref()?.bodies.binary_search(&body).ok()?;
+        Some((self.members[member].velocity, self.members[member].angular_velocity))
+    }
+
     /// Returns the place and the forces of each lasting contact at the last evaluation of forces, sorted by bodies.
     pub(in crate::dynamics) fn contact_snapshots(&self, model: &Model) -> Vec<ContactSnapshot> {
         let Some(structure) = &self.structure else { return Vec::new() };

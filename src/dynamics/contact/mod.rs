@@ -31,6 +31,7 @@ mod triangles;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 pub(super) use ball::Ball;
 pub(super) use collider::Collider;
@@ -50,7 +51,7 @@ pub struct Contacts {
 }
 
 /// One impact between two bodies, as the frames and labels of the animation report it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Impact {
     /// The time at which the impact happened, s.
     pub time: f64,

@@ -14,7 +14,7 @@ use super::{TimeStepping, bodies, kept_contacts, set_step, spin};
 const DEEPEST: f64 = 0.1;
 
 impl TimeStepping {
-    /// Advances to time `t` in steps that end at each birth and death. KeptContacts `see` with a snapshot for each of `moments`.
+    /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
     pub(super) fn advance_by_events(
         &mut self,
         t: f64,
@@ -93,11 +93,12 @@ impl TimeStepping {
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
         self.mean_velocity.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
+        self.rebounds.begin(self.steps);
         self.push(end, dt);
-        let Self { books, engine, rolling, mixing, joints, slow, .. } = self;
+        let Self { books, engine, rolling, mixing, joints, slow, rebounds, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
         set_step(&mut engine.integration_parameters, dt);
-        let bounce = Bounce { dt, slow: *slow };
+        let bounce = Bounce { rebounds, dt, slow: *slow };
         engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.events);
         self.steps += 1;
         if let Some(body) = self.engine.quarantine().bodies().first() {
@@ -108,8 +109,7 @@ impl TimeStepping {
         }
         self.pull(dt);
         self.check_newcomers(begin)?;
-        let bodies = (&self.model, &self.joints);
-        self.books.close(&self.engine, bodies, (&mut self.state, &self.loads, &self.driven), end);
+        self.close(end);
         Ok(())
     }
 
@@ -136,14 +136,15 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, kept_contacts, mixing, mean_velocity, slow, .. } = self;
+        let Self { rolling, kept_contacts, mixing, mean_velocity, slow, rebounds, reach, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
             if model.inverse_mass()[i] == 0.0 {
                 continue;
             }
-            state.angular_momentum[i] += dt * loads.torque[i];
+            let (impulse, moment) = rebounds.push(i);
+            state.angular_momentum[i] += dt * loads.torque[i] + moment;
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
             let leading = if mean_velocity.is_thin(i) {
@@ -152,7 +153,7 @@ impl TimeStepping {
                 spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
             };
             let wanted = EngineInput {
-                force: loads.force[i],
+                force: loads.force[i] + impulse / dt,
                 turning: leading
                     - rolling.take(
                         engine,
@@ -163,9 +164,12 @@ impl TimeStepping {
                     ),
                 // Fast bodies must not pass through moving bodies. By default, the physics engine stops fast bodies only at bodies at
                 // rest.
-                is_fast: dt * state.velocity[i].length() > half_thickness[i],
+                is_fast: dt * (state.velocity[i] + model.inverse_mass()[i] * impulse).length()
+                    > half_thickness[i],
             };
-            let is_bouncing = mixing.has_restitution && state.velocity[i].length_squared() > *slow * *slow;
+            let is_bouncing = mixing.has_restitution
+                && state.velocity[i].length() + reach[i] * turning.length() > *slow
+                || rebounds.is_due(i);
             kept_contacts.set(engine, i, is_bouncing || rolling.is_spun(i));
             if !rolling.is_ball(i) {
                 kept_contacts.turn(engine, i, orientation, kept_contacts::ANGLE);
@@ -210,6 +214,7 @@ impl TimeStepping {
     /// Reads the positions and velocities of the bodies from the physics engine after a step of `dt`, s.
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, inputs, rolling, mean_velocity, .. } = self;
+        let rebounds = &self.rebounds;
         mean_velocity.end(engine, joints);
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
@@ -258,11 +263,12 @@ impl TimeStepping {
             state.orientation[i] = orientation;
             // Contacts and joints change the angular velocity for the inertia tensor at the start of the step.
             let change = turning - books.mean[i].1;
-            books.turned[i] = DVec3::ZERO;
+            books.turned[i] = rebounds.push(i).1;
             if change != DVec3::ZERO {
                 let inertia = model.inertia()[i];
-                books.turned[i] = from * (inertia * (from.conjugate() * change));
-                state.angular_momentum[i] += books.turned[i];
+                let change = from * (inertia * (from.conjugate() * change));
+                books.turned[i] += change;
+                state.angular_momentum[i] += change;
             }
             let after = (state.velocity[i], model.angular_velocity(i, state));
             books.mean[i] = middle(books.before[i], after);
@@ -279,6 +285,12 @@ impl TimeStepping {
         }
     }
 
+    /// Books the work of contacts and joints in a step that ends at time `end`, s, and finds the impacts and the rebounds.
+    fn close(&mut self, end: f64) {
+        let Self { books, engine, model, joints, state, loads, driven, mixing, rebounds, .. } = self;
+        books.close(engine, (model, joints), (state, loads, driven), (rebounds, mixing), end);
+    }
+
     /// Enables bodies that are born and disables bodies that die. `due` holds the index of each body, and true for a birth.
     fn change(&mut self, due: &[(usize, bool)]) {
         if due.is_empty() {
@@ -286,6 +298,7 @@ impl TimeStepping {
         }
         self.ledger.open(&self.model, self.time, &self.state);
         self.model.let_come_and_go(due, &mut self.state);
+        self.rebounds.forget_bodies();
         self.model.place(self.time, &mut self.state);
         for &(i, comes) in due {
             let Some(body) = self.engine.bodies.get_mut(self.handles[i]) else { continue };

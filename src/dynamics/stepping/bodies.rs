@@ -35,6 +35,12 @@ pub(super) fn half_thickness(model: &Model) -> Vec<f64> {
     (0..model.len()).map(of).collect()
 }
 
+/// Returns the largest distance of each body's surface from its centre of mass, m; zero for bodies without a shape, and for planes.
+pub(super) fn reach(model: &Model) -> Vec<f64> {
+    let of = |i: usize| model.shape(i).and_then(Shape::bounding_radius).unwrap_or(0.0);
+    (0..model.len()).map(of).collect()
+}
+
 /// Adds all bodies to the physics engine. Returns the handle and the colliders of each body. Absent bodies are disabled. `length` is the thickness of
 /// the thinnest moving body, m.
 pub(super) fn insert(

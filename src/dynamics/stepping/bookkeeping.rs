@@ -1,6 +1,6 @@
 //! Books the energy that contacts and joints take or give in each step, and finds the impacts.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
@@ -13,7 +13,9 @@ use super::super::contact::Impact;
 use super::super::motion::Twist;
 use super::super::{Accounts, Loads, Model, State};
 use super::joint::{Joints, MotorPush};
+use super::mixing::Mixing;
 use super::non_potential_work::NonPotentialWork;
+use super::rebound::{Onset, Rebounds};
 use super::touch::{self, Push, Touch};
 
 /// A new contact counts as an impact only if the bodies approach faster than this many thicknesses of the thinnest moving body per second.
@@ -131,7 +133,7 @@ impl Bookkeeping {
     }
 
     /// Adds the work of contacts and joints in the last step to the accounts, and finds the impacts of the step. `time` is the end of the
-    /// step, s.
+    /// step, s. Also prepares the rebounds of the next step.
     ///
     /// An impulse changes the kinetic energy of a body by its product with the mean of the velocities before and after it, also if other
     /// impulses act at the same time. The sum over both bodies of a contact is the energy loss. The contribution of a guided body is work.
@@ -143,6 +145,7 @@ impl Bookkeeping {
         engine: &PhysicsWorld,
         (model, joints): (&Model, &Joints),
         (state, loads, driven): (&mut State, &Loads, &NonPotentialWork),
+        (rebounds, mixing): (&mut Rebounds, &Mixing),
         time: f64,
     ) {
         self.note_near();
@@ -152,9 +155,12 @@ impl Bookkeeping {
         let mut accounts = Accounts::default();
         // The energy that contacts give to the bodies held by joints in this step, J.
         let mut pressed = 0.0;
+        let mut onsets = Vec::new();
+        let mut received = self.receive(rebounds, model, &mut accounts, &mut pressed);
         let meet = |touch: &Touch<'_>| touch.bodies.into_iter().for_each(|body| touched[body] = true);
         touch::visit(engine.narrow_phase.contact_pairs(), meet, |pair, touch, push| {
             pushing.see(pair);
+            onsets.extend(rebounds.onset((pair, touch), &self.before, mixing));
             let Some([one, two]) = self.rates(touch, push) else { return };
             accounts.impacts += two[0] - one[0];
             accounts.friction += two[1] - one[1];
@@ -191,7 +197,40 @@ impl Bookkeeping {
             accounts.limits += others;
         }
         state.accounts.add(1.0, accounts);
-        self.find_impacts(engine, &pushing, time);
+        self.impacts.append(&mut received);
+        let unfinished = self.find_impacts(engine, &pushing, time, &onsets);
+        rebounds.prepare(&onsets, unfinished, (model, time, state));
+    }
+
+    /// Books the work of the rebounds of the last step. Returns the impacts that are complete with them. Adds the energy that they give to the
+    /// bodies held by joints to `pressed`, J.
+    fn receive(
+        &self,
+        rebounds: &Rebounds,
+        model: &Model,
+        accounts: &mut Accounts,
+        pressed: &mut f64,
+    ) -> Vec<Impact> {
+        let mut impacts: Vec<([ColliderHandle; 2], Impact)> = Vec::new();
+        for rebound in &rebounds.due {
+            let works = rebound.work(&self.mean);
+            for (body, work) in works {
+                accounts.impacts += work;
+                if model.is_guided(body) {
+                    accounts.work -= work;
+                }
+                if self.held[body] && model.inverse_mass()[body] != 0.0 {
+                    *pressed += work;
+                }
+            }
+            impacts.extend(rebound.impact.map(|impact| (rebound.pair, impact)));
+            if let Some((_, impact)) = impacts.iter_mut().find(|(pair, _)| *pair == rebound.pair) {
+                let [(one, work), (two, other_work)] = works;
+                impact.impulse += if one < two { rebound.impulse } else { -rebound.impulse };
+                impact.energy = (impact.energy - work - other_work).max(0.0);
+            }
+        }
+        impacts.into_iter().map(|(_, impact)| impact).collect()
     }
 
     /// Returns the energy that a contact takes from its first body and the energy that it gives to its second body, J. Each pair holds the
@@ -220,21 +259,37 @@ impl Bookkeeping {
         }
     }
 
-    /// Finds the impacts of the last step: first contact impulses of near pairs. Removes these pairs from the list of near pairs.
-    fn find_impacts(&mut self, engine: &PhysicsWorld, pushing: &Pushing, time: f64) {
+    /// Finds the impacts of the last step: first contact impulses of near pairs. Removes these pairs from the list of near pairs. Returns
+    /// the impacts at `onsets`, which are complete after the next step only.
+    fn find_impacts(
+        &mut self,
+        engine: &PhysicsWorld,
+        pushing: &Pushing,
+        time: f64,
+        onsets: &[Onset],
+    ) -> HashMap<[ColliderHandle; 2], Impact> {
+        let mut unfinished = HashMap::new();
         let mut near = std::mem::take(&mut self.near);
         near.retain(|pair| {
             if !pushing.has(*pair) {
                 return true;
             }
             let Some(pair) = engine.narrow_phase.contact_pair(pair[0], pair[1]) else { return true };
-            !self.note_impact(pair, time)
+            let colliders = [pair.collider1, pair.collider2];
+            let (impact, is_pushing) = self.impact(pair, time);
+            if onsets.iter().any(|onset| onset.pair == colliders) {
+                unfinished.extend(impact.map(|impact| (colliders, impact)));
+            } else {
+                self.impacts.extend(impact);
+            }
+            !is_pushing
         });
         self.near = near;
+        unfinished
     }
 
-    /// Records an impact of a pair if its bodies approached fast enough. Returns whether the pair had any normal impulse.
-    fn note_impact(&mut self, pair: &ContactPair, time: f64) -> bool {
+    /// Returns the impact of a pair if its bodies approached fast enough, and whether the pair had any normal impulse.
+    fn impact(&self, pair: &ContactPair, time: f64) -> (Option<Impact>, bool) {
         let (mut hardest, mut fastest) = (0.0, 0.0_f64);
         let (mut impulse, mut energy) = (DVec3::ZERO, 0.0);
         let mut found = None;
@@ -257,18 +312,16 @@ impl Bookkeeping {
             impulse += push.friction;
             energy += self.rates(&touch, &push).map_or(0.0, |[one, two]| one[0] + one[1] - two[0] - two[1]);
         }
-        let Some((bodies, normal, arm)) = found else { return false };
-        if fastest > self.slow {
-            let sign = if bodies[0] < bodies[1] { 1.0 } else { -1.0 };
-            self.impacts.push(Impact {
-                time,
-                bodies: [bodies[0].min(bodies[1]), bodies[0].max(bodies[1])],
-                place: self.places[bodies[0]] + arm,
-                normal: sign * normal,
-                impulse: sign * impulse,
-                energy: energy.max(0.0),
-            });
-        }
-        true
+        let Some((bodies, normal, arm)) = found else { return (None, false) };
+        let sign = if bodies[0] < bodies[1] { 1.0 } else { -1.0 };
+        let impact = Impact {
+            time,
+            bodies: [bodies[0].min(bodies[1]), bodies[0].max(bodies[1])],
+            place: self.places[bodies[0]] + arm,
+            normal: sign * normal,
+            impulse: sign * impulse,
+            energy: energy.max(0.0),
+        };
+        (Some(impact).filter(|_| fastest > self.slow), true)
     }
 }

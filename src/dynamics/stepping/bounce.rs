@@ -6,15 +6,20 @@
 //!
 //! The engine limits friction by the normal impulse before restitution, which is too small by the factor 1 + e. So the coefficient of
 //! friction gets this factor when an impact begins.
+//!
+//! If a joint holds one of the bodies, the rebound comes in the next step; see [`super::rebound`].
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{AngularInertia, ContactModificationContext, RigidBody, SolverContact};
+
+use super::rebound::Rebounds;
 
 /// The number of sweeps over the points of a contact that find their impulses.
 const SWEEPS: usize = 100;
 
 /// Corrects contacts in which an impact with restitution begins.
-pub(super) struct Bounce {
+pub(super) struct Bounce<'a> {
+    pub(super) rebounds: &'a Rebounds,
     /// The length of the step, s.
     pub(super) dt: f64,
     /// Bodies that approach more slowly than this are at rest, m/s.
@@ -59,14 +64,18 @@ impl Side {
     }
 }
 
-impl Bounce {
-    /// Corrects a contact if an impact with restitution begins there.
-    pub(super) fn modify(&self, context: &mut ContactModificationContext<'_>) {
+impl Bounce<'_> {
+    /// Corrects a contact of two bodies if an impact with restitution begins there.
+    pub(super) fn modify(&self, context: &mut ContactModificationContext<'_>, touching: [usize; 2]) {
         let bodies = context.bodies;
         let sides = [context.rigid_body1, context.rigid_body2]
             .map(|body| bodies.get(body?).map(|body| Side::new(body, self.dt)));
         let (Some(contact), [Some(one), Some(two)]) = (context.rigid_mut(), sides) else { return };
         let (restitution, normal) = (*contact.restitution, *contact.normal);
+        let waits = self.rebounds.waits(touching);
+        if waits {
+            *contact.restitution = 0.0;
+        }
         let is_new = contact.manifold.points.iter().all(|point| point.data.impulse == 0.0);
         if restitution <= 0.0 || !is_new {
             return;
@@ -82,6 +91,10 @@ impl Bounce {
             contact.solver_contacts.iter().copied().filter(|point| meets(point)).collect();
         let Some(first) = meeting.first() else { return };
         *contact.friction *= 1.0 + restitution;
+        if waits {
+            *contact.user_data = self.rebounds.mark();
+            return;
+        }
         if meeting.len() == 1 {
             return;
         }
@@ -108,7 +121,7 @@ impl Bounce {
 /// `response` returns the velocity at the first point that a unit impulse at the second point causes. No impulse is negative: a point at
 /// which the bodies separate without an impulse gets none. Source: the projected Gauss–Seidel method, K. Erleben, *Numerical methods for
 /// linear complementarity problems in physics-based animation*, SIGGRAPH 2013.
-fn impulses(approach: &[f64], response: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+pub(super) fn impulses(approach: &[f64], response: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let mut impulses = vec![0.0; approach.len()];
     for _ in 0..SWEEPS {
         for i in 0..approach.len() {

@@ -11,6 +11,7 @@ use super::super::{EnergyLedger, State};
 use super::TimeStepping;
 use super::engine_input::EngineInput;
 use super::fresh_contacts;
+use super::rebound::Rebound;
 
 /// Everything in a run that changes with time, except the physics engine.
 #[derive(Serialize, Deserialize)]
@@ -29,6 +30,8 @@ struct Moment {
     newcomers: Vec<usize>,
     /// The orientation of each body when the engine last found its contacts anew because of its rotation.
     orientation: Vec<DQuat>,
+    /// The rebounds of the next step.
+    rebounds: Vec<Rebound>,
 }
 
 impl TimeStepping {
@@ -47,6 +50,7 @@ impl TimeStepping {
             near: self.books.near.clone(),
             newcomers: self.newcomers.clone(),
             orientation: self.kept_contacts.orientation.clone(),
+            rebounds: self.rebounds.due.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
     }
@@ -64,7 +68,8 @@ impl TimeStepping {
         if !is_ours {
             return false;
         }
-        let Moment { time, steps, state, ledger, over, away, near, newcomers, orientation } = moment;
+        let Moment { time, steps, state, ledger, over, away, near, newcomers, orientation, rebounds } =
+            moment;
         self.newcomers = newcomers;
         fresh_contacts::find_contacts_anew(&mut engine);
         self.kept_contacts.resume(&engine, orientation);
@@ -72,6 +77,7 @@ impl TimeStepping {
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);
         self.books.near = near;
+        self.rebounds.set_due(rebounds);
         self.inputs = EngineInput::read_all(&engine, &self.handles);
         self.rolling.resume(&engine, &self.handles);
         self.engine = engine;

@@ -12,7 +12,7 @@ use super::rolling::Rolling;
 pub(super) struct Hooks<'a> {
     pub(super) mixing: &'a Mixing,
     pub(super) rolling: &'a Rolling,
-    pub(super) bounce: Bounce,
+    pub(super) bounce: Bounce<'a>,
 }
 
 impl PhysicsHooks for Hooks<'_> {
@@ -25,12 +25,12 @@ impl PhysicsHooks for Hooks<'_> {
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
         let one = body_of(context.colliders, context.collider1);
         let two = body_of(context.colliders, context.collider2);
-        if let (Some(one), Some(two), Some(manifold)) = (one, two, context.rigid_mut())
-            && let Some(friction) = self.mixing.friction(one, two)
-        {
+        let (Some(one), Some(two)) = (one, two) else { return };
+        if let (Some(manifold), Some(friction)) = (context.rigid_mut(), self.mixing.friction(one, two)) {
             *manifold.friction = friction;
         }
-        self.bounce.modify(context);
+        self.bounce.modify(context, [one, two]);
+        self.bounce.rebounds.part(context);
         self.rolling.modify(context);
     }
 }

@@ -1,5 +1,7 @@
 //! Joints in the physics engine. The engine solves joints and contacts together, by impulses.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{
     GenericJoint, GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel,
@@ -7,7 +9,9 @@ use rapier3d_f64::prelude::{
 };
 
 use super::super::motion::Twist;
-use super::super::{Anchor, Ball, BodyId, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State};
+use super::super::{
+    Anchor, Ball, BodyId, Constraint, Fixed, Freedom, Hinge, Model, Motor, Rod, Rope, Slider, State,
+};
 
 /// The stiffness (N/m) of the motor that keeps the length of a rod, and the damping (N s/m or N m s) of a motor that keeps a speed. The
 /// value is so large that only the length of the step determines how soft the motor is.
@@ -90,6 +94,18 @@ impl LinkKind {
             LinkKind::Hinge(hinge) => of(&hinge.freedom, JointAxis::AngX),
             LinkKind::Slider(slider) => of(&slider.freedom, JointAxis::LinX),
             _ => None,
+        }
+    }
+
+    /// Returns the joint as a constraint.
+    pub(super) fn constraint(&self) -> Arc<dyn Constraint> {
+        match self {
+            LinkKind::Ball(joint) => Arc::new(*joint),
+            LinkKind::Hinge(joint) => Arc::new(joint.clone()),
+            LinkKind::Slider(joint) => Arc::new(joint.clone()),
+            LinkKind::Fixed(joint) => Arc::new(*joint),
+            LinkKind::Rod(joint) => Arc::new(*joint),
+            LinkKind::Rope(joint) => Arc::new(*joint),
         }
     }
 

@@ -81,4 +81,9 @@ impl Mixing {
         let is_asked = self.asked[one] || self.asked[two];
         is_asked.then(|| self.surfaces[one].meet(&self.surfaces[two]).friction)
     }
+
+    /// Returns the restitution between two bodies.
+    pub(super) fn restitution(&self, [one, two]: [usize; 2]) -> f64 {
+        self.surfaces[one].meet(&self.surfaces[two]).restitution
+    }
 }

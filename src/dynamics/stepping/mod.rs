@@ -18,12 +18,14 @@ mod engine_input;
 mod fresh_contacts;
 mod hooks;
 mod joint;
+mod joint_response;
 mod kept_contacts;
 mod mean_velocity;
 mod mesh;
 mod mixing;
 mod non_potential_work;
 mod plane;
+mod rebound;
 mod rolling;
 mod shape;
 mod snapshot;
@@ -41,6 +43,7 @@ use self::kept_contacts::KeptContacts;
 use self::mean_velocity::MeanVelocity;
 use self::mixing::Mixing;
 use self::non_potential_work::NonPotentialWork;
+use self::rebound::Rebounds;
 use self::rolling::Rolling;
 use super::contact::{Contacts, Impact};
 use super::presence::PresenceSchedule;
@@ -83,12 +86,15 @@ pub struct TimeStepping {
     inputs: Vec<EngineInput>,
     /// Half of each body's thickness, m. A body that moves farther than this within a step counts as fast.
     half_thickness: Vec<f64>,
+    /// The largest distance of each body's surface from its centre of mass, m.
+    reach: Vec<f64>,
     mixing: Mixing,
     /// Bodies that are slower than this are at rest, m/s: the speed after a fall by a small part of the thinnest moving body.
     slow: f64,
     joints: Joints,
     mean_velocity: MeanVelocity,
     rolling: Rolling,
+    rebounds: Rebounds,
     kept_contacts: KeptContacts,
     books: Bookkeeping,
     driven: NonPotentialWork,
@@ -110,6 +116,7 @@ impl TimeStepping {
     pub fn new(world: World, contacts: &Contacts, links: &[Link]) -> TimeStepping {
         let parts = world.into_parts();
         let (mut model, mut state) = (parts.model, parts.state);
+        links.iter().for_each(|link| model.push_constraint(link.kind.constraint()));
         let moves: Vec<bool> = bodies::moving(&model);
         let mixing = Mixing::new(contacts, &moves);
         let mut engine = PhysicsWorld::new();
@@ -123,6 +130,8 @@ impl TimeStepping {
         let rolling = Rolling::new(&engine, &symmetries, (&model, &joints), length);
         let colliders = symmetries.iter().map(|own| own.iter().map(|(handle, _)| *handle).collect());
         let kept_contacts = KeptContacts::new(&engine, colliders, &state.orientation);
+        let held = joints.held(model.len());
+        let slow = SLOW * length.sqrt();
         TimeStepping {
             time: parts.time,
             step: parts.step,
@@ -131,7 +140,9 @@ impl TimeStepping {
             before: State::default(),
             ledger: parts.ledger,
             calendar: parts.calendar,
-            books: Bookkeeping::new(model.len(), length, joints.held(model.len())),
+            books: Bookkeeping::new(model.len(), length, held.clone()),
+            rebounds: Rebounds::new(&model, &held, slow),
+            reach: bodies::reach(&model),
             mean_velocity: MeanVelocity::new(&engine, &model, &joints),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
@@ -144,7 +155,7 @@ impl TimeStepping {
             kept_contacts,
             inputs: EngineInput::read_all(&engine, &handles),
             handles,
-            slow: SLOW * length.sqrt(),
+            slow,
             engine,
             mixing,
             joints,

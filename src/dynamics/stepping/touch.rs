@@ -58,6 +58,11 @@ impl<'a> Touch<'a> {
         self.manifold.data.normal
     }
 
+    /// The number that a callback has stored in the contact.
+    pub(super) fn mark(&self) -> u32 {
+        self.manifold.data.user_data
+    }
+
     /// Returns the points of the contact.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> + use<'a> {
         self.data().map(|data| Point { impulse: data.impulse, arms: [data.solver_dp1, data.solver_dp2] })

@@ -100,7 +100,7 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
 | resting bodies | touch exactly | sink into each other by up to a percent of their thickness |
 | integrators | any that keeps joints | `euler-cromer` |
 | joints | all, exact to rounding | not `gear` and `pulley`; the others give way a little |
-| rebounds of bodies on joints | exact | as if the joints were not there, so they are wrong |
+| rebounds of bodies on joints | exact | one step after the impact; ropes, limits and motors take no part |
 | forces and torques of joints, in labels, arrows and tables | yes | refused |
 | a motor with `angle` or `position` | exact, or with a `stiffness` | with a `stiffness` |
 | torus | refused | a ring of capsules |

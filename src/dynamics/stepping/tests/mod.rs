@@ -2,6 +2,7 @@
 
 mod contacts;
 mod joints;
+mod rebounds;
 mod rolling;
 
 use std::sync::Arc;
