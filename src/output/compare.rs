@@ -6,8 +6,8 @@ use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+use imara_diff::{Algorithm, Diff, Hunk, InternedInput};
 use rayon::iter::{ParallelBridge, ParallelIterator};
-use similar::{ChangeTag, TextDiff};
 
 use super::{OutputError, folder};
 use crate::Run;
@@ -105,17 +105,19 @@ fn difference(path: &Path, new: &str) -> Result<Option<Kind>, OutputError> {
         return Ok(None);
     }
     let old = String::from_utf8_lossy(&old);
-    let diff = TextDiff::from_lines(old.as_ref(), new);
-    let line = |change: similar::Change<&str>| {
-        let (number, new) = match change.tag() {
-            ChangeTag::Equal => return None,
-            ChangeTag::Delete => (change.old_index(), false),
-            ChangeTag::Insert => (change.new_index(), true),
-        };
-        let text = change.value().trim_end_matches(['\n', '\r']).to_owned();
-        Some(Line { number: number.map_or(0, |index| index + 1), new, text })
+    let lines = InternedInput::new(old.as_ref(), new);
+    let mut diff = Diff::compute(Algorithm::Myers, &lines);
+    diff.postprocess_lines(&lines);
+    let line = |number: u32, new: bool| {
+        let tokens = if new { &lines.after } else { &lines.before };
+        let text = lines.interner[tokens[number as usize]].trim_end_matches(['\n', '\r']).to_owned();
+        Line { number: number as usize + 1, new, text }
     };
-    Ok(Some(Kind::Lines(diff.iter_all_changes().filter_map(line).collect())))
+    let hunk = |hunk: Hunk| {
+        let old = hunk.before.map(|number| line(number, false));
+        old.chain(hunk.after.map(|number| line(number, true))).collect::<Vec<_>>()
+    };
+    Ok(Some(Kind::Lines(diff.hunks().flat_map(hunk).collect())))
 }
 
 impl Difference {
