@@ -119,15 +119,32 @@ impl Bounce<'_> {
 
 /// Returns the impulses at the points of a contact that stop the approach there. `approach` holds the velocity of approach at each point.
 /// `response` returns the velocity at the first point that a unit impulse at the second point causes. No impulse is negative: a point at
-/// which the bodies separate without an impulse gets none. Source: the projected Gauss–Seidel method, K. Erleben, *Numerical methods for
+/// which the bodies separate without an impulse gets none, nor does a point at which no impulse has an effect. Source: the projected Gauss–Seidel method, K. Erleben, *Numerical methods for
 /// linear complementarity problems in physics-based animation*, SIGGRAPH 2013.
 pub(super) fn impulses(approach: &[f64], response: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let mut impulses = vec![0.0; approach.len()];
     for _ in 0..SWEEPS {
         for i in 0..approach.len() {
             let stopped: f64 = impulses.iter().enumerate().map(|(j, impulse)| impulse * response(i, j)).sum();
-            impulses[i] = (impulses[i] + (approach[i] - stopped) / response(i, i)).max(0.0);
+            let own = response(i, i);
+            if own > 0.0 {
+                impulses[i] = (impulses[i] + (approach[i] - stopped) / own).max(0.0);
+            }
         }
     }
     impulses
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two points approach at 2 m/s and 1 m/s, and each responds to its own impulse only.
+    #[test]
+    fn a_point_that_cannot_move_gets_no_impulse() {
+        let response =
+            |inverse_masses: [f64; 2]| move |i: usize, j: usize| if i == j { inverse_masses[i] } else { 0.0 };
+        assert_eq!(impulses(&[2.0, 1.0], response([0.5, 4.0])), [4.0, 0.25]);
+        assert_eq!(impulses(&[2.0, 1.0], response([0.0, 4.0])), [0.0, 0.25]);
+    }
 }

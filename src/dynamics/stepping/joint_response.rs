@@ -8,6 +8,9 @@ use super::super::{Model, State};
 use super::bounce;
 use super::rebound::Onset;
 
+/// A body counts as locked by its joints if an impulse changes its velocity by less than this part of the change without joints.
+const LOCKED: f64 = 1e-9;
+
 /// Computes how bodies on joints respond to impulses.
 #[derive(Default)]
 pub(super) struct JointResponse {
@@ -73,12 +76,15 @@ impl JointResponse {
                 let side = bodies.iter().position(|own| *own == body);
                 side.map(|side| own[side]).or_else(|| self.solver.response_of(body)).unwrap_or_default()
             };
+            let free = [0, 1].map(|side| model.respond(bodies[side], state, pushed.push(side)));
+            let free = pushed.speed(1, free[1]) - pushed.speed(0, free[0]);
             for meeting in &meetings {
                 let [one, two] = [0, 1].map(|side| meeting.speed(side, motion(meeting.onset.bodies[side])));
                 if one != two {
                     coupled.unite(pushed.number, meeting.number);
                 }
-                response.push(two - one);
+                // Joints to given motions may leave no freedom. The response is then a rounding error.
+                response.push(if (two - one).abs() > LOCKED * free { two - one } else { 0.0 });
             }
         }
         let approach: Vec<f64> =

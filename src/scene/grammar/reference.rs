@@ -90,7 +90,8 @@ repeat.grid = { count = [4, 10, 1], spacing = [0.42, 0.2, 0] }
 ```
 
 With `contacts = \"time-stepping\"`, all contacts of a timestep are solved together. The cost of a step is roughly proportional to the number of
-contacts, so thousands of bodies are possible: piles, towers and machines. The keys that both schemes have mean the same in both. Choose by scene:
+contacts, so thousands of bodies are possible: piles, towers and machines. Bodies, surfaces and
+joints are described in the same way for both schemes. Choose by scene:
 
 | | `event-driven` | `time-stepping` |
 | --- | --- | --- |
@@ -100,7 +101,7 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
 | resting bodies | touch exactly | sink into each other by up to a percent of their thickness |
 | integrators | any that keeps joints | `euler-cromer` |
 | joints | all, exact to rounding | not `gear` and `pulley`; the others give way a little |
-| rebounds of bodies on joints | exact | one step after the impact; ropes, limits and motors take no part |
+| rebounds of bodies on joints | exact | in the step after the impact |
 | forces and torques of joints, in labels, arrows and tables | yes | refused |
 | a motor with `angle` or `position` | exact, or with a `stiffness` | with a `stiffness` |
 | torus | refused | a ring of capsules |
@@ -110,8 +111,9 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
   way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
-  default, the step is at most 1/240 s, and short enough that the thinnest body sinks in by at most 3 % of its thickness under ten times its
-  weight: 1/240 s for 10 cm, 1/960 s for 1 cm. `step` can be longer or shorter. A tower of many bodies sinks more, since each body carries all above.
+  default, the step is 1/240 s, halved until the thinnest body sinks in by at most 3 % of its thickness under ten times its weight. This gives
+  1/240 s for a thickness of 10 cm, and 1/960 s for 1 cm. `step` can be longer or shorter. In a tower, each body carries all bodies above it, so
+  low bodies sink in more.
 - **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube, so bodies that roll along it lose
   energy at the kinks. A moving mesh is its convex hull if it is convex. Otherwise it is cut into convex parts along its own faces, up to 128
   parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill
@@ -120,8 +122,9 @@ contacts, so thousands of bodies are possible: piles, towers and machines. The k
   axis. A frustum has 32 sides, so it loses speed. A hoop (a torus) is unreliable.
 - **Pressing**: a motor that presses a body onto another one with far more than its weight needs a smaller step. The summary and a warning tell
   when joints or contacts add energy.
-- **Machines**: a body with `end` takes its joints with it when it disappears. So a joint to a small body with an `end` is a latch, for a
-  catapult or a crane. A slider with a motor is a winch.
+- **Machines**: a body with `end` takes its joints with it when it disappears. So a load that a
+  joint connects to a small body becomes free at the `end` of that body: a latch, for a catapult or a crane. A slider with a motor can pull a
+  rope, like a winch.
 - **Fast bodies** do not pass through thin ones at any speed. Two bodies that are both fast may pass through each other.
 - **Forces** of all kinds act as in Euler–Cromer: they are evaluated at the beginning of each step.
 ";
@@ -184,7 +187,8 @@ tables ignore them.
   of its `radius` without rotation. It bounces by `restitution`, slides and sticks by `friction`, and can rest on moving bodies.
   Its values combine with those of the body, as for two bodies. Between two frames, a body moves along a smooth curve. A particle emitted inside
   a body first passes out of it. A torus does not stop particles. With `event-driven` contacts, an emitter
-  has at most 1,000 colliding particles at once; with `time-stepping`, the usual number.
+  has at most 1,000 colliding particles at once; with `time-stepping`, the limit is that of other
+  particles.
 - **Looks**: `color` and `size` change in 32 steps from birth to death. A glowing particle casts no shadow and lights nothing: for that, add
   a `[light.NAME]`. Positions are written to a hundredth of the radius.
 - **Limits**: 100,000 particles make a script of 4.5 MB, which POV-Ray parses in about half a second. The preview shows particles. `jabuka export
