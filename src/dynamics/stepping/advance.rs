@@ -174,6 +174,9 @@ impl TimeStepping {
             if !rolling.is_ball(i) {
                 kept_contacts.turn(engine, i, orientation, kept_contacts::ANGLE);
             }
+            if rolling.is_round(i) {
+                kept_contacts.shift(engine, i, state.location[i], kept_contacts::WAY * half_thickness[i]);
+            }
             if !input.is_same(&wanted) {
                 let Some(body) = engine.bodies.get_mut(handles[i]) else { continue };
                 wanted.write(body);
@@ -215,7 +218,11 @@ impl TimeStepping {
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, inputs, rolling, mean_velocity, .. } = self;
         let rebounds = &self.rebounds;
-        mean_velocity.end(engine, joints);
+        let after = |i: usize| {
+            let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
+            Some((engine.bodies.get(handles[i])?, state.location[i], without))
+        };
+        mean_velocity.end(engine, joints, after, dt);
         books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
         let (mut moved, mut carried) = (Vec::new(), Vec::new());
@@ -245,13 +252,7 @@ impl TimeStepping {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
-            } else if let Some(mean) = mean_velocity.mean(
-                engine,
-                (i, body),
-                (bodies::pose(state, i), books.before[i].0),
-                turning,
-                dt,
-            ) {
+            } else if let Some(mean) = mean_velocity.mean((i, body), bodies::pose(state, i), turning, dt) {
                 (velocity, turning) = mean;
                 carried.push((*handle, velocity));
             }

@@ -26,9 +26,9 @@ pub(super) struct Bounce<'a> {
     pub(super) slow: f64,
 }
 
-/// A point counts as one that meets the other body in this step if this multiple of its path takes it there. The factor covers rounding
-/// errors.
-const REACH: f64 = 1.001;
+/// The engine stops the points of a contact early: those that would meet the other body in this step, and those that would meet it in the next
+/// step. So a point meets the other body if this multiple of its path takes it there. The factor also covers rounding errors.
+const REACH: f64 = 2.001;
 
 /// The motion of a body, and its response to an impulse.
 struct Side {

@@ -30,6 +30,8 @@ struct Moment {
     newcomers: Vec<usize>,
     /// The orientation of each body when the engine last found its contacts anew because of its rotation.
     orientation: Vec<DQuat>,
+    /// The location of each round body when the engine last found its contacts anew because it had moved, m.
+    location: Vec<DVec3>,
     /// The rebounds of the next step.
     rebounds: Vec<Rebound>,
 }
@@ -50,6 +52,7 @@ impl TimeStepping {
             near: self.books.near.clone(),
             newcomers: self.newcomers.clone(),
             orientation: self.kept_contacts.orientation.clone(),
+            location: self.kept_contacts.location.clone(),
             rebounds: self.rebounds.due.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
@@ -63,16 +66,28 @@ impl TimeStepping {
         let bodies = self.model.len();
         let is_ours = moment.state.len() == bodies
             && moment.orientation.len() == bodies
+            && moment.location.len() == bodies
             && moment.away.iter().all(|(body, ..)| *body < bodies)
             && self.handles.iter().all(|handle| engine.bodies.contains(*handle));
         if !is_ours {
             return false;
         }
-        let Moment { time, steps, state, ledger, over, away, near, newcomers, orientation, rebounds } =
-            moment;
+        let Moment {
+            time,
+            steps,
+            state,
+            ledger,
+            over,
+            away,
+            near,
+            newcomers,
+            orientation,
+            location,
+            rebounds,
+        } = moment;
         self.newcomers = newcomers;
         fresh_contacts::find_contacts_anew(&mut engine);
-        self.kept_contacts.resume(&engine, orientation);
+        self.kept_contacts.resume(&engine, orientation, location);
         self.model.set_away(&away, &mut self.state);
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);

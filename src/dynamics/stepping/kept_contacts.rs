@@ -3,19 +3,27 @@
 //! The engine keeps contacts that have hardly changed, and freezes their lever arms in world axes. This makes tall stacks stable, but it is
 //! wrong for bodies that rotate: a coin on a turntable would creep outwards. Contacts with a callback are never kept.
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{ActiveHooks, Collider, ColliderHandle, InteractionGroups, PhysicsWorld};
+
+use super::super::State;
 
 /// The contacts of a body are found anew when the body has rotated by this angle, rad. With 0.003 rad, slender towers fall.
 pub(super) const ANGLE: f64 = 0.01;
 /// The same angle for a body with a given motion.
 pub(super) const GUIDED_ANGLE: f64 = 0.003;
 
+/// The contacts of a round body are found anew when the body has moved by this multiple of half its thickness. The normal of a contact between
+/// two round bodies turns as they move around each other. A kept normal would act like friction.
+pub(super) const WAY: f64 = 1e-4;
+
 /// The colliders of all bodies, and the callbacks for their contacts.
 pub(super) struct KeptContacts {
     bodies: Vec<Caller>,
     /// The orientation of each body when its contacts were last found anew because of its rotation.
     pub(super) orientation: Vec<DQuat>,
+    /// The location of each round body when its contacts were last found anew because it had moved, m.
+    pub(super) location: Vec<DVec3>,
 }
 
 struct Caller {
@@ -27,22 +35,26 @@ struct Caller {
 }
 
 impl KeptContacts {
-    /// `colliders` holds the colliders of each body, and `orientation` the orientation of each body.
+    /// `colliders` holds the colliders of each body.
     pub(super) fn new(
         engine: &PhysicsWorld,
         colliders: impl Iterator<Item = Vec<ColliderHandle>>,
-        orientation: &[DQuat],
+        state: &State,
     ) -> KeptContacts {
         let caller = |colliders: Vec<ColliderHandle>| {
             let is_called = is_called(engine, &colliders);
             Caller { colliders, is_called, is_always_called: is_called }
         };
-        KeptContacts { bodies: colliders.map(caller).collect(), orientation: orientation.to_vec() }
+        KeptContacts {
+            bodies: colliders.map(caller).collect(),
+            orientation: state.orientation.clone(),
+            location: state.location.clone(),
+        }
     }
 
     /// Continues with an engine that has been restored from a checkpoint.
-    pub(super) fn resume(&mut self, engine: &PhysicsWorld, orientation: Vec<DQuat>) {
-        self.orientation = orientation;
+    pub(super) fn resume(&mut self, engine: &PhysicsWorld, orientation: Vec<DQuat>, location: Vec<DVec3>) {
+        (self.orientation, self.location) = (orientation, location);
         for body in &mut self.bodies {
             body.is_called = is_called(engine, &body.colliders);
         }
@@ -79,6 +91,18 @@ impl KeptContacts {
             return;
         }
         self.orientation[body] = orientation;
+        self.find_anew(engine, body);
+    }
+
+    /// Makes the engine find the contacts of a round body anew if the body has moved by `way` (m) since the last time.
+    pub(super) fn shift(&mut self, engine: &mut PhysicsWorld, body: usize, location: DVec3, way: f64) {
+        if self.location[body].distance_squared(location) > way * way {
+            self.location[body] = location;
+            self.find_anew(engine, body);
+        }
+    }
+
+    fn find_anew(&self, engine: &mut PhysicsWorld, body: usize) {
         let Caller { colliders, is_called, .. } = &self.bodies[body];
         for handle in colliders.iter().filter(|_| !is_called) {
             if let Some(collider) = engine.colliders.get_mut(*handle) {

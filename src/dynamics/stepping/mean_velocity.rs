@@ -9,12 +9,16 @@
 //! energy. This is the method SHAKE with linearised constraints. Source: E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
 //! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit or an overstretched rope
 //! pushes them: its displacement only corrects an overlap or a length, and must not become a velocity.
+//!
+//! A mechanism consists of all bodies that joints connect. Either all its bodies get their mean velocity, or none. Otherwise a joint would act
+//! on one body without a reaction on the other one, and momentum would be lost.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody};
 
+use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::joint::Joints;
 use super::touch::Touch;
@@ -22,11 +26,14 @@ use super::{bodies, spin};
 
 /// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
 const ROTATION: f64 = 4.0;
-/// The smallest ratio of the two changes of a velocity by joints, at the start and at the end of a step, that counts as symmetric.
-const SYMMETRIC: f64 = 0.5;
+/// The changes of velocities by joints at the start and at the end of a step count as equal if the cosine of the angle between them is at least
+/// this, as vectors over all bodies of a mechanism,
+const PARALLEL: f64 = 0.95;
+/// and if the square of the second change is at most this multiple of the square of the first one.
+const LARGER: f64 = 2.0;
 /// A body counts as a thin rod if its moment of inertia about a hinge is larger than this multiple of its smallest moment.
 const THIN: f64 = 4.0;
-/// A body that rotates by a larger angle within a step keeps the velocities of the engine, rad. With mean velocities, such steps are unstable.
+/// If a body rotates by a larger angle within a step, its mechanism keeps the velocities of the engine, rad. With mean velocities, such steps are unstable.
 const FASTEST: f64 = 0.2;
 /// The largest excess length of a rope that has no effect, relative to the length of the rope.
 const TAUT: f64 = 1e-7;
@@ -36,8 +43,10 @@ pub(super) struct MeanVelocity {
     /// For each joint, whether at the start of the step it was a rope that was longer than its rotation explains, or a hinge or slider at
     /// its limit.
     is_stopped: Vec<bool>,
-    /// For each body, whether a joint holds it.
-    held: Vec<bool>,
+    /// The indices of the bodies that forces move and that a joint holds.
+    held: Vec<usize>,
+    /// For each body, the number of its mechanism.
+    mechanism: Vec<usize>,
     /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. Such a body gets the mean of its
     /// angular velocity about this axis only: about other axes, the small moments of inertia of rods would make errors grow.
     axis: Vec<Option<DVec3>>,
@@ -50,7 +59,15 @@ pub(super) struct MeanVelocity {
 impl MeanVelocity {
     pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> MeanVelocity {
         let bodies = model.len();
+        let is_movable = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let held = joints.held(bodies);
+        let held = (0..bodies).filter(|&body| held[body]).filter(is_movable).collect();
+        let mut mechanisms = Sets::new(bodies);
+        for k in 0..joints.len() {
+            if let [Some(one), Some(two)] = joints.bodies(k).map(|body| body.filter(is_movable)) {
+                mechanisms.unite(one, two);
+            }
+        }
         let mut axis = vec![None; bodies];
         for k in 0..joints.len() {
             let Some(joint) = joints.get(engine, k) else { continue };
@@ -69,7 +86,14 @@ impl MeanVelocity {
             axis.is_some_and(|axis| axis.dot(inertia * axis) > THIN * inertia.min_element())
         };
         let is_thin = axis.iter().enumerate().map(is_thin).collect();
-        MeanVelocity { is_stopped: vec![false; joints.len()], gets_mean: held.clone(), held, axis, is_thin }
+        MeanVelocity {
+            is_stopped: vec![false; joints.len()],
+            held,
+            mechanism: (0..bodies).map(|body| mechanisms.first(body)).collect(),
+            axis,
+            is_thin,
+            gets_mean: vec![false; bodies],
+        }
     }
 
     /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.
@@ -124,43 +148,66 @@ impl MeanVelocity {
         self.is_thin[body]
     }
 
-    /// Finds the bodies that get their mean velocity, after the physics engine has made a step.
-    pub(super) fn end(&mut self, engine: &PhysicsWorld, joints: &Joints) {
-        self.gets_mean.clone_from(&self.held);
+    /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. The closure returns a body after
+    /// the step, with its location before the step, and the velocity that it would have without joints and contacts.
+    ///
+    /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If they do not, the
+    /// correction belongs to an error of the joints, and must not last.
+    pub(super) fn end<'a>(
+        &mut self,
+        engine: &'a PhysicsWorld,
+        joints: &Joints,
+        after: impl Fn(usize) -> Option<(&'a RigidBody, DVec3, DVec3)>,
+        dt: f64,
+    ) {
+        let mut excluded = vec![false; self.mechanism.len()];
         for (k, is_stopped) in self.is_stopped.iter().enumerate() {
             let Some(joint) = joints.get(engine, k) else { continue };
             let is_rope = !joint.coupled_axes.is_empty();
             let is_pushing = joint.limits.iter().any(|limit| limit.impulse != 0.0);
             if *is_stopped || (is_pushing && !is_rope) {
-                joints.bodies(k).into_iter().flatten().for_each(|body| self.gets_mean[body] = false);
+                let bodies = joints.bodies(k).into_iter().flatten();
+                bodies.for_each(|body| excluded[self.mechanism[body]] = true);
             }
+        }
+        // For each mechanism, the sums of m a·a, m a·b and m b·b over its bodies. a and b are the changes of velocity by joints at the start and
+        // at the end of the step.
+        let mut changes = vec![[0.0; 3]; self.mechanism.len()];
+        for &i in &self.held {
+            let Some((body, from, without)) = after(i) else { continue };
+            let mechanism = self.mechanism[i];
+            excluded[mechanism] |=
+                body.angvel().length_squared() * dt * dt > FASTEST * FASTEST || is_touched(engine, body);
+            let at_start = body.linvel() - without;
+            let at_end = (body.translation() - from) / dt - body.linvel();
+            let products = [at_start.length_squared(), at_start.dot(at_end), at_end.length_squared()];
+            for (sum, product) in changes[mechanism].iter_mut().zip(products) {
+                *sum += body.mass() * product;
+            }
+        }
+        for &i in &self.held {
+            let mechanism = self.mechanism[i];
+            let [start, product, end] = changes[mechanism];
+            let are_equal = product >= PARALLEL * (start * end).sqrt() && end <= LARGER * start;
+            self.gets_mean[i] = are_equal && !excluded[mechanism];
         }
     }
 
     /// Returns the mean velocity and the mean angular velocity of a body in a step of `dt`, as the engine counts it. `from` is the pose of
-    /// the body in the engine before the step, `before` is its velocity then, and `turning` is the angular velocity that the engine gave
-    /// it. `None` if the body keeps the velocities of the engine.
-    ///
-    /// In a step that is symmetric in time, joints change the velocity at the start of the step as much as at its end. If they do not, the
-    /// correction belongs to an error of the joints, and must not last.
+    /// the body in the engine before the step, and `turning` is the angular velocity that the engine gave it. `None` if the body keeps the
+    /// velocities of the engine.
     pub(super) fn mean(
         &self,
-        engine: &PhysicsWorld,
         (i, body): (usize, &RigidBody),
-        (from, before): (Pose, DVec3),
+        from: Pose,
         turning: DVec3,
         dt: f64,
     ) -> Option<(DVec3, DVec3)> {
-        let is_fast = turning.length_squared() * dt * dt > FASTEST * FASTEST;
-        if !self.gets_mean[i] || is_fast || is_touched(engine, body) {
+        if !self.gets_mean[i] {
             return None;
         }
         let to = body.position();
         let velocity = (to.translation - from.translation) / dt;
-        let (at_start, at_end) = (body.linvel() - before, velocity - body.linvel());
-        if at_start.dot(at_end) < SYMMETRIC * at_end.length_squared() {
-            return None;
-        }
         let mean = spin::leading(from.rotation, to.rotation, dt);
         let mean = match self.axis[i] {
             None => mean,

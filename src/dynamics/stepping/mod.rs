@@ -129,7 +129,7 @@ impl TimeStepping {
         let joints = Joints::insert(&mut engine, links, &handles, &model);
         let rolling = Rolling::new(&engine, &symmetries, (&model, &joints), length);
         let colliders = symmetries.iter().map(|own| own.iter().map(|(handle, _)| *handle).collect());
-        let kept_contacts = KeptContacts::new(&engine, colliders, &state.orientation);
+        let kept_contacts = KeptContacts::new(&engine, colliders, &state);
         let held = joints.held(model.len());
         let slow = SLOW * length.sqrt();
         TimeStepping {

@@ -115,6 +115,11 @@ impl Rolling {
         self.spin[body] != DVec3::ZERO
     }
 
+    /// Whether the surface of a body is symmetric about an axis or about its centre.
+    pub(super) fn is_round(&self, body: usize) -> bool {
+        self.round[body].is_some()
+    }
+
     /// Whether the engine need not know the orientation of a body.
     pub(super) fn is_ball(&self, body: usize) -> bool {
         self.round[body].as_ref().is_some_and(|round| round.is_ball)

@@ -291,9 +291,10 @@ fn what_falls_flat_rebounds_without_spin() {
         ("cube", cube(0.2), DQuat::IDENTITY, 0.1),
         ("plate", Shape::Box { size: DVec3::new(1.0, 0.1, 0.6) }, DQuat::IDENTITY, 0.05),
         ("lying capsule", Shape::Capsule { radius: 0.1, height: 0.6 }, lying, 0.1),
+        ("slab", Shape::Box { size: DVec3::new(1.2, 0.6, 0.8) }, DQuat::IDENTITY, 0.3),
     ];
     for (name, shape, orientation, rest) in shapes {
-        for step in [STEP, 0.25 * STEP] {
+        for step in [STEP, 0.002, 0.25 * STEP, 0.001, 0.0007, 0.0005] {
             let mut scene = Scene::default().with_ground(0.0);
             let start = (1.0 + rest) * DVec3::Y;
             scene.add(shape.clone(), |body| body.with_location(start).with_orientation(orientation));
@@ -386,4 +387,30 @@ fn a_stack_of_coins_sinks_little_at_the_start() {
     let sunk = 19.5 * THICK - lowest;
     println!("{sunk} m");
     assert!(sunk < 1.25 * THICK, "{sunk}");
+}
+
+/// Two balls without friction attract each other by a spring, touch, and revolve about each other at 1 rad/s. They must keep their angular
+/// momentum.
+#[test]
+fn balls_that_touch_revolve_freely() {
+    let mut scene = Scene::default();
+    let spin = DVec3::Z;
+    let [one, two] = [-0.1, 0.1].map(|x| {
+        let at = x * DVec3::X;
+        let body = |body: RigidBody| body.with_location(at).with_velocity(spin.cross(at));
+        scene.add(Shape::Sphere { radius: 0.1 }, body)
+    });
+    let surface = Surface { friction: Some(0.0), ..Surface::default() };
+    scene.surfaces.iter_mut().for_each(|own| *own = Some(surface));
+    let mut world = scene.world(0.0);
+    world.add_force(Spring {
+        between: [Anchor::centre(one), Anchor::centre(two)],
+        stiffness: 10.0,
+        damping: 0.0,
+        rest_length: 0.0,
+    });
+    let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
+    let end = run(&mut stepping, 3.0);
+    let turning: DVec3 = end.bodies.iter().map(|body| body.location.cross(body.velocity)).sum();
+    assert!(turning.abs_diff_eq(0.02 * DVec3::Z, 4e-4), "{turning}");
 }
