@@ -258,10 +258,8 @@ impl Solver {
         unknown.iter_mut().for_each(|rate| *rate = -*rate);
         self.factor.solve(unknown);
         move_members(structure, jacobian, unknown, members);
-        for (place, motion) in places.iter().zip(&mut free) {
-            if let Some(place) = place {
-                *motion = (members[*place].velocity, members[*place].angular_velocity);
-            }
+        for (body, motion) in bodies.into_iter().zip(&mut free) {
+            *motion = self.response_of(body).unwrap_or(*motion);
         }
         free
     }
