@@ -1,7 +1,7 @@
 //! The grammar of `[camera]`: the keys that describe a camera.
 
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
-use super::keys::{NON_NEGATIVE, POSITIVE, VECTOR};
+use super::kind::{NON_NEGATIVE, POSITIVE, VECTOR};
 use super::motion::{BETWEEN_KEYFRAMES, TIMED_VECTOR};
 use super::{Bound, Collection, KeySpec, Rule, TableSpec};
 

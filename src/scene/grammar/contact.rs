@@ -1,7 +1,7 @@
 //! The grammar of the keys for collisions. They take effect only if `simulation.contacts` is set.
 
 use super::Kind::{Boolean, Number, Text};
-use super::keys::NON_NEGATIVE;
+use super::kind::NON_NEGATIVE;
 use super::{Bound, KeySpec};
 
 pub(super) const RESTITUTION: KeySpec = KeySpec::new(

@@ -2,7 +2,7 @@
 
 use super::Kind::{Boolean, Colors, Drawn, Integer, List, Number, Reference, Table};
 use super::contact::{FRICTION, RESTITUTION};
-use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
+use super::kind::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, Collection, KeySpec, Rule, TableSpec};
 
 pub(super) static EMITTER: TableSpec = TableSpec {

@@ -4,7 +4,7 @@ use crate::dynamics::{Coulomb, Dipoles, Gravitation};
 use crate::scene::law::{OF_PLACE, QUANTITIES};
 
 use super::Kind::{Boolean, Either, List, ListOfBody, Number, OfBody, Reference, Table};
-use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
+use super::kind::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 

@@ -3,7 +3,7 @@
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::contact::JOINT_COLLIDES;
 use super::forces::END;
-use super::keys::{POSITIVE, VECTOR};
+use super::kind::{POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::showing::JOINT_ARROWS;
 use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};

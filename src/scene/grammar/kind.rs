@@ -70,6 +70,17 @@ pub enum Kind {
     Either(&'static [Kind]),
 }
 
+/// Any number.
+pub(super) const ANY: Kind = Kind::Number(Bound::Any);
+/// A positive number.
+pub(super) const POSITIVE: Kind = Kind::Number(Bound::Positive);
+/// A number that is not negative.
+pub(super) const NON_NEGATIVE: Kind = Kind::Number(Bound::NonNegative);
+/// A list of three numbers.
+pub(super) const VECTOR: Kind = Kind::Numbers(3, Bound::Any);
+/// A list of three numbers that are not all 0: a direction.
+pub(super) const AXIS: Kind = Kind::Direction(3);
+
 /// The range of numbers that a key accepts. All numbers must be finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {

@@ -1,7 +1,7 @@
 //! The grammar of the keys that draw measurements into the image: labels, the scale bar and the grid.
 
 use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
-use super::keys::POSITIVE;
+use super::kind::POSITIVE;
 use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 use crate::scene::{Corner, GridPlane, Side};
 

@@ -1,7 +1,7 @@
 //! The grammar of `[light.NAME]`.
 
 use super::Kind::{Boolean, Color, Table};
-use super::keys::{AXIS, NON_NEGATIVE, POSITIVE};
+use super::kind::{AXIS, NON_NEGATIVE, POSITIVE};
 use super::motion::TIMED_VECTOR;
 use super::{KeySpec, Rule, TableSpec};
 

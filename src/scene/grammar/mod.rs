@@ -3,30 +3,32 @@
 //! The one description of each key serves for validation, for reading, for documentation, and for suggestions for unknown keys. The
 //! description is data: all tables of the language are reached from [`SCENE`].
 
+mod bodies;
 mod camera;
 mod contact;
 mod default;
 mod emitters;
 mod forces;
 mod joints;
-mod keys;
 mod kind;
 mod labels;
 mod lights;
+mod materials;
 mod motion;
 mod reference;
 mod repeat;
+mod scene;
 mod schema;
 mod shapes;
 mod showing;
 
 pub use default::DefaultValue;
 pub(in crate::scene) use forces::END;
-pub use keys::SCENE;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
 pub use reference::reference;
 pub use repeat::MAX_COPIES;
+pub use scene::SCENE;
 pub use schema::schema;
 
 /// The description of one key of a table.

@@ -1,7 +1,8 @@
 //! The grammar of prescribed motion: a motion that the scene gives as a function of time.
 
 use super::Kind::{Choice, Either, File, List, Number, Table, Text, Timed, TimedNumbers};
-use super::keys::{AXIS, ORIENTATION, VECTOR};
+use super::bodies::ORIENTATION;
+use super::kind::{AXIS, VECTOR};
 use super::{Bound, KeySpec, Kind, Rule, TableSpec};
 
 /// A vector of three components, each a number or a formula of the time.

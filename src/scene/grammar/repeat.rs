@@ -1,7 +1,7 @@
 //! The grammar of `repeat`, which makes copies of bodies, forces and joints.
 
 use super::Kind::{Boolean, Either, Formulas, Integer, List, Numbers, Table};
-use super::keys::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
+use super::kind::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, KeySpec, Kind, Rule, TableSpec};
 
 /// The maximum number of copies in a scene. More copies would exceed the memory of a typical computer.

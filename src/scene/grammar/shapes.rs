@@ -1,7 +1,8 @@
 //! The grammar of the shapes of bodies.
 
 use super::Kind::{Asset, Boolean, Either, List, Number, Numbers, Sdl, Table};
-use super::keys::{AXIS, NON_NEGATIVE, ORIENTATION, POSITIVE, VECTOR};
+use super::bodies::ORIENTATION;
+use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Bound, KeySpec, Rule, TableSpec};
 use crate::scene::sdl::Where;
 

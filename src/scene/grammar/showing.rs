@@ -1,7 +1,7 @@
 //! The grammar of the keys that visualize physics: arrows, axes, ghosts, trails and the look of springs.
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
-use super::keys::{POSITIVE, VECTOR};
+use super::kind::{POSITIVE, VECTOR};
 use super::{KeySpec, Kind, Rule, TableSpec};
 
 static AXES_KINDS: [Kind; 2] = [Boolean, Table(&AXES_TABLE)];
