@@ -99,7 +99,7 @@ impl TimeStepping {
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
         set_step(&mut engine.integration_parameters, dt);
         let bounce = Bounce { rebounds, dt, slow: *slow };
-        engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.events);
+        engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.impacts.events);
         self.steps += 1;
         if let Some(body) = self.engine.quarantine().bodies().first() {
             let body = BodyId::new(body.into_raw_parts().0 as usize);
@@ -136,7 +136,7 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, kept_contacts, mixing, mean_velocity, slow, rebounds, reach, .. } = self;
+        let Self { rolling, kept_contacts, mixing, is_thin_rod, slow, rebounds, reach, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -147,7 +147,7 @@ impl TimeStepping {
             state.angular_momentum[i] += dt * loads.torque[i] + moment;
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
-            let leading = if mean_velocity.is_thin(i) {
+            let leading = if is_thin_rod[i] {
                 spin::steady(turning, dt)
             } else {
                 spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
@@ -289,7 +289,9 @@ impl TimeStepping {
     /// Books the work of contacts and joints in a step that ends at time `end`, s, and finds the impacts and the rebounds.
     fn close(&mut self, end: f64) {
         let Self { books, engine, model, joints, state, loads, driven, mixing, rebounds, .. } = self;
-        books.close(engine, (model, joints), (state, loads, driven), (rebounds, mixing), end);
+        let bodies = (&*model, &*joints);
+        let onsets = books.close(engine, bodies, (state, loads, driven), (rebounds, mixing), end);
+        rebounds.prepare(onsets, (model, end, state));
     }
 
     /// Enables bodies that are born and disables bodies that die. `due` holds the index of each body, and true for a birth.

@@ -72,8 +72,8 @@ impl Bounce<'_> {
             .map(|body| bodies.get(body?).map(|body| Side::new(body, self.dt)));
         let (Some(contact), [Some(one), Some(two)]) = (context.rigid_mut(), sides) else { return };
         let (restitution, normal) = (*contact.restitution, *contact.normal);
-        let waits = self.rebounds.waits(touching);
-        if waits {
+        let is_delayed = self.rebounds.is_delayed(touching);
+        if is_delayed {
             *contact.restitution = 0.0;
         }
         let is_new = contact.manifold.points.iter().all(|point| point.data.impulse == 0.0);
@@ -91,7 +91,7 @@ impl Bounce<'_> {
             contact.solver_contacts.iter().copied().filter(|point| meets(point)).collect();
         let Some(first) = meeting.first() else { return };
         *contact.friction *= 1.0 + restitution;
-        if waits {
+        if is_delayed {
             *contact.user_data = self.rebounds.mark();
             return;
         }

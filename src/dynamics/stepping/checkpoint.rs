@@ -39,7 +39,7 @@ struct Moment {
 impl TimeStepping {
     /// Returns the present moment of the run as bytes; `None` after a failure, or if impacts have not been taken yet.
     pub(super) fn save(&mut self) -> Option<Vec<u8>> {
-        if self.failure.is_some() || self.books.has_impacts() {
+        if self.failure.is_some() || !self.books.impacts.is_empty() {
             return None;
         }
         let moment = Moment {
@@ -49,7 +49,7 @@ impl TimeStepping {
             ledger: self.ledger.clone(),
             over: self.calendar.over(),
             away: self.model.away(),
-            near: self.books.near.clone(),
+            near: self.books.impacts.near.clone(),
             newcomers: self.newcomers.clone(),
             orientation: self.kept_contacts.orientation.clone(),
             location: self.kept_contacts.location.clone(),
@@ -91,7 +91,7 @@ impl TimeStepping {
         self.model.set_away(&away, &mut self.state);
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);
-        self.books.near = near;
+        self.books.impacts.near = near;
         self.rebounds.set_due(rebounds);
         self.inputs = EngineInput::read_all(&engine, &self.handles);
         self.rolling.resume(&engine, &self.handles);

@@ -30,7 +30,7 @@ impl PhysicsHooks for Hooks<'_> {
             *manifold.friction = friction;
         }
         self.bounce.modify(context, [one, two]);
-        self.bounce.rebounds.part(context);
+        self.bounce.rebounds.suspend(context);
         self.rolling.modify(context);
     }
 }

@@ -210,6 +210,22 @@ impl Joints {
         hinges
     }
 
+    /// Returns for each of `bodies` bodies the axis of its last hinge, a unit vector in the engine's frame of the body; `None` without a hinge.
+    pub(super) fn hinge_axes(&self, engine: &PhysicsWorld, bodies: usize) -> Vec<Option<DVec3>> {
+        let mut axes = vec![None; bodies];
+        for k in 0..self.len() {
+            let joint = self.get(engine, k);
+            let hinge = joint.filter(|joint| joint.locked_axes == JointAxesMask::LOCKED_REVOLUTE_AXES);
+            let Some(hinge) = hinge else { continue };
+            for (body, frame) in self.bodies[k].iter().zip([hinge.local_frame1, hinge.local_frame2]) {
+                if let Some(body) = *body {
+                    axes[body] = Some(frame.rotation * DVec3::X);
+                }
+            }
+        }
+        axes
+    }
+
     /// Sets the speeds of the hinges' motors for a step. `spin` returns the angular velocity of a body that the physics engine does not
     /// know, rad/s. `state` is the state at the start of the step.
     pub(super) fn set_speeds(&self, engine: &mut PhysicsWorld, state: &State, spin: impl Fn(usize) -> DVec3) {

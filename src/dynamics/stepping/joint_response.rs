@@ -6,7 +6,7 @@ use super::super::constraint::Solver;
 use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::bounce;
-use super::rebound::Onset;
+use super::rebound::{Onset, OnsetPoint};
 
 /// A body counts as locked by its joints if an impulse changes its velocity by less than this part of the change without joints.
 const LOCKED: f64 = 1e-9;
@@ -30,19 +30,19 @@ struct Meeting<'a> {
     /// The index of the contact.
     number: usize,
     onset: &'a Onset,
-    arms: [DVec3; 2],
+    point: &'a OnsetPoint,
 }
 
 impl Meeting<'_> {
     /// Returns the impulse on a body and its moment about the centre for a unit impulse at this point.
     fn push(&self, side: usize) -> (DVec3, DVec3) {
         let impulse = if side == 0 { -self.onset.normal } else { self.onset.normal };
-        (impulse, self.arms[side].cross(impulse))
+        (impulse, self.point.arms[side].cross(impulse))
     }
 
     /// Returns the velocity of the point along the normal if it belongs to a body with this velocity and this angular velocity.
     fn speed(&self, side: usize, (velocity, turning): (DVec3, DVec3)) -> f64 {
-        (velocity + turning.cross(self.arms[side])).dot(self.onset.normal)
+        (velocity + turning.cross(self.point.arms[side])).dot(self.onset.normal)
     }
 }
 
@@ -52,7 +52,8 @@ impl JointResponse {
         self.solver.forget();
     }
 
-    /// Computes the impulses at the points of all `onsets`. Motors, limits, ropes and other contacts have no influence.
+    /// Computes the impulses at the points of all `onsets` that end the approach there. Joints hold exactly. Motors, limits, ropes and other
+    /// contacts have no influence.
     pub(super) fn needs(
         &mut self,
         onsets: &[Onset],
@@ -63,7 +64,7 @@ impl JointResponse {
             .iter()
             .enumerate()
             .flat_map(|(number, onset)| {
-                onset.points.iter().map(move |point| Meeting { number, onset, arms: point.arms })
+                onset.points.iter().map(move |point| Meeting { number, onset, point })
             })
             .collect();
         let count = meetings.len();
@@ -83,17 +84,15 @@ impl JointResponse {
                 if one != two {
                     coupled.unite(pushed.number, meeting.number);
                 }
-                // Joints to given motions may leave no freedom. The response is then a rounding error.
+                // A body that a joint connects to a given motion may be unable to move. Its response is then only a rounding error.
                 response.push(if (two - one).abs() > LOCKED * free { two - one } else { 0.0 });
             }
         }
-        let approach: Vec<f64> =
-            onsets.iter().flat_map(|onset| &onset.points).map(|point| point.approach).collect();
+        let approach: Vec<f64> = meetings.iter().map(|meeting| meeting.point.approach).collect();
         let impulses = bounce::impulses(&approach, |i, j| response[j * count + i]);
         let mut missing = vec![0.0; onsets.len()];
-        let points = onsets.iter().flat_map(|onset| &onset.points);
-        for ((meeting, impulse), point) in meetings.iter().zip(&impulses).zip(points) {
-            missing[coupled.first(meeting.number)] += impulse - point.impulse;
+        for (meeting, impulse) in meetings.iter().zip(&impulses) {
+            missing[coupled.first(meeting.number)] += impulse - meeting.point.impulse;
         }
         let mut impulses = impulses.into_iter();
         let need = |(number, onset): (usize, &Onset)| Need {

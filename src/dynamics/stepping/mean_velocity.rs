@@ -8,10 +8,10 @@
 //! The mean velocity of a step is its displacement divided by its duration. With this velocity, the step is symmetric in time, and loses no
 //! energy. This is the method SHAKE with linearised constraints. Source: E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
 //! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit or an overstretched rope
-//! pushes them: its displacement only corrects an overlap or a length, and must not become a velocity.
+//! pushes them. The engine then moves them to correct an overlap or a length, and this displacement must not become a velocity.
 //!
-//! A mechanism consists of all bodies that joints connect. Either all its bodies get their mean velocity, or none. Otherwise a joint would act
-//! on one body without a reaction on the other one, and momentum would be lost.
+//! Bodies that joints connect, directly or through other bodies, form a mechanism. Either all bodies of a mechanism get their mean velocity,
+//! or none of them. Otherwise a joint would act on one of its bodies and not on the other one, and the mechanism would gain or lose momentum.
 
 use std::f64::consts::TAU;
 
@@ -26,14 +26,13 @@ use super::{bodies, spin};
 
 /// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
 const ROTATION: f64 = 4.0;
-/// The changes of velocities by joints at the start and at the end of a step count as equal if the cosine of the angle between them is at least
-/// this, as vectors over all bodies of a mechanism,
+/// Joints change the velocities of a mechanism at the start and at the end of a step. Each change is one vector, with the components of all
+/// bodies. The two changes count as equal if the cosine of the angle between them is at least this, and if `LARGER` allows it.
 const PARALLEL: f64 = 0.95;
-/// and if the square of the second change is at most this multiple of the square of the first one.
+/// The square of the second change may be larger than the square of the first one by at most this factor.
 const LARGER: f64 = 2.0;
-/// A body counts as a thin rod if its moment of inertia about a hinge is larger than this multiple of its smallest moment.
-const THIN: f64 = 4.0;
-/// If a body rotates by a larger angle within a step, its mechanism keeps the velocities of the engine, rad. With mean velocities, such steps are unstable.
+/// If a body rotates by a larger angle within a step, rad, its mechanism keeps the velocities of the engine. With mean velocities, such steps
+/// are unstable.
 const FASTEST: f64 = 0.2;
 /// The largest excess length of a rope that has no effect, relative to the length of the rope.
 const TAUT: f64 = 1e-7;
@@ -43,15 +42,13 @@ pub(super) struct MeanVelocity {
     /// For each joint, whether at the start of the step it was a rope that was longer than its rotation explains, or a hinge or slider at
     /// its limit.
     is_stopped: Vec<bool>,
-    /// The indices of the bodies that forces move and that a joint holds.
+    /// The indices of the bodies on joints, without fixed bodies and bodies with a given motion.
     held: Vec<usize>,
     /// For each body, the number of its mechanism.
     mechanism: Vec<usize>,
     /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. Such a body gets the mean of its
     /// angular velocity about this axis only: about other axes, the small moments of inertia of rods would make errors grow.
     axis: Vec<Option<DVec3>>,
-    /// For each body, whether it is a thin rod on a hinge across it.
-    is_thin: Vec<bool>,
     /// For each body, whether it gets its mean velocity after the present step.
     gets_mean: Vec<bool>,
 }
@@ -68,30 +65,11 @@ impl MeanVelocity {
                 mechanisms.unite(one, two);
             }
         }
-        let mut axis = vec![None; bodies];
-        for k in 0..joints.len() {
-            let Some(joint) = joints.get(engine, k) else { continue };
-            if joint.locked_axes == JointAxesMask::LOCKED_REVOLUTE_AXES {
-                for (body, frame) in
-                    joints.bodies(k).into_iter().zip([joint.local_frame1, joint.local_frame2])
-                {
-                    if let Some(body) = body {
-                        axis[body] = Some(frame.rotation * DVec3::X);
-                    }
-                }
-            }
-        }
-        let is_thin = |(i, axis): (usize, &Option<DVec3>)| {
-            let inertia = model.inertia()[i];
-            axis.is_some_and(|axis| axis.dot(inertia * axis) > THIN * inertia.min_element())
-        };
-        let is_thin = axis.iter().enumerate().map(is_thin).collect();
         MeanVelocity {
             is_stopped: vec![false; joints.len()],
             held,
             mechanism: (0..bodies).map(|body| mechanisms.first(body)).collect(),
-            axis,
-            is_thin,
+            axis: joints.hinge_axes(engine, bodies),
             gets_mean: vec![false; bodies],
         }
     }
@@ -140,19 +118,11 @@ impl MeanVelocity {
         }
     }
 
-    /// Whether a body must rotate at a constant angular velocity within a step, not freely.
-    ///
-    /// If the angular momentum of a thin rod is not exactly perpendicular to the rod, free rotation is fast about the rod's own axis. A hinge
-    /// across the rod corrects this rotation at the end of the step only, and the errors would grow.
-    pub(super) fn is_thin(&self, body: usize) -> bool {
-        self.is_thin[body]
-    }
-
     /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. The closure returns a body after
     /// the step, with its location before the step, and the velocity that it would have without joints and contacts.
     ///
-    /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If they do not, the
-    /// correction belongs to an error of the joints, and must not last.
+    /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If the changes differ,
+    /// the one at the end corrects the positions of joints that give way, and must not become a velocity.
     pub(super) fn end<'a>(
         &mut self,
         engine: &'a PhysicsWorld,

@@ -17,6 +17,7 @@ mod convex_parts;
 mod engine_input;
 mod fresh_contacts;
 mod hooks;
+mod impacts;
 mod joint;
 mod joint_response;
 mod kept_contacts;
@@ -93,6 +94,8 @@ pub struct TimeStepping {
     slow: f64,
     joints: Joints,
     mean_velocity: MeanVelocity,
+    /// For each body, whether it is a thin rod on a hinge; see [`spin::thin_rods`].
+    is_thin_rod: Vec<bool>,
     rolling: Rolling,
     rebounds: Rebounds,
     kept_contacts: KeptContacts,
@@ -144,6 +147,7 @@ impl TimeStepping {
             rebounds: Rebounds::new(&model, &held, slow),
             reach: bodies::reach(&model),
             mean_velocity: MeanVelocity::new(&engine, &model, &joints),
+            is_thin_rod: spin::thin_rods(&joints.hinge_axes(&engine, model.len()), model.inertia()),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
             shows_contacts: true,
@@ -220,7 +224,7 @@ impl Dynamics for TimeStepping {
     }
 
     fn impacts(&mut self) -> Vec<Impact> {
-        self.books.take_impacts()
+        self.books.impacts.take()
     }
 
     fn steps(&self) -> u64 {

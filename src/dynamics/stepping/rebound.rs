@@ -2,11 +2,11 @@
 //!
 //! The physics engine gives bodies their rebounds after it has solved the joints, so joints would not take part in a rebound. A hammer would
 //! rebound as if it had no handle. So the contacts of bodies on joints get no restitution in the engine: an impact only ends the approach.
-//! In the next step, a contact with restitution e gives the bodies e times its impulse again, and the joints take part in this as in any
-//! other force. This is Poisson's hypothesis of restitution. It equals Newton's law if there is a single contact without friction. Source:
-//! F. Pfeiffer and C. Glocker, *Multibody Dynamics with Unilateral Contacts*, chapter 8.
+//! In the next step, the contact gives the bodies a second impulse: the first one times the coefficient of restitution. The joints react to
+//! it as to any other force. This is Poisson's hypothesis of restitution. It equals Newton's law if there is a single contact without
+//! friction. Source: F. Pfeiffer and C. Glocker, *Multibody Dynamics with Unilateral Contacts*, chapter 8.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{ColliderHandle, ContactModificationContext, ContactPair};
@@ -23,6 +23,7 @@ use super::touch::{self, Touch};
 pub(super) struct Rebounds {
     /// For each body, whether forces move it and a joint holds it.
     held: Vec<bool>,
+    /// Bodies that approach more slowly than this are at rest, m/s.
     slow: f64,
     /// The number of the present step, from 1. The engine stores it in each contact in which an impact begins.
     step: u32,
@@ -86,7 +87,7 @@ impl Rebounds {
         self.joint_response.forget_bodies();
     }
 
-    /// Sets the rebounds of the next step, from a checkpoint.
+    /// Sets the rebounds of the next step.
     pub(super) fn set_due(&mut self, due: Vec<Rebound>) {
         self.pairs = due.iter().map(|rebound| rebound.pair).collect();
         self.due = due;
@@ -114,8 +115,8 @@ impl Rebounds {
         self.pushes[body] != (DVec3::ZERO, DVec3::ZERO)
     }
 
-    /// Whether a joint holds one of two bodies that meet, so that their rebound waits for the next step.
-    pub(super) fn waits(&self, bodies: [usize; 2]) -> bool {
+    /// Whether a joint holds one of two bodies that meet, so that their rebound comes in the next step.
+    pub(super) fn is_delayed(&self, bodies: [usize; 2]) -> bool {
         bodies.into_iter().any(|body| self.held[body])
     }
 
@@ -124,9 +125,9 @@ impl Rebounds {
         self.step
     }
 
-    /// Makes a contact ineffective in the step of its rebound. Without this, the engine would start with the impulse of the last step, and
-    /// end before it has removed all of it.
-    pub(super) fn part(&self, context: &mut ContactModificationContext<'_>) {
+    /// Removes a contact from the engine for the step of its rebound. The engine would begin the step with the contact's impulse of the last
+    /// step, and its sweeps would not remove all of it.
+    pub(super) fn suspend(&self, context: &mut ContactModificationContext<'_>) {
         let is_due = self.pairs.contains(&[context.collider1, context.collider2]);
         if let Some(contact) = context.rigid_mut().filter(|_| is_due)
             && contact.user_data.wrapping_add(1) == self.step
@@ -161,25 +162,19 @@ impl Rebounds {
             normal,
             restitution: mixing.restitution(bodies),
             points,
+            impact: None,
         })
     }
 
-    /// Sets the rebounds of the next step. `onsets` are the impacts that began in this step, and `impacts` those that are reported. `time` and
-    /// `state` belong to the end of this step.
-    pub(super) fn prepare(
-        &mut self,
-        onsets: &[Onset],
-        mut impacts: HashMap<[ColliderHandle; 2], Impact>,
-        (model, time, state): (&Model, f64, &State),
-    ) {
-        self.due = if onsets.is_empty() {
+    /// Prepares the rebounds of the next step. `onsets` are the impacts that began in this step. `time` and `state` belong to its end.
+    pub(super) fn prepare(&mut self, onsets: Vec<Onset>, (model, time, state): (&Model, f64, &State)) {
+        let due = if onsets.is_empty() {
             Vec::new()
         } else {
-            let needs = self.joint_response.needs(onsets, (model, time, state));
-            let rebound = |(onset, need): (&Onset, &Need)| onset.rebound(need, impacts.remove(&onset.pair));
-            onsets.iter().zip(&needs).map(rebound).collect()
+            let needs = self.joint_response.needs(&onsets, (model, time, state));
+            onsets.into_iter().zip(&needs).map(|(onset, need)| onset.rebound(need)).collect()
         };
-        self.pairs = self.due.iter().map(|rebound| rebound.pair).collect();
+        self.set_due(due);
     }
 }
 
@@ -191,6 +186,8 @@ pub(super) struct Onset {
     pub(super) normal: DVec3,
     restitution: f64,
     pub(super) points: Vec<OnsetPoint>,
+    /// The impact, if it is to be reported, as far as it is known after this step.
+    pub(super) impact: Option<Impact>,
 }
 
 /// A point of a contact at which an impact has begun.
@@ -205,9 +202,9 @@ pub(super) struct OnsetPoint {
 
 impl Onset {
     /// Returns the rebound.
-    fn rebound(&self, need: &Need, impact: Option<Impact>) -> Rebound {
+    fn rebound(&self, need: &Need) -> Rebound {
         let restitution = self.restitution;
-        let impulse = |(point, once): (&OnsetPoint, &f64)| {
+        let impulse = |point: &OnsetPoint, once: f64| {
             if need.is_met { restitution * point.impulse } else { (1.0 + restitution) * once - point.impulse }
         };
         let mut rebound = Rebound {
@@ -215,10 +212,10 @@ impl Onset {
             bodies: self.bodies,
             impulse: DVec3::ZERO,
             moments: [DVec3::ZERO; 2],
-            impact,
+            impact: self.impact,
         };
-        for (point, impulse) in self.points.iter().zip(self.points.iter().zip(&need.impulses).map(impulse)) {
-            let impulse = impulse * self.normal;
+        for (point, once) in self.points.iter().zip(&need.impulses) {
+            let impulse = impulse(point, *once) * self.normal;
             rebound.impulse += impulse;
             rebound.moments[0] -= point.arms[0].cross(impulse);
             rebound.moments[1] += point.arms[1].cross(impulse);

@@ -5,6 +5,8 @@ use rapier3d_f64::prelude::{
     ContactData, ContactManifold, ContactPair, PairContacts, Pose, RigidBodyHandle, SolverContact,
 };
 
+use super::super::motion::Twist;
+
 /// The largest number of points of one contact for which the physics engine computes impulses.
 const MOST_POINTS: usize = 4;
 
@@ -90,6 +92,19 @@ impl<'a> Touch<'a> {
         };
         let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
         contacts.map(depth).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Returns the energy that a contact takes from its first body and the energy that it gives to its second body, J. Each pair holds the
+    /// part of the normal impulses and the part of friction. `mean` is the mean twist of each body in the step.
+    pub(super) fn work(&self, push: &Push, mean: &[Twist]) -> Option<[[f64; 2]; 2]> {
+        let normal = self.normal();
+        let work = |side: usize| {
+            let (velocity, turning) = *mean.get(self.bodies[side])?;
+            let along = push.impulse * normal.dot(velocity) + push.moments[side].dot(turning);
+            let at = velocity + turning.cross(push.arms[side]);
+            Some([along, push.friction.dot(at) + push.twist * normal.dot(turning)])
+        };
+        Some([work(0)?, work(1)?])
     }
 
     /// Returns the impulses of the contact in the last step; `None` if the normal impulse was zero.

@@ -29,8 +29,8 @@ in_the_browser! { parabola(), "reach.mjs":
     keys_do_what_a_mouse_does,
 }
 
-/// Draws every fourth scene of the gallery, beginning with number `first` of the names in order. Four tests share the scenes, so that two
-/// processors share the work.
+/// Draws a quarter of the gallery: every fourth scene in alphabetical order, from the one with the index `first` on. Four tests draw the whole
+/// gallery, so that they can run at the same time.
 fn is_drawn_without_a_complaint(first: usize) {
     let scenes = std::fs::read_dir(support::root().join("scenes")).unwrap().filter_map(|entry| {
         let name = entry.unwrap().file_name().into_string().unwrap();

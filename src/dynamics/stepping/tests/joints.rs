@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
-use super::{GRAVITY, Scene, run};
+use super::{GRAVITY, Scene, door, run};
 
 /// Adds the bob of a pendulum of 1 m that hangs from the origin, deflected by `angle` (rad) about z. Returns the ends of the joint and the
 /// position of the bob.
@@ -111,15 +111,8 @@ fn a_thin_rod_on_a_hinge_is_stable() {
 #[test]
 fn a_limit_does_not_throw_a_door_back() {
     let mut scene = Scene::default();
-    let spin = 3.0 * DVec3::Y;
-    let door = scene.add(Shape::Box { size: DVec3::new(1.0, 2.0, 0.05) }, |body| {
-        body.with_location(0.5 * DVec3::X)
-            .with_angular_velocity(spin)
-            .with_velocity(spin.cross(0.5 * DVec3::X))
-    });
-    let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: door, at: -0.5 * DVec3::X }];
     let freedom = Freedom { limits: Some([-1.5, 1.5]), motor: None };
-    let hinge = Hinge::new(ends, DVec3::Y, DQuat::IDENTITY).with(freedom);
+    let hinge = door(&mut scene).with(freedom);
     let link = Link { kind: LinkKind::Hinge(hinge), collides: false };
     let end = run(&mut TimeStepping::new(scene.world(0.0), &scene.contacts(), &[link]), 2.0).bodies[0];
     assert!(end.angular_velocity.length() < 0.02, "{}", end.angular_velocity);

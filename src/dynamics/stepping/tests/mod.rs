@@ -63,6 +63,16 @@ fn cube(edge: f64) -> Shape {
     Shape::Box { size: DVec3::splat(edge) }
 }
 
+/// Adds a door that rotates about the y axis through the origin at 3 rad/s. Returns its hinge.
+fn door(scene: &mut Scene) -> Hinge {
+    let (spin, at) = (3.0 * DVec3::Y, 0.5 * DVec3::X);
+    let door = scene.add(Shape::Box { size: DVec3::new(1.0, 2.0, 0.05) }, |body| {
+        body.with_location(at).with_angular_velocity(spin).with_velocity(spin.cross(at))
+    });
+    let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: door, at: -at }];
+    Hinge::new(ends, DVec3::Y, DQuat::IDENTITY)
+}
+
 #[allow(clippy::unwrap_used, reason = "a run that breaks down fails the test")]
 fn run(dynamics: &mut dyn Dynamics, t: f64) -> Snapshot {
     dynamics.advance(t, &[], &mut |_| {}).unwrap();
