@@ -172,7 +172,9 @@ impl TimeStepping {
                 || rebounds.is_due(i);
             kept_contacts.set(engine, i, is_bouncing || rolling.is_spun(i));
             if !rolling.is_ball(i) {
-                kept_contacts.turn(engine, i, orientation, kept_contacts::ANGLE);
+                let is_turning = reach[i] * turning.length() > *slow;
+                let angle = if is_turning { 0.0 } else { kept_contacts::ANGLE };
+                kept_contacts.turn(engine, i, orientation, angle);
             }
             if rolling.is_round(i) {
                 kept_contacts.shift(engine, i, state.location[i], kept_contacts::WAY * half_thickness[i]);
@@ -218,13 +220,16 @@ impl TimeStepping {
     fn pull(&mut self, dt: f64) {
         let Self { model, state, engine, handles, books, joints, inputs, rolling, mean_velocity, .. } = self;
         let rebounds = &self.rebounds;
-        let after = |i: usize| {
-            let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
-            Some((engine.bodies.get(handles[i])?, state.location[i], without))
-        };
-        mean_velocity.end(engine, joints, after, dt);
-        books.motors = joints.motor_pushes(engine, state);
         let slop = engine.integration_parameters.allowed_linear_error();
+        let after = |i: usize| {
+            let (body, from) = (engine.bodies.get(handles[i])?, state.location[i]);
+            let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
+            let is_stopped =
+                inputs[i].is_fast && is_short(dt * body.linvel(), body.translation() - from, slop);
+            Some((body, from, without, is_stopped))
+        };
+        mean_velocity.end((engine, handles), joints, after, dt);
+        books.motors = joints.motor_pushes(engine, state);
         let (mut moved, mut carried) = (Vec::new(), Vec::new());
         for (i, handle) in handles.iter().enumerate() {
             if model.inverse_mass()[i] == 0.0 {
@@ -246,8 +251,7 @@ impl TimeStepping {
                 pose.rotation = orientation;
             }
             let way = dt * velocity;
-            let is_stopped = inputs[i].is_fast
-                && (way - (pose.translation - state.location[i])).dot(way) > slop * way.length();
+            let is_stopped = inputs[i].is_fast && is_short(way, pose.translation - state.location[i], slop);
             if is_stopped {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
@@ -315,6 +319,12 @@ impl TimeStepping {
             }
         }
     }
+}
+
+/// Returns whether a body moved by less than its velocity would take it, along the direction of its velocity: `way`, m. `slop` is the
+/// tolerance, m.
+fn is_short(way: DVec3, moved: DVec3, slop: f64) -> bool {
+    (way - moved).dot(way) > slop * way.length()
 }
 
 fn middle(one: (DVec3, DVec3), two: (DVec3, DVec3)) -> (DVec3, DVec3) {

@@ -16,7 +16,7 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody};
+use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody, RigidBodyHandle};
 
 use super::super::sets::Sets;
 use super::super::{Model, State};
@@ -60,16 +60,18 @@ impl MeanVelocity {
         let held = joints.held(bodies);
         let held = (0..bodies).filter(|&body| held[body]).filter(is_movable).collect();
         let mut mechanisms = Sets::new(bodies);
+        let mut axis = joints.hinge_axes(engine, bodies);
         for k in 0..joints.len() {
             if let [Some(one), Some(two)] = joints.bodies(k).map(|body| body.filter(is_movable)) {
                 mechanisms.unite(one, two);
+                (axis[one], axis[two]) = (None, None);
             }
         }
         MeanVelocity {
             is_stopped: vec![false; joints.len()],
             held,
             mechanism: (0..bodies).map(|body| mechanisms.first(body)).collect(),
-            axis: joints.hinge_axes(engine, bodies),
+            axis,
             gets_mean: vec![false; bodies],
         }
     }
@@ -119,15 +121,16 @@ impl MeanVelocity {
     }
 
     /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. The closure returns a body after
-    /// the step, with its location before the step, and the velocity that it would have without joints and contacts.
+    /// the step, its location before the step, the velocity that it would have without joints and contacts, and whether it stopped at a
+    /// surface. `handles` holds the engine's handle of each body.
     ///
     /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If the changes differ,
     /// the one at the end corrects the positions of joints that give way, and must not become a velocity.
     pub(super) fn end<'a>(
         &mut self,
-        engine: &'a PhysicsWorld,
+        (engine, handles): (&'a PhysicsWorld, &[RigidBodyHandle]),
         joints: &Joints,
-        after: impl Fn(usize) -> Option<(&'a RigidBody, DVec3, DVec3)>,
+        after: impl Fn(usize) -> Option<(&'a RigidBody, DVec3, DVec3, bool)>,
         dt: f64,
     ) {
         let mut excluded = vec![false; self.mechanism.len()];
@@ -144,10 +147,11 @@ impl MeanVelocity {
         // at the end of the step.
         let mut changes = vec![[0.0; 3]; self.mechanism.len()];
         for &i in &self.held {
-            let Some((body, from, without)) = after(i) else { continue };
+            let Some((body, from, without, is_stopped)) = after(i) else { continue };
             let mechanism = self.mechanism[i];
-            excluded[mechanism] |=
-                body.angvel().length_squared() * dt * dt > FASTEST * FASTEST || is_touched(engine, body);
+            excluded[mechanism] |= is_stopped
+                || body.angvel().length_squared() * dt * dt > FASTEST * FASTEST
+                || is_touched(engine, handles, body);
             let at_start = body.linvel() - without;
             let at_end = (body.translation() - from) / dt - body.linvel();
             let products = [at_start.length_squared(), at_start.dot(at_end), at_end.length_squared()];
@@ -190,9 +194,17 @@ impl MeanVelocity {
     }
 }
 
-/// Returns true if any contact pushed a body in the last step.
-fn is_touched(engine: &PhysicsWorld, body: &RigidBody) -> bool {
+/// Returns true if any contact may have pushed a body in the last step.
+///
+/// The engine keeps only the impulses of its second solution. A contact that has pushed in the first solution, and so has moved the body,
+/// leaves no gap.
+fn is_touched(engine: &PhysicsWorld, handles: &[RigidBodyHandle], body: &RigidBody) -> bool {
+    let pose = |body: usize| {
+        let body = engine.bodies.get(handles[body])?;
+        body.is_dynamic().then(|| *body.position())
+    };
     let pairs =
         body.colliders().iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
-    pairs.flat_map(Touch::of_pair).any(|touch| touch.push().is_some())
+    let slop = engine.integration_parameters.allowed_linear_error();
+    pairs.flat_map(Touch::of_pair).any(|touch| touch.push().is_some() || touch.depth(pose) > -slop)
 }

@@ -20,8 +20,9 @@ use super::touch::Touch;
 
 /// A smaller rotation by the spin within a step, rad, is left to the physics engine.
 const ANGLE: f64 = 0.005;
-/// A body lies flat on another one if the cosine of the angle between the contact's normal and the axis is larger than this.
-const FLAT: f64 = 0.9;
+/// The surface of a body has different velocities at the points of a contact if the cosine of the angle between the contact's normal and
+/// the axis is larger than this.
+const INCLINED: f64 = 0.1;
 /// The tolerance for the position of an axis, relative to the thickness of the thinnest moving body.
 const ALIGNED: f64 = 1e-6;
 
@@ -104,8 +105,7 @@ impl Rolling {
         let axis = round.axis.map(|axis| orientation * axis);
         let [spin, leading] = [turning, leading].map(|all| axis.map_or(all, |axis| all.dot(axis) * axis));
         let is_fast = spin.length_squared() * dt * dt > ANGLE * ANGLE;
-        // A disk that lies flat rotates against friction at all of its points, which have no common velocity.
-        let is_spun = is_fast && !axis.is_some_and(|axis| lies_flat(engine, colliders, axis));
+        let is_spun = is_fast && !axis.is_some_and(|axis| is_twisted(engine, colliders, axis));
         (self.spin[body], round.leading) = if is_spun { (spin, leading) } else { (DVec3::ZERO, DVec3::ZERO) };
         round.leading
     }
@@ -187,10 +187,12 @@ fn common_axis(parts: &[Symmetry], tolerance: f64) -> Option<Option<DVec3>> {
     (!parts.is_empty() && parts.iter().all(fits)).then_some(common)
 }
 
-/// Returns true if a contact has a normal along the axis of a body with these colliders.
-fn lies_flat(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -> bool {
+/// Returns true if the spin about an axis gives the surface different velocities at the points of a contact, as for a disk that lies flat or a
+/// cone that lies on its side. The engine's friction knows only one velocity for all points of a contact.
+fn is_twisted(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -> bool {
     let pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
-    pairs.flat_map(Touch::of_pair).any(|touch| touch.normal().dot(axis).abs() > FLAT)
+    let is_inclined = |touch: &Touch<'_>| touch.normal().dot(axis).abs() > INCLINED;
+    pairs.flat_map(Touch::of_pair).any(|touch| is_inclined(&touch) && touch.points().nth(1).is_some())
 }
 
 #[cfg(test)]

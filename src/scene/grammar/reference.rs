@@ -119,8 +119,7 @@ joints are described in the same way for both schemes. Choose by scene:
   parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill
   narrow notches. A fixed mesh keeps its triangles.
 - **Rolling**: balls, cylinders and capsules roll smoothly at any speed, also as wheels on a hinge. So do compounds of them that share one
-  axis. A cone on its side needs a `step` of 0.001 s or less: with longer steps, it rolls straight on. A frustum has 32 sides, so it loses speed.
-  A hoop (a torus) is unreliable.
+  axis, and cones on their sides. A frustum has 32 sides, so it loses speed. A hoop (a torus) is unreliable.
 - **Pressing**: a motor that presses a body onto another one with far more than its weight needs a smaller step. The summary and a warning tell
   when joints or contacts add energy.
 - **Machines**: a body with `end` takes its joints with it when it disappears. So a load that a

@@ -1,6 +1,7 @@
 //! Tests of time-stepping against closed forms and against Euler–Cromer.
 
 mod contacts;
+mod invariants;
 mod joints;
 mod rebounds;
 mod rolling;

@@ -187,3 +187,29 @@ fn a_coin_stays_on_a_turntable() {
     let radius = DVec3::new(end.location.x, 0.0, end.location.z).length();
     assert!((radius - 0.5).abs() < 0.005, "{radius}");
 }
+
+/// A cone on its side rolls about its apex, which stays at rest. Its centre of mass describes a circle.
+#[test]
+fn a_cone_rolls_about_its_apex() {
+    let (radius, height, speed) = (0.2, 0.5, 0.5);
+    let half_angle = libm::atan2(radius, height);
+    let from_apex = 0.75 * height;
+    let (up, along) = (from_apex * libm::sin(half_angle), from_apex * libm::cos(half_angle));
+    let mut scene = Scene::default().with_ground(0.0);
+    // The axis points from the base to the apex: along x, and down by the half angle.
+    let turn = DQuat::from_rotation_z(-FRAC_PI_2 - half_angle);
+    let cone = scene.add(Shape::Cone { radius, top_radius: 0.0, height }, |body| {
+        body.with_location(up * DVec3::Y)
+            .with_orientation(turn)
+            .with_velocity(speed * DVec3::Z)
+            .with_angular_velocity(speed / up * DVec3::X)
+    });
+    let mut stepping = scene.stepping();
+    for k in 1..=20 {
+        let t = 0.2 * f64::from(k);
+        let angle = speed / along * t;
+        let expected = DVec3::new(along * (1.0 - libm::cos(angle)), up, along * libm::sin(angle));
+        let found = run(&mut stepping, t).bodies[cone.index()].location;
+        assert!(found.abs_diff_eq(expected, 0.02), "{t} {found} {expected}");
+    }
+}
