@@ -8,10 +8,14 @@ use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::bounce::Bounce;
 use super::engine_input::EngineInput;
 use super::hooks::Hooks;
-use super::{TimeStepping, bodies, kept_contacts, set_step, spin};
+use super::{TimeStepping, allow_corrections, bodies, kept_contacts, set_step, spin};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
+/// The physics engine may correct ropes by this multiple of the length that a rotation adds to them within a step.
+const STRETCH: f64 = 2.0;
+/// A body on a joint counts as stopped at a surface if it advances less than its velocity tells by this part.
+const ARC: f64 = 0.2;
 
 impl TimeStepping {
     /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
@@ -92,12 +96,13 @@ impl TimeStepping {
         self.driven.begin(&self.model, begin, &self.state, &mut self.loads);
         self.model.bear(&self.state, &mut self.loads);
         self.state.accounts.add(dt, self.loads.power);
-        self.mean_velocity.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
+        let stretch = self.mean_velocity.begin(&self.engine, &self.joints, (&self.model, &self.state), dt);
         self.rebounds.begin(self.steps);
         self.push(end, dt);
         let Self { books, engine, rolling, mixing, joints, slow, rebounds, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
         set_step(&mut engine.integration_parameters, dt);
+        allow_corrections(&mut engine.integration_parameters, STRETCH * stretch / dt);
         let bounce = Bounce { rebounds, dt, slow: *slow };
         engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.impacts.events);
         self.steps += 1;
@@ -136,7 +141,9 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, kept_contacts, mixing, is_thin_rod, slow, rebounds, reach, .. } = self;
+        let Self {
+            rolling, kept_contacts, mixing, is_thin_rod, slow, rebounds, reach, mean_velocity, ..
+        } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -147,7 +154,7 @@ impl TimeStepping {
             state.angular_momentum[i] += dt * loads.torque[i] + moment;
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
-            let leading = if is_thin_rod[i] {
+            let leading = if is_thin_rod[i] && !mean_velocity.tumbles(i, orientation, turning) {
                 spin::steady(turning, dt)
             } else {
                 spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
@@ -221,12 +228,20 @@ impl TimeStepping {
         let Self { model, state, engine, handles, books, joints, inputs, rolling, mean_velocity, .. } = self;
         let rebounds = &self.rebounds;
         let slop = engine.integration_parameters.allowed_linear_error();
+        let is_stopped = |i: usize| {
+            let Some(body) = engine.bodies.get(handles[i]).filter(|_| inputs[i].is_fast) else {
+                return false;
+            };
+            let way = dt * body.linvel();
+            // On a joint, a body describes an arc, and advances less than its velocity tells.
+            let tolerance = if mean_velocity.is_held(i) { slop.max(ARC * way.length()) } else { slop };
+            (way - (body.translation() - state.location[i])).dot(way) > tolerance * way.length()
+        };
+        let stopped: Vec<bool> = (0..handles.len()).map(is_stopped).collect();
         let after = |i: usize| {
             let (body, from) = (engine.bodies.get(handles[i])?, state.location[i]);
             let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
-            let is_stopped =
-                inputs[i].is_fast && is_short(dt * body.linvel(), body.translation() - from, slop);
-            Some((body, from, without, is_stopped))
+            Some((body, from, without, stopped[i]))
         };
         mean_velocity.end((engine, handles), joints, after, dt);
         books.motors = joints.motor_pushes(engine, state);
@@ -251,8 +266,7 @@ impl TimeStepping {
                 pose.rotation = orientation;
             }
             let way = dt * velocity;
-            let is_stopped = inputs[i].is_fast && is_short(way, pose.translation - state.location[i], slop);
-            if is_stopped {
+            if stopped[i] {
                 // The physics engine has stopped the body at a surface, or slightly inside it. Contacts there are soft, so the speed of
                 // the body would carry it through the surface. To prevent this, the body is moved slightly in front of the surface.
                 pose.translation -= 4.0 * slop * way.normalize();
@@ -260,7 +274,7 @@ impl TimeStepping {
                 (velocity, turning) = mean;
                 carried.push((*handle, velocity));
             }
-            if is_stopped || is_turned {
+            if stopped[i] || is_turned {
                 moved.push((*handle, pose));
             }
             state.velocity[i] = velocity;
@@ -319,12 +333,6 @@ impl TimeStepping {
             }
         }
     }
-}
-
-/// Returns whether a body moved by less than its velocity would take it, along the direction of its velocity: `way`, m. `slop` is the
-/// tolerance, m.
-fn is_short(way: DVec3, moved: DVec3, slop: f64) -> bool {
-    (way - moved).dot(way) > slop * way.length()
 }
 
 fn middle(one: (DVec3, DVec3), two: (DVec3, DVec3)) -> (DVec3, DVec3) {

@@ -5,7 +5,8 @@
 //! replaces all points: the centre of pressure, where one impulse has the same effect as the impulses at all points together.
 //!
 //! The engine limits friction by the normal impulse before restitution, which is too small by the factor 1 + e. So the coefficient of
-//! friction gets this factor when an impact begins.
+//! friction gets this factor when an impact begins. If the engine stopped the bodies one step early, this impulse would be smaller still, by a
+//! part that depends on the gap. So an impact waits until the bodies meet in the present step.
 //!
 //! If a joint holds one of the bodies, the rebound comes in the next step; see [`super::rebound`].
 
@@ -87,6 +88,12 @@ impl Bounce<'_> {
             let approach = approach(point);
             approach > self.slow && point.dist < REACH * approach * self.dt
         };
+        // Points that meet the other body only in the next step wait, if no point meets it in this step.
+        let waits = |point: &SolverContact| meets(point) && point.dist > approach(point) * self.dt;
+        if !contact.solver_contacts.iter().any(|point| meets(point) && !waits(point)) {
+            contact.solver_contacts.retain(|point| !waits(point));
+            return;
+        }
         let meeting: Vec<SolverContact> =
             contact.solver_contacts.iter().copied().filter(|point| meets(point)).collect();
         let Some(first) = meeting.first() else { return };

@@ -15,7 +15,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody, RigidBodyHandle};
 
 use super::super::sets::Sets;
@@ -34,6 +34,8 @@ const LARGER: f64 = 2.0;
 /// If a body rotates by a larger angle within a step, rad, its mechanism keeps the velocities of the engine. With mean velocities, such steps
 /// are unstable.
 const FASTEST: f64 = 0.2;
+/// A body on a hinge moves in a plane if its angular velocity across the axis of the hinge is smaller than this part of all of it.
+const PLANE: f64 = 1e-4;
 /// The largest excess length of a rope that has no effect, relative to the length of the rope.
 const TAUT: f64 = 1e-7;
 
@@ -46,9 +48,16 @@ pub(super) struct MeanVelocity {
     held: Vec<usize>,
     /// For each body, the number of its mechanism.
     mechanism: Vec<usize>,
-    /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. Such a body gets the mean of its
-    /// angular velocity about this axis only: about other axes, the small moments of inertia of rods would make errors grow.
+    /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. If only the world holds the body,
+    /// it gets the mean of its angular velocity about this axis only: about other axes, the small moments of inertia of rods would make
+    /// errors grow. Two bodies on one hinge must get the mean about all axes, or they would exchange unequal angular momenta.
     axis: Vec<Option<DVec3>>,
+    /// For each body, whether a joint holds it, and it can move.
+    is_held: Vec<bool>,
+    /// For each body, whether no joint connects its mechanism with the world, a fixed body or a guided one.
+    is_free: Vec<bool>,
+    /// For each body, whether a joint connects it with another body that can move.
+    is_joined: Vec<bool>,
     /// For each body, whether it gets its mean velocity after the present step.
     gets_mean: Vec<bool>,
 }
@@ -57,35 +66,53 @@ impl MeanVelocity {
     pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> MeanVelocity {
         let bodies = model.len();
         let is_movable = |body: &usize| model.inverse_mass()[*body] != 0.0;
-        let held = joints.held(bodies);
-        let held = (0..bodies).filter(|&body| held[body]).filter(is_movable).collect();
+        let on_joints = joints.held(bodies);
+        let is_held: Vec<bool> = (0..bodies).map(|body| on_joints[body] && is_movable(&body)).collect();
+        let held = (0..bodies).filter(|&body| is_held[body]).collect();
         let mut mechanisms = Sets::new(bodies);
-        let mut axis = joints.hinge_axes(engine, bodies);
+        let (mut is_joined, mut is_anchored) = (vec![false; bodies], vec![false; bodies]);
         for k in 0..joints.len() {
-            if let [Some(one), Some(two)] = joints.bodies(k).map(|body| body.filter(is_movable)) {
-                mechanisms.unite(one, two);
-                (axis[one], axis[two]) = (None, None);
+            match joints.bodies(k).map(|body| body.filter(is_movable)) {
+                [Some(one), Some(two)] => {
+                    mechanisms.unite(one, two);
+                    (is_joined[one], is_joined[two]) = (true, true);
+                }
+                [Some(body), None] | [None, Some(body)] => is_anchored[body] = true,
+                [None, None] => {}
             }
         }
+        let mechanism: Vec<usize> = (0..bodies).map(|body| mechanisms.first(body)).collect();
+        let mut is_free = vec![true; bodies];
+        (0..bodies).filter(|&body| is_anchored[body]).for_each(|body| is_free[mechanism[body]] = false);
         MeanVelocity {
             is_stopped: vec![false; joints.len()],
             held,
-            mechanism: (0..bodies).map(|body| mechanisms.first(body)).collect(),
-            axis,
+            is_held,
+            is_free: mechanism.iter().map(|&of| is_free[of]).collect(),
+            mechanism,
+            is_joined,
+            axis: joints.hinge_axes(engine, bodies),
             gets_mean: vec![false; bodies],
         }
     }
 
+    /// Whether a joint holds a body that can move.
+    pub(super) fn is_held(&self, body: usize) -> bool {
+        self.is_held[body]
+    }
+
     /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.
     ///
-    /// If the ends move across the rope with relative velocity v, a step makes a taut rope of length L longer by ½ (v dt)²/L.
+    /// If the ends move across the rope with relative velocity v, a step makes a taut rope of length L longer by ½ (v dt)²/L. Returns the
+    /// largest of these lengths, m.
     pub(super) fn begin(
         &mut self,
         engine: &PhysicsWorld,
         joints: &Joints,
         (model, state): (&Model, &State),
         dt: f64,
-    ) {
+    ) -> f64 {
+        let mut longest = 0.0_f64;
         for (k, is_stopped) in self.is_stopped.iter_mut().enumerate() {
             let Some(joint) = joints.get(engine, k).filter(|joint| !joint.limit_axes.is_empty()) else {
                 continue;
@@ -105,6 +132,9 @@ impl MeanVelocity {
                 let length = limits(JointAxis::LinX).max;
                 let across = velocity.reject_from(between).length_squared() * dt * dt;
                 let by_rotation = 0.5 * across / between.length();
+                if between.length() + by_rotation >= length {
+                    longest = longest.max(by_rotation);
+                }
                 between.length() - length > ROTATION * by_rotation + TAUT * length
             } else if joint.limit_axes == JointAxesMask::LIN_X {
                 let limits = limits(JointAxis::LinX);
@@ -118,6 +148,7 @@ impl MeanVelocity {
                 libm::remainder(angle - middle, TAU).abs() >= 0.5 * (limits.max - limits.min)
             };
         }
+        longest
     }
 
     /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. The closure returns a body after
@@ -167,6 +198,14 @@ impl MeanVelocity {
         }
     }
 
+    /// Returns true if a body of a free mechanism, with the angular velocity `turning` (rad/s), rotates about another axis than that of its
+    /// hinge. Its rotation within a step must then be free rotation.
+    pub(super) fn tumbles(&self, i: usize, orientation: DQuat, turning: DVec3) -> bool {
+        let Some(axis) = self.axis[i].filter(|_| self.is_free[i] && self.is_joined[i]) else { return false };
+        let across = turning.reject_from_normalized(orientation * axis).length_squared();
+        across > PLANE * PLANE * turning.length_squared()
+    }
+
     /// Returns the mean velocity and the mean angular velocity of a body in a step of `dt`, as the engine counts it. `from` is the pose of
     /// the body in the engine before the step, and `turning` is the angular velocity that the engine gave it. `None` if the body keeps the
     /// velocities of the engine.
@@ -184,11 +223,11 @@ impl MeanVelocity {
         let velocity = (to.translation - from.translation) / dt;
         let mean = spin::leading(from.rotation, to.rotation, dt);
         let mean = match self.axis[i] {
-            None => mean,
-            Some(axis) => {
+            Some(axis) if !self.is_joined[i] => {
                 let axis = from.rotation * axis;
                 turning + (mean - turning).dot(axis) * axis
             }
+            _ => mean,
         };
         Some((velocity, mean))
     }

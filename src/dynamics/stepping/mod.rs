@@ -61,6 +61,9 @@ const FINAL_SWEEPS: usize = 4;
 /// and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
 const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
+/// The physics engine separates overlapping bodies, and corrects joints, at a speed up to this if the thinnest moving body has a thickness of
+/// 1 m, m/s. For other thicknesses, the limit grows with the root of the thickness, as the speed after a fall does.
+const CORRECTION: f64 = 3.0;
 /// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
 /// A slower body counts as resting, if the thinnest moving body has a thickness of 1 m, m/s. For other thicknesses, the limit grows with
@@ -190,8 +193,7 @@ fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
         normalized_allowed_linear_error: SLOP,
         // The physics engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,
-        // The physics engine separates overlapping bodies at a speed up to this: about the speed after a fall by the typical length.
-        normalized_max_corrective_velocity: 3.0 / length.sqrt(),
+        normalized_max_corrective_velocity: CORRECTION / length.sqrt(),
         warmstart_joints: true,
         ..IntegrationParameters::default()
     }
@@ -203,6 +205,12 @@ fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
     parameters.dt = dt;
     parameters.contact_softness = soft;
     parameters.static_contact_softness = soft;
+}
+
+/// Lets the physics engine correct joints at a speed of at least `speed`, m/s.
+fn allow_corrections(parameters: &mut IntegrationParameters, speed: f64) {
+    let length = parameters.length_unit;
+    parameters.normalized_max_corrective_velocity = (CORRECTION / length.sqrt()).max(speed / length);
 }
 
 impl Dynamics for TimeStepping {

@@ -349,6 +349,29 @@ fn friction_in_an_impact_counts_the_rebound() {
     assert!((end.velocity.x / gained - 1.0).abs() < 0.02, "{} {gained}", end.velocity);
 }
 
+/// Balls fall slantwise on the ground from heights that differ by a fraction of a step. Friction changes the speed by μ (1 + e) times the speed
+/// of the impact, wherever in a step the impact comes.
+#[test]
+fn friction_in_an_impact_does_not_depend_on_the_step() {
+    for step in [STEP, 1e-3, 2.5e-4] {
+        let mut scene = Scene::default().with_ground(0.0);
+        for k in 0..5 {
+            scene.add(Shape::Sphere { radius: 0.1 }, |body| {
+                body.with_location(DVec3::new(0.0, 0.115 + 0.00025 * f64::from(k), 0.5 * f64::from(k)))
+                    .with_velocity(DVec3::new(1.0, -0.3, 0.0))
+            });
+        }
+        let surface = Surface { restitution: Some(0.5), friction: Some(0.3), ..Surface::default() };
+        scene.surfaces = vec![Some(surface); 6];
+        let mut stepping = TimeStepping::new(scene.world(0.0), &scene.contacts(), &[]);
+        stepping.set_step(step);
+        for body in &run(&mut stepping, 0.2).bodies[1..] {
+            let expected = DVec3::new(1.0 - 0.3 * 1.5 * 0.3, 0.15, 0.0);
+            assert!(body.velocity.abs_diff_eq(expected, 1e-3), "{step} {}", body.velocity);
+        }
+    }
+}
+
 /// Cylinders and capsules roll slowly on a level box. Nothing drives or brakes them.
 #[test]
 fn slow_rolling_is_even_on_a_box() {

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
-use super::{GRAVITY, Scene, door, run};
+use super::{GRAVITY, STEP, Scene, door, run};
 
 /// Adds the bob of a pendulum of 1 m that hangs from the origin, deflected by `angle` (rad) about z. Returns the ends of the joint and the
 /// position of the bob.
@@ -86,6 +86,39 @@ fn joints_do_not_brake_a_free_rotation() {
         assert!((end.kinetic / start - 1.0).abs() < 0.005, "{name} {}", end.kinetic / start);
         assert!(end.drift.abs() < 1e-6, "{name} {}", end.drift);
     }
+}
+
+/// A ball circles on a rope of 1 m, so fast that it moves farther than its radius within a step. It must keep its speed. The rope yields by
+/// ½ (ω dt)² of its length at the start.
+#[test]
+fn a_fast_ball_on_a_rope_keeps_its_speed() {
+    for speed in [30.0, 60.0] {
+        let mut scene = Scene::default();
+        let ball = scene.add(Shape::Sphere { radius: 0.1 }, |body| {
+            body.with_location(DVec3::X).with_velocity(speed * DVec3::Y)
+        });
+        let between = [Anchor::Point(DVec3::ZERO), Anchor::centre(ball)];
+        let link = Link { kind: LinkKind::Rope(Rope { between, length: 1.0 }), collides: true };
+        let end = run(&mut TimeStepping::new(scene.world(0.0), &scene.contacts(), &[link]), 2.0).bodies[0];
+        let yielding = 0.5 * (speed * STEP) * (speed * STEP);
+        assert!((end.velocity.length() / speed - 1.0).abs() < yielding, "{speed} {}", end.velocity);
+    }
+}
+
+/// Two boxes with the same centre, a plank and a plate, tumble on a hinge without friction. Their energy must not grow.
+#[test]
+fn a_tumbling_pair_on_a_hinge_is_stable() {
+    let mut scene = Scene::default();
+    let spin = DVec3::new(0.2, 0.0, 10.0);
+    let [plank, plate] = [DVec3::new(2.0, 0.2, 0.2), DVec3::new(0.5, 0.5, 0.1)]
+        .map(|size| scene.add(Shape::Box { size }, |body| body.with_angular_velocity(spin)));
+    let ends = [plank, plate].map(Anchor::centre);
+    let kind = LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY));
+    let mut stepping =
+        TimeStepping::new(scene.world(0.0), &scene.contacts(), &[Link { kind, collides: false }]);
+    let start = run(&mut stepping, 0.0).balance.total;
+    let end = run(&mut stepping, 10.0).balance.total;
+    assert!((end / start - 1.0).abs() < 0.01, "{start} {end}");
 }
 
 /// A thin rod rotates about a hinge at its end, at 40 rad/s. Its moment of inertia about its own axis is 5,000 times smaller than about the
