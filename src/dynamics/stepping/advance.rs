@@ -8,13 +8,14 @@ use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::bounce::Bounce;
 use super::engine_input::EngineInput;
 use super::hooks::Hooks;
-use super::{TimeStepping, allow_corrections, bodies, kept_contacts, set_step, spin};
+use super::mean_velocity::Stepped;
+use super::{TimeStepping, bodies, kept_contacts, set_step, spin};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
-/// The physics engine may correct ropes by this multiple of the length that a rotation adds to them within a step.
+/// Within a step, the physics engine may shorten a rope by this multiple of the length that the rope's rotation adds to it.
 const STRETCH: f64 = 2.0;
-/// A body on a joint counts as stopped at a surface if it advances less than its velocity tells by this part.
+/// A fast body on a joint counts as stopped at a surface if its way is shorter than its velocity times the step by more than this part.
 const ARC: f64 = 0.2;
 
 impl TimeStepping {
@@ -101,8 +102,7 @@ impl TimeStepping {
         self.push(end, dt);
         let Self { books, engine, rolling, mixing, joints, slow, rebounds, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
-        set_step(&mut engine.integration_parameters, dt);
-        allow_corrections(&mut engine.integration_parameters, STRETCH * stretch / dt);
+        set_step(&mut engine.integration_parameters, dt, STRETCH * stretch / dt);
         let bounce = Bounce { rebounds, dt, slow: *slow };
         engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.impacts.events);
         self.steps += 1;
@@ -141,9 +141,7 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self {
-            rolling, kept_contacts, mixing, is_thin_rod, slow, rebounds, reach, mean_velocity, ..
-        } = self;
+        let Self { rolling, kept_contacts, mixing, thin_rods, slow, rebounds, reach, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -154,7 +152,7 @@ impl TimeStepping {
             state.angular_momentum[i] += dt * loads.torque[i] + moment;
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
-            let leading = if is_thin_rod[i] && !mean_velocity.tumbles(i, orientation, turning) {
+            let leading = if thin_rods.is_steady(i, orientation, turning) {
                 spin::steady(turning, dt)
             } else {
                 spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
@@ -179,9 +177,7 @@ impl TimeStepping {
                 || rebounds.is_due(i);
             kept_contacts.set(engine, i, is_bouncing || rolling.is_spun(i));
             if !rolling.is_ball(i) {
-                let is_turning = reach[i] * turning.length() > *slow;
-                let angle = if is_turning { 0.0 } else { kept_contacts::ANGLE };
-                kept_contacts.turn(engine, i, orientation, angle);
+                kept_contacts.turn(engine, i, orientation, reach[i] * turning.length() > *slow);
             }
             if rolling.is_round(i) {
                 kept_contacts.shift(engine, i, state.location[i], kept_contacts::WAY * half_thickness[i]);
@@ -200,7 +196,7 @@ impl TimeStepping {
     /// bodies.
     fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        let Self { model, state, engine, handles, rolling, kept_contacts, .. } = self;
+        let Self { model, state, engine, handles, rolling, kept_contacts, reach, slow, .. } = self;
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
@@ -209,7 +205,7 @@ impl TimeStepping {
             let untaken =
                 leading - rolling.take(engine, kept_contacts.colliders(i), i, (from, turning, leading), dt);
             kept_contacts.set(engine, i, rolling.is_spun(i));
-            kept_contacts.turn(engine, i, pose.rotation, kept_contacts::GUIDED_ANGLE);
+            kept_contacts.turn(engine, i, pose.rotation, reach[i] * turning.length() > *slow);
             if untaken != leading {
                 pose.rotation = spin::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.
@@ -229,21 +225,20 @@ impl TimeStepping {
         let rebounds = &self.rebounds;
         let slop = engine.integration_parameters.allowed_linear_error();
         let is_stopped = |i: usize| {
-            let Some(body) = engine.bodies.get(handles[i]).filter(|_| inputs[i].is_fast) else {
-                return false;
-            };
+            let body = inputs[i].is_fast.then(|| engine.bodies.get(handles[i])).flatten();
+            let Some(body) = body else { return false };
             let way = dt * body.linvel();
-            // On a joint, a body describes an arc, and advances less than its velocity tells.
+            // A body on a joint describes an arc, so it advances less along its velocity.
             let tolerance = if mean_velocity.is_held(i) { slop.max(ARC * way.length()) } else { slop };
             (way - (body.translation() - state.location[i])).dot(way) > tolerance * way.length()
         };
         let stopped: Vec<bool> = (0..handles.len()).map(is_stopped).collect();
-        let after = |i: usize| {
-            let (body, from) = (engine.bodies.get(handles[i])?, state.location[i]);
+        let stepped = |i: usize| {
             let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
-            Some((body, from, without, stopped[i]))
+            let (body, from) = (engine.bodies.get(handles[i])?, state.location[i]);
+            Some(Stepped { body, from, without, is_stopped: stopped[i] })
         };
-        mean_velocity.end((engine, handles), joints, after, dt);
+        mean_velocity.end((engine, handles), joints, stepped, dt);
         books.motors = joints.motor_pushes(engine, state);
         let (mut moved, mut carried) = (Vec::new(), Vec::new());
         for (i, handle) in handles.iter().enumerate() {

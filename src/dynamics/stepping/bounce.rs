@@ -5,8 +5,11 @@
 //! replaces all points: the centre of pressure, where one impulse has the same effect as the impulses at all points together.
 //!
 //! The engine limits friction by the normal impulse before restitution, which is too small by the factor 1 + e. So the coefficient of
-//! friction gets this factor when an impact begins. If the engine stopped the bodies one step early, this impulse would be smaller still, by a
-//! part that depends on the gap. So an impact waits until the bodies meet in the present step.
+//! friction gets this factor when an impact begins.
+//!
+//! If bodies meet only in the next step, the engine begins their impact already in this step. The normal impulse before restitution is then
+//! too small, by a part that depends on the gap, and so is friction. So the points of such a contact are left out until the bodies meet in the
+//! present step.
 //!
 //! If a joint holds one of the bodies, the rebound comes in the next step; see [`super::rebound`].
 
@@ -88,7 +91,7 @@ impl Bounce<'_> {
             let approach = approach(point);
             approach > self.slow && point.dist < REACH * approach * self.dt
         };
-        // Points that meet the other body only in the next step wait, if no point meets it in this step.
+        // If no point meets the other body in this step, the points that meet it in the next step are left out for now.
         let waits = |point: &SolverContact| meets(point) && point.dist > approach(point) * self.dt;
         if !contact.solver_contacts.iter().any(|point| meets(point) && !waits(point)) {
             contact.solver_contacts.retain(|point| !waits(point));

@@ -8,10 +8,9 @@ use rapier3d_f64::prelude::{ActiveHooks, Collider, ColliderHandle, InteractionGr
 
 use super::super::State;
 
-/// The contacts of a body are found anew when the body has rotated by this angle, rad. With 0.003 rad, slender towers fall.
-pub(super) const ANGLE: f64 = 0.01;
-/// The same angle for a body with a given motion.
-pub(super) const GUIDED_ANGLE: f64 = 0.003;
+/// The contacts of a body that rotates slowly are found anew when the body has rotated by this angle, rad. With 0.003 rad, slender towers
+/// fall.
+const ANGLE: f64 = 0.01;
 
 /// The contacts of a round body are found anew when the body has moved by this multiple of half its thickness. The normal of a contact between
 /// two round bodies turns as they move around each other. A kept normal would act like friction.
@@ -84,8 +83,10 @@ impl KeptContacts {
         }
     }
 
-    /// Makes the engine find the contacts of a body anew if the body has rotated by `angle` (rad) since the last time.
-    pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat, angle: f64) {
+    /// Makes the engine find the contacts of a body anew if the body has rotated enough since the last time: at all if it rotates fast, by a
+    /// small angle if it rotates slowly.
+    pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat, is_fast: bool) {
+        let angle = if is_fast { 0.0 } else { ANGLE };
         // The product of two unit quaternions is the cosine of half the angle between them.
         if self.orientation[body].dot(orientation).abs() >= 1.0 - angle * angle / 8.0 {
             return;

@@ -10,17 +10,16 @@
 //! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit or an overstretched rope
 //! pushes them. The engine then moves them to correct an overlap or a length, and this displacement must not become a velocity.
 //!
-//! Bodies that joints connect, directly or through other bodies, form a mechanism. Either all bodies of a mechanism get their mean velocity,
-//! or none of them. Otherwise a joint would act on one of its bodies and not on the other one, and the mechanism would gain or lose momentum.
+//! Either all bodies of a mechanism get their mean velocity, or none of them. Otherwise a joint would act on one of its bodies and not on the other one, and the mechanism would gain or lose momentum.
 
 use std::f64::consts::TAU;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidBody, RigidBodyHandle};
 
-use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::joint::Joints;
+use super::mechanisms::Mechanisms;
 use super::touch::Touch;
 use super::{bodies, spin};
 
@@ -34,71 +33,56 @@ const LARGER: f64 = 2.0;
 /// If a body rotates by a larger angle within a step, rad, its mechanism keeps the velocities of the engine. With mean velocities, such steps
 /// are unstable.
 const FASTEST: f64 = 0.2;
-/// A body on a hinge moves in a plane if its angular velocity across the axis of the hinge is smaller than this part of all of it.
-const PLANE: f64 = 1e-4;
 /// The largest excess length of a rope that has no effect, relative to the length of the rope.
 const TAUT: f64 = 1e-7;
+
+/// A body after a step of the physics engine.
+pub(super) struct Stepped<'a> {
+    /// The body in the engine.
+    pub(super) body: &'a RigidBody,
+    /// Its location before the step, m.
+    pub(super) from: DVec3,
+    /// The velocity that it would have without joints and contacts, m/s.
+    pub(super) without: DVec3,
+    /// Whether the engine stopped it at a surface.
+    pub(super) is_stopped: bool,
+}
 
 /// Tells which bodies get their mean velocity.
 pub(super) struct MeanVelocity {
     /// For each joint, whether at the start of the step it was a rope that was longer than its rotation explains, or a hinge or slider at
     /// its limit.
     is_stopped: Vec<bool>,
-    /// The indices of the bodies on joints, without fixed bodies and bodies with a given motion.
-    held: Vec<usize>,
-    /// For each body, the number of its mechanism.
-    mechanism: Vec<usize>,
-    /// For each body with a hinge, the axis of the hinge, a unit vector in the engine's frame of the body. If only the world holds the body,
-    /// it gets the mean of its angular velocity about this axis only: about other axes, the small moments of inertia of rods would make
-    /// errors grow. Two bodies on one hinge must get the mean about all axes, or they would exchange unequal angular momenta.
+    mechanisms: Mechanisms,
+    /// For each body that only hinges to the world hold, the axis of the last one, a unit vector in the engine's frame of the body. Hinges to
+    /// fixed and guided bodies count as well. Such a body gets the mean of its angular velocity about this axis only, because the small
+    /// moments of inertia of rods would make errors about other axes grow. Two movable bodies on one hinge get the mean about all axes. If
+    /// they did not, their changes of angular momentum would not cancel.
     axis: Vec<Option<DVec3>>,
-    /// For each body, whether a joint holds it, and it can move.
-    is_held: Vec<bool>,
-    /// For each body, whether no joint connects its mechanism with the world, a fixed body or a guided one.
-    is_free: Vec<bool>,
-    /// For each body, whether a joint connects it with another body that can move.
-    is_joined: Vec<bool>,
     /// For each body, whether it gets its mean velocity after the present step.
     gets_mean: Vec<bool>,
 }
 
 impl MeanVelocity {
-    pub(super) fn new(engine: &PhysicsWorld, model: &Model, joints: &Joints) -> MeanVelocity {
-        let bodies = model.len();
-        let is_movable = |body: &usize| model.inverse_mass()[*body] != 0.0;
-        let on_joints = joints.held(bodies);
-        let is_held: Vec<bool> = (0..bodies).map(|body| on_joints[body] && is_movable(&body)).collect();
-        let held = (0..bodies).filter(|&body| is_held[body]).collect();
-        let mut mechanisms = Sets::new(bodies);
-        let (mut is_joined, mut is_anchored) = (vec![false; bodies], vec![false; bodies]);
-        for k in 0..joints.len() {
-            match joints.bodies(k).map(|body| body.filter(is_movable)) {
-                [Some(one), Some(two)] => {
-                    mechanisms.unite(one, two);
-                    (is_joined[one], is_joined[two]) = (true, true);
-                }
-                [Some(body), None] | [None, Some(body)] => is_anchored[body] = true,
-                [None, None] => {}
-            }
-        }
-        let mechanism: Vec<usize> = (0..bodies).map(|body| mechanisms.first(body)).collect();
-        let mut is_free = vec![true; bodies];
-        (0..bodies).filter(|&body| is_anchored[body]).for_each(|body| is_free[mechanism[body]] = false);
+    pub(super) fn new(
+        engine: &PhysicsWorld,
+        joints: &Joints,
+        mechanisms: Mechanisms,
+        bodies: usize,
+    ) -> MeanVelocity {
+        let mut axis = joints.hinge_axes(engine, bodies);
+        (0..bodies).filter(|&body| mechanisms.is_joined(body)).for_each(|body| axis[body] = None);
         MeanVelocity {
             is_stopped: vec![false; joints.len()],
-            held,
-            is_held,
-            is_free: mechanism.iter().map(|&of| is_free[of]).collect(),
-            mechanism,
-            is_joined,
-            axis: joints.hinge_axes(engine, bodies),
+            mechanisms,
+            axis,
             gets_mean: vec![false; bodies],
         }
     }
 
-    /// Whether a joint holds a body that can move.
+    /// Whether a body can move and is held by a joint.
     pub(super) fn is_held(&self, body: usize) -> bool {
-        self.is_held[body]
+        self.mechanisms.is_held(body)
     }
 
     /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.
@@ -151,9 +135,8 @@ impl MeanVelocity {
         longest
     }
 
-    /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. The closure returns a body after
-    /// the step, its location before the step, the velocity that it would have without joints and contacts, and whether it stopped at a
-    /// surface. `handles` holds the engine's handle of each body.
+    /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. `handles` holds the engine's handle
+    /// of each body. `stepped` returns what is known of a body after the step.
     ///
     /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If the changes differ,
     /// the one at the end corrects the positions of joints that give way, and must not become a velocity.
@@ -161,49 +144,42 @@ impl MeanVelocity {
         &mut self,
         (engine, handles): (&'a PhysicsWorld, &[RigidBodyHandle]),
         joints: &Joints,
-        after: impl Fn(usize) -> Option<(&'a RigidBody, DVec3, DVec3, bool)>,
+        stepped: impl Fn(usize) -> Option<Stepped<'a>>,
         dt: f64,
     ) {
-        let mut excluded = vec![false; self.mechanism.len()];
-        for (k, is_stopped) in self.is_stopped.iter().enumerate() {
+        let Self { is_stopped, mechanisms, gets_mean, .. } = self;
+        let mut excluded = vec![false; gets_mean.len()];
+        for (k, is_stopped) in is_stopped.iter().enumerate() {
             let Some(joint) = joints.get(engine, k) else { continue };
             let is_rope = !joint.coupled_axes.is_empty();
             let is_pushing = joint.limits.iter().any(|limit| limit.impulse != 0.0);
             if *is_stopped || (is_pushing && !is_rope) {
                 let bodies = joints.bodies(k).into_iter().flatten();
-                bodies.for_each(|body| excluded[self.mechanism[body]] = true);
+                bodies.for_each(|body| excluded[mechanisms.number(body)] = true);
             }
         }
         // For each mechanism, the sums of m a·a, m a·b and m b·b over its bodies. a and b are the changes of velocity by joints at the start and
         // at the end of the step.
-        let mut changes = vec![[0.0; 3]; self.mechanism.len()];
-        for &i in &self.held {
-            let Some((body, from, without, is_stopped)) = after(i) else { continue };
-            let mechanism = self.mechanism[i];
-            excluded[mechanism] |= is_stopped
+        let mut changes = vec![[0.0; 3]; gets_mean.len()];
+        for i in mechanisms.held() {
+            let Some(Stepped { body, from, without, is_stopped }) = stepped(i) else { continue };
+            let number = mechanisms.number(i);
+            excluded[number] |= is_stopped
                 || body.angvel().length_squared() * dt * dt > FASTEST * FASTEST
                 || is_touched(engine, handles, body);
             let at_start = body.linvel() - without;
             let at_end = (body.translation() - from) / dt - body.linvel();
             let products = [at_start.length_squared(), at_start.dot(at_end), at_end.length_squared()];
-            for (sum, product) in changes[mechanism].iter_mut().zip(products) {
+            for (sum, product) in changes[number].iter_mut().zip(products) {
                 *sum += body.mass() * product;
             }
         }
-        for &i in &self.held {
-            let mechanism = self.mechanism[i];
-            let [start, product, end] = changes[mechanism];
+        for i in mechanisms.held() {
+            let number = mechanisms.number(i);
+            let [start, product, end] = changes[number];
             let are_equal = product >= PARALLEL * (start * end).sqrt() && end <= LARGER * start;
-            self.gets_mean[i] = are_equal && !excluded[mechanism];
+            gets_mean[i] = are_equal && !excluded[number];
         }
-    }
-
-    /// Returns true if a body of a free mechanism, with the angular velocity `turning` (rad/s), rotates about another axis than that of its
-    /// hinge. Its rotation within a step must then be free rotation.
-    pub(super) fn tumbles(&self, i: usize, orientation: DQuat, turning: DVec3) -> bool {
-        let Some(axis) = self.axis[i].filter(|_| self.is_free[i] && self.is_joined[i]) else { return false };
-        let across = turning.reject_from_normalized(orientation * axis).length_squared();
-        across > PLANE * PLANE * turning.length_squared()
     }
 
     /// Returns the mean velocity and the mean angular velocity of a body in a step of `dt`, as the engine counts it. `from` is the pose of
@@ -223,11 +199,11 @@ impl MeanVelocity {
         let velocity = (to.translation - from.translation) / dt;
         let mean = spin::leading(from.rotation, to.rotation, dt);
         let mean = match self.axis[i] {
-            Some(axis) if !self.is_joined[i] => {
+            None => mean,
+            Some(axis) => {
                 let axis = from.rotation * axis;
                 turning + (mean - turning).dot(axis) * axis
             }
-            _ => mean,
         };
         Some((velocity, mean))
     }

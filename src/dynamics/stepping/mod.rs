@@ -22,6 +22,7 @@ mod joint;
 mod joint_response;
 mod kept_contacts;
 mod mean_velocity;
+mod mechanisms;
 mod mesh;
 mod mixing;
 mod non_potential_work;
@@ -33,6 +34,7 @@ mod snapshot;
 mod spin;
 #[cfg(test)]
 mod tests;
+mod thin_rods;
 mod touch;
 
 use rapier3d_f64::prelude::{IntegrationParameters, PhysicsWorld, RigidBodyHandle, SpringCoefficients};
@@ -42,10 +44,12 @@ use self::engine_input::EngineInput;
 use self::joint::Joints;
 use self::kept_contacts::KeptContacts;
 use self::mean_velocity::MeanVelocity;
+use self::mechanisms::Mechanisms;
 use self::mixing::Mixing;
 use self::non_potential_work::NonPotentialWork;
 use self::rebound::Rebounds;
 use self::rolling::Rolling;
+use self::thin_rods::ThinRods;
 use super::contact::{Contacts, Impact};
 use super::presence::PresenceSchedule;
 use super::softness::STIFFNESS;
@@ -61,8 +65,8 @@ const FINAL_SWEEPS: usize = 4;
 /// and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
 const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
-/// The physics engine separates overlapping bodies, and corrects joints, at a speed up to this if the thinnest moving body has a thickness of
-/// 1 m, m/s. For other thicknesses, the limit grows with the root of the thickness, as the speed after a fall does.
+/// The largest speed at which the physics engine separates overlapping bodies and corrects joints, m/s, if the thinnest moving body has a
+/// thickness of 1 m. For other thicknesses, this speed grows with the root of the thickness, as the speed after a fall does.
 const CORRECTION: f64 = 3.0;
 /// The damping ratio of contacts: their damping divided by critical damping.
 const DAMPING: f64 = 10.0;
@@ -97,8 +101,7 @@ pub struct TimeStepping {
     slow: f64,
     joints: Joints,
     mean_velocity: MeanVelocity,
-    /// For each body, whether it is a thin rod on a hinge; see [`spin::thin_rods`].
-    is_thin_rod: Vec<bool>,
+    thin_rods: ThinRods,
     rolling: Rolling,
     rebounds: Rebounds,
     kept_contacts: KeptContacts,
@@ -137,6 +140,7 @@ impl TimeStepping {
         let colliders = symmetries.iter().map(|own| own.iter().map(|(handle, _)| *handle).collect());
         let kept_contacts = KeptContacts::new(&engine, colliders, &state);
         let held = joints.held(model.len());
+        let mechanisms = Mechanisms::new(&model, &joints);
         let slow = SLOW * length.sqrt();
         TimeStepping {
             time: parts.time,
@@ -149,8 +153,8 @@ impl TimeStepping {
             books: Bookkeeping::new(model.len(), length, held.clone()),
             rebounds: Rebounds::new(&model, &held, slow),
             reach: bodies::reach(&model),
-            mean_velocity: MeanVelocity::new(&engine, &model, &joints),
-            is_thin_rod: spin::thin_rods(&joints.hinge_axes(&engine, model.len()), model.inertia()),
+            thin_rods: ThinRods::new(&joints.hinge_axes(&engine, model.len()), model.inertia(), &mechanisms),
+            mean_velocity: MeanVelocity::new(&engine, &joints, mechanisms, model.len()),
             half_thickness: bodies::half_thickness(&model),
             driven: NonPotentialWork::default(),
             shows_contacts: true,
@@ -193,24 +197,20 @@ fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
         normalized_allowed_linear_error: SLOP,
         // The physics engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,
-        normalized_max_corrective_velocity: CORRECTION / length.sqrt(),
         warmstart_joints: true,
         ..IntegrationParameters::default()
     }
 }
 
-/// Sets the length of the physics engine's step, s, and the stiffness of contacts, which depends on the step.
-fn set_step(parameters: &mut IntegrationParameters, dt: f64) {
+/// Sets the length of the physics engine's step, s, and the parameters that depend on the step: the stiffness of contacts, and the largest
+/// speed of corrections. Joints need corrections at the speed `correction`, m/s.
+fn set_step(parameters: &mut IntegrationParameters, dt: f64, correction: f64) {
     let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
     parameters.dt = dt;
     parameters.contact_softness = soft;
     parameters.static_contact_softness = soft;
-}
-
-/// Lets the physics engine correct joints at a speed of at least `speed`, m/s.
-fn allow_corrections(parameters: &mut IntegrationParameters, speed: f64) {
     let length = parameters.length_unit;
-    parameters.normalized_max_corrective_velocity = (CORRECTION / length.sqrt()).max(speed / length);
+    parameters.normalized_max_corrective_velocity = (CORRECTION / length.sqrt()).max(correction / length);
 }
 
 impl Dynamics for TimeStepping {

@@ -7,8 +7,6 @@ use super::super::model::is_isotropic;
 
 /// The largest rotation of a body within a step, rad. Faster rotations are cut off at this angle.
 const LARGEST: f64 = 3.0;
-/// A body counts as a thin rod if its moment of inertia about a hinge is larger than this multiple of its smallest moment.
-const THIN: f64 = 4.0;
 
 /// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body from orientation `from` to `to` within
 /// `dt`, s.
@@ -48,19 +46,6 @@ pub(super) fn free(from: DQuat, momentum: DVec3, inverse_inertia: DVec3, dt: f64
 /// velocity `turning` would rotate it within `dt`, s.
 pub(super) fn steady(turning: DVec3, dt: f64) -> DVec3 {
     tangent_ratio(0.25 * dt * dt * turning.length_squared()) * turning
-}
-
-/// Returns for each body whether it must rotate at a constant angular velocity within a step, not freely: whether it is a thin rod on a hinge
-/// across it. `axes` holds the axis of each body's hinge, a unit vector in the frame of the principal axes. `inertia` holds the principal
-/// moments of inertia, kg m².
-///
-/// If the angular momentum of a thin rod is not exactly perpendicular to the rod, free rotation is fast about the rod's own axis. The hinge
-/// corrects this rotation only at the end of the step, and the errors would grow.
-pub(super) fn thin_rods(axes: &[Option<DVec3>], inertia: &[DVec3]) -> Vec<bool> {
-    let is_thin = |(axis, inertia): (&Option<DVec3>, &DVec3)| {
-        axis.is_some_and(|axis| axis.dot(*inertia * axis) > THIN * inertia.min_element())
-    };
-    axes.iter().zip(inertia).map(is_thin).collect()
 }
 
 /// Returns tan(h)/h for an angle h ≥ 0, rad, from its square. Larger angles than `LARGEST`/2 are cut off.

@@ -1,9 +1,9 @@
 //! Compares spheres that fall into a box in jabuka with the same spheres in three bare programs of rapier: the processor time of a step,
 //! measured in one run.
 //!
-//! The first bare program uses jabuka's parameters. The second one also finds contacts anew when two spheres have moved by as little as in
-//! jabuka; otherwise, contacts brake spheres that roll over each other. The third one uses rapier's own parameters, except for the timestep.
-//! All have thick walls. In jabuka, the walls are five planes.
+//! The first bare program uses jabuka's parameters. The second one also finds contacts anew as often as jabuka does. jabuka does so because
+//! old contacts brake spheres that roll over each other. The third program uses rapier's own parameters, except for the timestep. All three
+//! have thick walls. In jabuka, the walls are five planes.
 //!
 //! `cargo run --release --manifest-path benches/rapier/Cargo.toml --bin pile [SPHERES [STEPS]]`
 

@@ -413,7 +413,8 @@ fn a_stack_of_coins_sinks_little_at_the_start() {
 }
 
 /// Two bodies without friction attract each other by a spring, touch, and revolve about each other at 1 rad/s. They must keep their angular
-/// momentum. The engine moves them along their tangents and then closes the gap, which takes the part ½ ω² Δt each second.
+/// momentum. In each step, the engine moves them along their tangents, and then closes the gap between them. This takes the part ½ ω² Δt of the
+/// angular momentum in each second.
 #[test]
 fn what_touches_revolves_freely() {
     for shape in [Shape::Sphere { radius: 0.1 }, cube(0.2)] {
