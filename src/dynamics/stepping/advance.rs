@@ -9,7 +9,7 @@ use super::bounce::Bounce;
 use super::engine_input::EngineInput;
 use super::hooks::Hooks;
 use super::mean_velocity::Stepped;
-use super::{TimeStepping, bodies, kept_contacts, set_step, spin};
+use super::{TimeStepping, bodies, kept_contacts, rotation, set_step};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
@@ -153,9 +153,9 @@ impl TimeStepping {
             let (orientation, momentum) = (state.orientation[i], state.angular_momentum[i]);
             let turning = model.angular_velocity(i, state);
             let leading = if thin_rods.is_steady(i, orientation, turning) {
-                spin::steady(turning, dt)
+                rotation::steady(turning, dt)
             } else {
-                spin::free(orientation, momentum, model.inverse_inertia()[i], dt)
+                rotation::free(orientation, momentum, model.inverse_inertia()[i], dt)
             };
             let wanted = EngineInput {
                 force: loads.force[i] + impulse / dt,
@@ -200,14 +200,14 @@ impl TimeStepping {
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
-            let leading = spin::leading(from, pose.rotation, dt);
+            let leading = rotation::leading(from, pose.rotation, dt);
             let turning = model.angular_velocity(i, state);
             let untaken =
                 leading - rolling.take(engine, kept_contacts.colliders(i), i, (from, turning, leading), dt);
             kept_contacts.set(engine, i, rolling.is_spun(i));
             kept_contacts.turn(engine, i, pose.rotation, reach[i] * turning.length() > *slow);
             if untaken != leading {
-                pose.rotation = spin::advanced(from, untaken, dt);
+                pose.rotation = rotation::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.
                 let _: Option<(DQuat, bool)> = rolling.turn(i, [from, pose.rotation], dt);
             } else {

@@ -21,7 +21,7 @@ use super::super::{Model, State};
 use super::joint::Joints;
 use super::mechanisms::Mechanisms;
 use super::touch::Touch;
-use super::{bodies, spin};
+use super::{bodies, rotation};
 
 /// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
 const ROTATION: f64 = 4.0;
@@ -197,7 +197,7 @@ impl MeanVelocity {
         }
         let to = body.position();
         let velocity = (to.translation - from.translation) / dt;
-        let mean = spin::leading(from.rotation, to.rotation, dt);
+        let mean = rotation::leading(from.rotation, to.rotation, dt);
         let mean = match self.axis[i] {
             None => mean,
             Some(axis) => {

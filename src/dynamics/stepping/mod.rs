@@ -29,9 +29,9 @@ mod non_potential_work;
 mod plane;
 mod rebound;
 mod rolling;
+mod rotation;
 mod shape;
 mod snapshot;
-mod spin;
 #[cfg(test)]
 mod tests;
 mod thin_rods;

@@ -14,8 +14,8 @@ use rapier3d_f64::prelude::{ColliderHandle, ContactModificationContext, PhysicsW
 use super::super::Model;
 use super::super::model::is_isotropic;
 use super::joint::Joints;
+use super::rotation::advanced;
 use super::shape::Symmetry;
-use super::spin::advanced;
 use super::touch::Touch;
 
 /// A smaller rotation by the spin within a step, rad, is left to the physics engine.
@@ -30,7 +30,7 @@ const ALIGNED: f64 = 1e-6;
 struct RoundBody {
     /// The axis of the symmetry and of all hinges, a unit vector in the engine's frame of the body; `None` for a ball without joints.
     axis: Option<DVec3>,
-    /// The part of the leading angular velocity that belongs to the spin; see `spin::leading`.
+    /// The part of the leading angular velocity that belongs to the spin; see `rotation::leading`.
     leading: DVec3,
     /// Whether the engine need not know the orientation of the body: a ball of equal moments of inertia, without joints.
     is_ball: bool,

@@ -1,4 +1,4 @@
-//! Computes the rotation of free bodies within a step of the physics engine.
+//! Rotations within a step, as the physics engine makes them.
 
 use glam::{DQuat, DVec3};
 
