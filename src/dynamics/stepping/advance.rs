@@ -141,7 +141,7 @@ impl TimeStepping {
     /// s.
     fn push(&mut self, end: f64, dt: f64) {
         let Self { model, state, loads, engine, handles, books, half_thickness, inputs, .. } = self;
-        let Self { rolling, kept_contacts, mixing, thin_rods, slow, rebounds, reach, .. } = self;
+        let Self { rolling, kept_contacts, mixing, thin_rods, slow, rebounds, reach, sliding, .. } = self;
         for (i, input) in inputs.iter_mut().enumerate() {
             books.before[i] = (state.velocity[i], model.angular_velocity(i, state));
             books.places[i] = state.location[i];
@@ -172,10 +172,10 @@ impl TimeStepping {
                 is_fast: dt * (state.velocity[i] + model.inverse_mass()[i] * impulse).length()
                     > half_thickness[i],
             };
-            let is_bouncing = mixing.has_restitution
-                && state.velocity[i].length() + reach[i] * turning.length() > *slow
-                || rebounds.is_due(i);
-            kept_contacts.set(engine, i, is_bouncing || rolling.is_spun(i));
+            let is_moving = state.velocity[i].length() + reach[i] * turning.length() > *slow;
+            let is_bouncing = mixing.has_restitution && is_moving || rebounds.is_due(i);
+            let is_sliding = is_moving && sliding.may_slide(i, *slow);
+            kept_contacts.set(engine, i, is_bouncing || is_sliding || rolling.is_spun(i));
             if !rolling.is_ball(i) {
                 kept_contacts.turn(engine, i, orientation, reach[i] * turning.length() > *slow);
             }
@@ -196,7 +196,7 @@ impl TimeStepping {
     /// bodies.
     fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        let Self { model, state, engine, handles, rolling, kept_contacts, reach, slow, .. } = self;
+        let Self { model, state, engine, handles, rolling, kept_contacts, reach, slow, sliding, .. } = self;
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
@@ -204,7 +204,8 @@ impl TimeStepping {
             let turning = model.angular_velocity(i, state);
             let untaken =
                 leading - rolling.take(engine, kept_contacts.colliders(i), i, (from, turning, leading), dt);
-            kept_contacts.set(engine, i, rolling.is_spun(i));
+            let is_moving = state.velocity[i].length() + reach[i] * turning.length() > *slow;
+            kept_contacts.set(engine, i, is_moving && sliding.may_slide(i, *slow) || rolling.is_spun(i));
             kept_contacts.turn(engine, i, pose.rotation, reach[i] * turning.length() > *slow);
             if untaken != leading {
                 pose.rotation = rotation::advanced(from, untaken, dt);
@@ -301,9 +302,9 @@ impl TimeStepping {
 
     /// Books the work of contacts and joints in a step that ends at time `end`, s, and finds the impacts and the rebounds.
     fn close(&mut self, end: f64) {
-        let Self { books, engine, model, joints, state, loads, driven, mixing, rebounds, .. } = self;
+        let Self { books, engine, model, joints, state, loads, driven, mixing, rebounds, sliding, .. } = self;
         let bodies = (&*model, &*joints);
-        let onsets = books.close(engine, bodies, (state, loads, driven), (rebounds, mixing), end);
+        let onsets = books.close(engine, bodies, (state, loads, driven), (rebounds, mixing, sliding), end);
         rebounds.prepare(onsets, (model, end, state));
     }
 

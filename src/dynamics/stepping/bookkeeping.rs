@@ -10,6 +10,7 @@ use super::joint::{Joints, MotorPush};
 use super::mixing::Mixing;
 use super::non_potential_work::NonPotentialWork;
 use super::rebound::{Onset, Rebounds};
+use super::sliding::Sliding;
 use super::touch::{self, Touch};
 
 /// The bookkeeping of contacts and joints: data of the last step from which their work follows.
@@ -59,7 +60,7 @@ impl Bookkeeping {
         engine: &PhysicsWorld,
         (model, joints): (&Model, &Joints),
         (state, loads, driven): (&mut State, &Loads, &NonPotentialWork),
-        (rebounds, mixing): (&Rebounds, &Mixing),
+        (rebounds, mixing, sliding): (&Rebounds, &Mixing, &mut Sliding),
         time: f64,
     ) -> Vec<Onset> {
         let mut pushing = self.impacts.begin();
@@ -69,10 +70,12 @@ impl Bookkeeping {
         // The energy that contacts give to the bodies held by joints in this step, J.
         let mut pressed = 0.0;
         let mut onsets = Vec::new();
+        sliding.begin();
         self.book_rebounds(rebounds, model, &mut accounts, &mut pressed);
         let meet = |touch: &Touch<'_>| touch.bodies.into_iter().for_each(|body| touched[body] = true);
         touch::visit(engine.narrow_phase.contact_pairs(), meet, |pair, touch, push| {
             pushing.see(pair);
+            sliding.see(touch, push, &self.mean);
             onsets.extend(rebounds.onset((pair, touch), &self.before, mixing));
             let Some([one, two]) = touch.work(push, &self.mean) else { return };
             accounts.impacts += two[0] - one[0];

@@ -14,8 +14,9 @@
 //! If a joint holds one of the bodies, the rebound comes in the next step; see [`super::rebound`].
 
 use glam::DVec3;
-use rapier3d_f64::prelude::{AngularInertia, ContactModificationContext, RigidBody, SolverContact};
+use rapier3d_f64::prelude::{ContactModificationContext, SolverContact};
 
+use super::contact_body::ContactBody;
 use super::rebound::Rebounds;
 
 /// The number of sweeps over the points of a contact that find their impulses.
@@ -34,46 +35,12 @@ pub(super) struct Bounce<'a> {
 /// step. So a point meets the other body if this multiple of its path takes it there. The factor also covers rounding errors.
 const REACH: f64 = 2.001;
 
-/// The motion of a body, and its response to an impulse.
-struct Side {
-    centre: DVec3,
-    velocity: DVec3,
-    angular_velocity: DVec3,
-    inverse_mass: f64,
-    inverse_inertia: AngularInertia,
-}
-
-impl Side {
-    /// Reads a body at the start of a step of `dt`, s. Its velocity is the one after the step without contacts.
-    fn new(body: &RigidBody, dt: f64) -> Side {
-        let properties = body.mass_properties();
-        Side {
-            centre: body.translation(),
-            velocity: body.linvel() + dt * properties.effective_inv_mass * body.user_force(),
-            angular_velocity: body.angvel(),
-            inverse_mass: properties.effective_inv_mass.x,
-            inverse_inertia: properties.effective_world_inv_inertia,
-        }
-    }
-
-    /// The velocity along `normal` of the body's point at `place`.
-    fn speed(&self, place: DVec3, normal: DVec3) -> f64 {
-        (self.velocity + self.angular_velocity.cross(place - self.centre)).dot(normal)
-    }
-
-    /// The change of velocity along `normal` at one place that a unit impulse along `normal` at another place causes.
-    fn response(&self, [one, two]: [DVec3; 2], normal: DVec3) -> f64 {
-        let [one, two] = [one, two].map(|place| (place - self.centre).cross(normal));
-        self.inverse_mass + one.dot(self.inverse_inertia * two)
-    }
-}
-
 impl Bounce<'_> {
     /// Corrects a contact of two bodies if an impact with restitution begins there.
     pub(super) fn modify(&self, context: &mut ContactModificationContext<'_>, touching: [usize; 2]) {
         let bodies = context.bodies;
         let sides = [context.rigid_body1, context.rigid_body2]
-            .map(|body| bodies.get(body?).map(|body| Side::new(body, self.dt)));
+            .map(|body| bodies.get(body?).map(|body| ContactBody::new(body, self.dt)));
         let (Some(contact), [Some(one), Some(two)]) = (context.rigid_mut(), sides) else { return };
         let (restitution, normal) = (*contact.restitution, *contact.normal);
         let is_delayed = self.rebounds.is_delayed(touching);
@@ -86,7 +53,7 @@ impl Bounce<'_> {
         }
         let place = |point: &SolverContact| 0.5 * (point.anchor1 + point.anchor2);
         let approach =
-            |point: &SolverContact| one.speed(place(point), normal) - two.speed(place(point), normal);
+            |point: &SolverContact| (one.velocity(place(point)) - two.velocity(place(point))).dot(normal);
         let meets = |point: &SolverContact| {
             let approach = approach(point);
             approach > self.slow && point.dist < REACH * approach * self.dt
@@ -110,7 +77,7 @@ impl Bounce<'_> {
         }
         let response = |i: usize, j: usize| {
             let places = [place(&meeting[i]), place(&meeting[j])];
-            one.response(places, normal) + two.response(places, normal)
+            (one.response(normal, places) + two.response(normal, places)).dot(normal)
         };
         let impulses = impulses(&meeting.iter().map(approach).collect::<Vec<_>>(), response);
         let total: f64 = impulses.iter().sum();

@@ -32,6 +32,8 @@ struct Moment {
     orientation: Vec<DQuat>,
     /// The location of each round body when the engine last found its contacts anew because it had moved, m.
     location: Vec<DVec3>,
+    /// The largest speed of sliding at the contacts of each body in the last step, m/s.
+    sliding: Vec<f64>,
     /// The rebounds of the next step.
     rebounds: Vec<Rebound>,
 }
@@ -53,6 +55,7 @@ impl TimeStepping {
             newcomers: self.newcomers.clone(),
             orientation: self.kept_contacts.orientation.clone(),
             location: self.kept_contacts.location.clone(),
+            sliding: self.sliding.speed.clone(),
             rebounds: self.rebounds.due.clone(),
         };
         postcard::to_stdvec(&(moment, &self.engine)).ok()
@@ -67,6 +70,7 @@ impl TimeStepping {
         let is_ours = moment.state.len() == bodies
             && moment.orientation.len() == bodies
             && moment.location.len() == bodies
+            && moment.sliding.len() == bodies
             && moment.away.iter().all(|(body, ..)| *body < bodies)
             && self.handles.iter().all(|handle| engine.bodies.contains(*handle));
         if !is_ours {
@@ -83,6 +87,7 @@ impl TimeStepping {
             newcomers,
             orientation,
             location,
+            sliding,
             rebounds,
         } = moment;
         self.newcomers = newcomers;
@@ -92,6 +97,7 @@ impl TimeStepping {
         self.calendar.set_over(over);
         (self.time, self.steps, self.state, self.ledger) = (time, steps, state, ledger);
         self.books.impacts.near = near;
+        self.sliding.speed = sliding;
         self.rebounds.set_due(rebounds);
         self.inputs = EngineInput::read_all(&engine, &self.handles);
         self.rolling.resume(&engine, &self.handles);

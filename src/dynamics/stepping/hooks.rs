@@ -7,6 +7,7 @@ use rapier3d_f64::prelude::{
 use super::bounce::Bounce;
 use super::mixing::Mixing;
 use super::rolling::Rolling;
+use super::sliding;
 
 /// What the physics engine asks about pairs of colliders during a step. It asks only about colliders with active hooks.
 pub(super) struct Hooks<'a> {
@@ -32,6 +33,7 @@ impl PhysicsHooks for Hooks<'_> {
         self.bounce.modify(context, [one, two]);
         self.bounce.rebounds.suspend(context);
         self.rolling.modify(context);
+        sliding::modify(context, self.bounce.dt);
     }
 }
 

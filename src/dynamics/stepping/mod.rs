@@ -13,6 +13,7 @@ mod bodies;
 mod bookkeeping;
 mod bounce;
 mod checkpoint;
+mod contact_body;
 mod convex_parts;
 mod engine_input;
 mod fresh_contacts;
@@ -31,6 +32,7 @@ mod rebound;
 mod rolling;
 mod rotation;
 mod shape;
+mod sliding;
 mod snapshot;
 #[cfg(test)]
 mod tests;
@@ -49,6 +51,7 @@ use self::mixing::Mixing;
 use self::non_potential_work::NonPotentialWork;
 use self::rebound::Rebounds;
 use self::rolling::Rolling;
+use self::sliding::Sliding;
 use self::thin_rods::ThinRods;
 use super::contact::{Contacts, Impact};
 use super::presence::PresenceSchedule;
@@ -103,6 +106,7 @@ pub struct TimeStepping {
     mean_velocity: MeanVelocity,
     thin_rods: ThinRods,
     rolling: Rolling,
+    sliding: Sliding,
     rebounds: Rebounds,
     kept_contacts: KeptContacts,
     books: Bookkeeping,
@@ -162,6 +166,7 @@ impl TimeStepping {
             failure: None,
             model,
             state,
+            sliding: Sliding::new((0..moves.len()).map(|i| moves[i] && !rolling.is_ball(i)).collect()),
             rolling,
             kept_contacts,
             inputs: EngineInput::read_all(&engine, &handles),

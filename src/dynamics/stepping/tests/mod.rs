@@ -5,6 +5,7 @@ mod invariants;
 mod joints;
 mod rebounds;
 mod rolling;
+mod sliding;
 
 use std::sync::Arc;
 
