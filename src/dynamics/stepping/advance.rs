@@ -175,9 +175,10 @@ impl TimeStepping {
             let is_moving = state.velocity[i].length() + reach[i] * turning.length() > *slow;
             let is_bouncing = mixing.has_restitution && is_moving || rebounds.is_due(i);
             let is_sliding = is_moving && sliding.may_slide(i, *slow);
-            kept_contacts.set(engine, i, is_bouncing || is_sliding || rolling.is_spun(i));
+            let is_turning = !rolling.is_ball(i) && reach[i] * turning.length() > *slow;
+            kept_contacts.set(engine, i, is_bouncing || is_sliding || is_turning || rolling.is_spun(i));
             if !rolling.is_ball(i) {
-                kept_contacts.turn(engine, i, orientation, reach[i] * turning.length() > *slow);
+                kept_contacts.turn(engine, i, orientation);
             }
             if rolling.is_round(i) {
                 kept_contacts.shift(engine, i, state.location[i], kept_contacts::WAY * half_thickness[i]);
@@ -196,7 +197,7 @@ impl TimeStepping {
     /// bodies.
     fn guide(&mut self, end: f64, dt: f64) {
         self.model.place(end, &mut self.state);
-        let Self { model, state, engine, handles, rolling, kept_contacts, reach, slow, sliding, .. } = self;
+        let Self { model, state, engine, handles, rolling, kept_contacts, reach, slow, .. } = self;
         for (i, handle) in handles.iter().enumerate().filter(|(i, _)| model.is_guided(*i)) {
             let Some(from) = engine.bodies.get(*handle).map(|body| *body.rotation()) else { continue };
             let mut pose = bodies::pose(state, i);
@@ -204,9 +205,9 @@ impl TimeStepping {
             let turning = model.angular_velocity(i, state);
             let untaken =
                 leading - rolling.take(engine, kept_contacts.colliders(i), i, (from, turning, leading), dt);
-            let is_moving = state.velocity[i].length() + reach[i] * turning.length() > *slow;
-            kept_contacts.set(engine, i, is_moving && sliding.may_slide(i, *slow) || rolling.is_spun(i));
-            kept_contacts.turn(engine, i, pose.rotation, reach[i] * turning.length() > *slow);
+            let is_turning = reach[i] * turning.length() > *slow;
+            kept_contacts.set(engine, i, is_turning || rolling.is_spun(i));
+            kept_contacts.turn(engine, i, pose.rotation);
             if untaken != leading {
                 pose.rotation = rotation::advanced(from, untaken, dt);
                 // Remembers that the engine does not rotate the body by its spin.

@@ -35,4 +35,10 @@ impl ContactBody {
         let turning = self.inverse_inertia * (from - self.centre).cross(impulse);
         self.inverse_mass * impulse + turning.cross(to - self.centre)
     }
+
+    /// The mean velocity in a step of `dt`, s, of a point of the rotating body on its arc, minus the velocity at the start of the arc, m/s.
+    pub(super) fn arc(&self, place: DVec3, dt: f64) -> DVec3 {
+        let turning = self.angular_velocity;
+        0.5 * dt * turning.cross(turning.cross(place - self.centre))
+    }
 }

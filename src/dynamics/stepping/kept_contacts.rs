@@ -83,12 +83,10 @@ impl KeptContacts {
         }
     }
 
-    /// Makes the engine find the contacts of a body anew if the body has rotated enough since the last time: at all if it rotates fast, by a
-    /// small angle if it rotates slowly.
-    pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat, is_fast: bool) {
-        let angle = if is_fast { 0.0 } else { ANGLE };
+    /// Makes the engine find the contacts of a body anew if the body has rotated by a small angle since the last time.
+    pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat) {
         // The product of two unit quaternions is the cosine of half the angle between them.
-        if self.orientation[body].dot(orientation).abs() >= 1.0 - angle * angle / 8.0 {
+        if self.orientation[body].dot(orientation).abs() >= 1.0 - ANGLE * ANGLE / 8.0 {
             return;
         }
         self.orientation[body] = orientation;

@@ -1,9 +1,12 @@
-//! The direction of sliding friction.
+//! The velocities of surfaces that friction must know: the direction of sliding, and the arc of a point that rotates.
 //!
 //! The physics engine first finds the impulse of friction that would stop the sliding, and then shortens this impulse to the limit of
 //! Coulomb friction. But the impulse that stops the sliding has another direction than the sliding if a body yields more easily in one
 //! direction than in another. A plank that slides obliquely would turn aside by up to 30°. So a sliding surface gets an additional
 //! velocity with which the engine finds the right direction. The engine asks for this velocity by a callback.
+//!
+//! On a turntable, the engine takes a body that friction holds along the tangent, and not along the arc: the body would creep outwards by
+//! the part ½ ω² Δt of its distance from the axis in each second. So a point that rotates gets the mean velocity on its arc.
 
 use glam::DVec3;
 use rapier3d_f64::prelude::{ContactModificationContext, SolverContact};
@@ -58,8 +61,8 @@ impl Sliding {
     }
 }
 
-/// Gives friction the direction opposite to the sliding at a contact, in a step of `dt`, s. Leaves a contact as it is if friction can stop the
-/// sliding within the step.
+/// Gives the points of a contact the velocities on their arcs in a step of `dt`, s. Gives friction the direction opposite to the sliding, unless
+/// friction can stop the sliding within the step.
 pub(super) fn modify(context: &mut ContactModificationContext<'_>, dt: f64) {
     let bodies = context.bodies;
     let sides = [context.rigid_body1, context.rigid_body2]
@@ -67,12 +70,16 @@ pub(super) fn modify(context: &mut ContactModificationContext<'_>, dt: f64) {
     let (Some(contact), [Some(one), Some(two)]) = (context.rigid_mut(), sides) else { return };
     let normal = *contact.normal;
     let count = contact.solver_contacts.len() as f64;
-    let mean =
-        |of: fn(&SolverContact) -> DVec3| contact.solver_contacts.iter().map(of).sum::<DVec3>() / count;
+    let mean = |points: &[SolverContact], of: fn(&SolverContact) -> DVec3| {
+        points.iter().map(of).sum::<DVec3>() / count
+    };
     // The engine applies friction at the centre of all points.
-    let place = mean(|point| 0.5 * (point.anchor1 + point.anchor2));
+    let place = mean(contact.solver_contacts, |point| 0.5 * (point.anchor1 + point.anchor2));
     let approach = one.velocity(place) - two.velocity(place);
-    let sliding = (approach + mean(|point| point.tangent_velocity)).reject_from_normalized(normal);
+    let arc = one.arc(place, dt) - two.arc(place, dt);
+    contact.solver_contacts.iter_mut().for_each(|point| point.tangent_velocity += arc);
+    let sliding = (approach + mean(contact.solver_contacts, |point| point.tangent_velocity))
+        .reject_from_normalized(normal);
     let Some(direction) = sliding.try_normalize() else { return };
     let response = |impulse: DVec3| one.response(impulse, [place; 2]) + two.response(impulse, [place; 2]);
     let yielding = response(direction).reject_from_normalized(normal);

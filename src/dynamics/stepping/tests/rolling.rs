@@ -150,44 +150,6 @@ fn guided_rollers_carry_a_plank() {
     assert!((end.velocity.x / (turning * radius) - 1.0).abs() < 1e-3, "{}", end.velocity);
 }
 
-/// A plate rotates about the vertical axis by a given motion.
-struct Turntable;
-
-impl Motion for Turntable {
-    fn at(&self, t: f64) -> Kinematics {
-        Kinematics {
-            location: -0.05 * DVec3::Y,
-            velocity: DVec3::ZERO,
-            acceleration: DVec3::ZERO,
-            orientation: DQuat::from_rotation_y(t),
-            angular_velocity: DVec3::Y,
-        }
-    }
-
-    fn angular_acceleration(&self, _: f64) -> DVec3 {
-        DVec3::ZERO
-    }
-}
-
-/// A coin lies on a turntable that rotates at 1 rad/s. Friction is ten times the centrifugal force, so the coin must keep its distance from
-/// the axis. It creeps by a thousandth per radian.
-#[test]
-fn a_coin_stays_on_a_turntable() {
-    let mut scene = Scene::default();
-    let table = scene.add(Shape::Cylinder { radius: 1.0, height: 0.1 }, |body| body);
-    let coin = scene.add(Shape::Cylinder { radius: 0.05, height: 0.02 }, |body| {
-        body.with_location(DVec3::new(0.5, 0.01, 0.0))
-            .with_velocity(-0.5 * DVec3::Z)
-            .with_angular_velocity(DVec3::Y)
-    });
-    let mut world = scene.world(GRAVITY);
-    world.follow(table, Arc::new(Turntable));
-    let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
-    let end = run(&mut stepping, 4.0).bodies[coin.index()];
-    let radius = DVec3::new(end.location.x, 0.0, end.location.z).length();
-    assert!((radius - 0.5).abs() < 0.005, "{radius}");
-}
-
 /// A cone on its side rolls about its apex, which stays at rest. Its centre of mass describes a circle.
 #[test]
 fn a_cone_rolls_about_its_apex() {

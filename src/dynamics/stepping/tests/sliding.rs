@@ -1,9 +1,11 @@
 //! Tests of sliding friction in time-stepping.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 
 use super::super::super::*;
-use super::{GRAVITY, STEP, Scene, run};
+use super::{GRAVITY, STEP, Scene, cube, run};
 
 /// A block rests on an incline. The slope is just below the friction angle, where the block must stay, and just above it, where the block
 /// must slide.
@@ -61,5 +63,46 @@ fn what_slides_obliquely_stays_on_its_line() {
         println!("{k}: stopped at {}, expected {expected} m", end.location);
         assert!((end.location.x / expected - 1.0).abs() < 0.01, "{k} {}", end.location);
         assert!(end.location.z.abs() < 0.01 * expected, "{k} {}", end.location);
+    }
+}
+
+/// A table rotates about the vertical axis at a constant angular velocity.
+struct Turntable(f64);
+
+impl Motion for Turntable {
+    fn at(&self, t: f64) -> Kinematics {
+        Kinematics {
+            location: -0.05 * DVec3::Y,
+            velocity: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            orientation: DQuat::from_rotation_y(self.0 * t),
+            angular_velocity: self.0 * DVec3::Y,
+        }
+    }
+
+    fn angular_acceleration(&self, _: f64) -> DVec3 {
+        DVec3::ZERO
+    }
+}
+
+/// A coin and a cube lie on a turntable. Friction is stronger than the centrifugal force, so they must keep their distance from the axis.
+#[test]
+fn what_friction_holds_stays_on_a_turntable() {
+    let (turning, distance) = (4.0, 0.2);
+    for (shape, height) in [(Shape::Cylinder { radius: 0.05, height: 0.02 }, 0.02), (cube(0.1), 0.1)] {
+        let mut scene = Scene::default();
+        let table = scene.add(Shape::Cylinder { radius: 1.0, height: 0.1 }, |body| body);
+        let held = scene.add(shape, |body| {
+            body.with_location(DVec3::new(distance, 0.5 * height, 0.0))
+                .with_velocity(-turning * distance * DVec3::Z)
+                .with_angular_velocity(turning * DVec3::Y)
+        });
+        let mut world = scene.world(GRAVITY);
+        world.follow(table, Arc::new(Turntable(turning)));
+        let mut stepping = TimeStepping::new(world, &scene.contacts(), &[]);
+        let end = run(&mut stepping, 10.0).bodies[held.index()];
+        let radius = DVec3::new(end.location.x, 0.0, end.location.z).length();
+        println!("{radius} m from the axis after {} rad", 10.0 * turning);
+        assert!((radius / distance - 1.0).abs() < 0.01, "{radius}");
     }
 }
