@@ -236,9 +236,8 @@ impl TimeStepping {
         };
         let stopped: Vec<bool> = (0..handles.len()).map(is_stopped).collect();
         let stepped = |i: usize| {
-            let without = books.before[i].0 + dt * model.inverse_mass()[i] * inputs[i].force;
-            let (body, from) = (engine.bodies.get(handles[i])?, state.location[i]);
-            Some(Stepped { body, from, without, is_stopped: stopped[i] })
+            let (body, from) = (engine.bodies.get(handles[i])?, bodies::pose(state, i));
+            Some(Stepped { body, from, is_stopped: stopped[i] })
         };
         mean_velocity.end((engine, handles), joints, stepped, dt);
         books.motors = joints.motor_pushes(engine, state);

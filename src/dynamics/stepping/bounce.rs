@@ -48,18 +48,24 @@ impl Bounce<'_> {
             *contact.restitution = 0.0;
         }
         let is_new = contact.manifold.points.iter().all(|point| point.data.impulse == 0.0);
-        if restitution <= 0.0 || !is_new {
-            return;
-        }
         let place = |point: &SolverContact| 0.5 * (point.anchor1 + point.anchor2);
         let approach =
             |point: &SolverContact| (one.velocity(place(point)) - two.velocity(place(point))).dot(normal);
+        // A contact keeps the impulse of an impact while the bodies move apart, and the engine would begin the step with that impulse.
+        let leaves = |point: &SolverContact| point.dist > approach(point) * self.dt;
+        if *contact.user_data != 0 && contact.solver_contacts.iter().all(leaves) {
+            contact.solver_contacts.clear();
+            return;
+        }
+        if restitution <= 0.0 || !is_new {
+            return;
+        }
         let meets = |point: &SolverContact| {
             let approach = approach(point);
             approach > self.slow && point.dist < REACH * approach * self.dt
         };
         // If no point meets the other body in this step, the points that meet it in the next step are left out for now.
-        let waits = |point: &SolverContact| meets(point) && point.dist > approach(point) * self.dt;
+        let waits = |point: &SolverContact| meets(point) && leaves(point);
         if !contact.solver_contacts.iter().any(|point| meets(point) && !waits(point)) {
             contact.solver_contacts.retain(|point| !waits(point));
             return;

@@ -19,16 +19,18 @@ use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidB
 
 use super::super::{Model, State};
 use super::joint::Joints;
+use super::joint_arcs::{self, EndMotion};
 use super::mechanisms::Mechanisms;
 use super::touch::Touch;
 use super::{bodies, rotation};
 
 /// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
 const ROTATION: f64 = 4.0;
-/// Joints change the velocities of a mechanism at the start and at the end of a step. Each change is one vector, with the components of all
-/// bodies. The two changes count as equal if the cosine of the angle between them is at least this, and if `LARGER` allows it.
+/// The ends of a mechanism's joints drift apart in a step, and the engine moves them towards each other. Each of the two motions is one vector,
+/// with the components of all joints. The motions count as equal if the cosine of the angle between them is at least this, and if `LARGER`
+/// allows it.
 const PARALLEL: f64 = 0.95;
-/// The square of the second change may be larger than the square of the first one by at most this factor.
+/// The square of the second motion may be larger than the square of the first one by at most this factor.
 const LARGER: f64 = 2.0;
 /// If a body rotates by a larger angle within a step, rad, its mechanism keeps the velocities of the engine. With mean velocities, such steps
 /// are unstable.
@@ -40,10 +42,8 @@ const TAUT: f64 = 1e-7;
 pub(super) struct Stepped<'a> {
     /// The body in the engine.
     pub(super) body: &'a RigidBody,
-    /// Its location before the step, m.
-    pub(super) from: DVec3,
-    /// The velocity that it would have without joints and contacts, m/s.
-    pub(super) without: DVec3,
+    /// Its pose before the step.
+    pub(super) from: Pose,
     /// Whether the engine stopped it at a surface.
     pub(super) is_stopped: bool,
 }
@@ -138,8 +138,8 @@ impl MeanVelocity {
     /// Finds the bodies that get their mean velocity, after the physics engine has made a step of `dt`, s. `handles` holds the engine's handle
     /// of each body. `stepped` returns what is known of a body after the step.
     ///
-    /// In a step that is symmetric in time, joints change the velocities at the start of the step as much as at its end. If the changes differ,
-    /// the one at the end corrects the positions of joints that give way, and must not become a velocity.
+    /// The engine moves the ends of joints towards each other because they have drifted apart on straight lines instead of arcs, or because
+    /// joints give way. A motion of the second kind must not become a velocity.
     pub(super) fn end<'a>(
         &mut self,
         (engine, handles): (&'a PhysicsWorld, &[RigidBodyHandle]),
@@ -158,26 +158,35 @@ impl MeanVelocity {
                 bodies.for_each(|body| excluded[mechanisms.number(body)] = true);
             }
         }
-        // For each mechanism, the sums of m a·a, m a·b and m b·b over its bodies. a and b are the changes of velocity by joints at the start and
-        // at the end of the step.
-        let mut changes = vec![[0.0; 3]; gets_mean.len()];
         for i in mechanisms.held() {
-            let Some(Stepped { body, from, without, is_stopped }) = stepped(i) else { continue };
-            let number = mechanisms.number(i);
-            excluded[number] |= is_stopped
+            let Some(Stepped { body, is_stopped, .. }) = stepped(i) else { continue };
+            excluded[mechanisms.number(i)] |= is_stopped
                 || body.angvel().length_squared() * dt * dt > FASTEST * FASTEST
                 || is_touched(engine, handles, body);
-            let at_start = body.linvel() - without;
-            let at_end = (body.translation() - from) / dt - body.linvel();
-            let products = [at_start.length_squared(), at_start.dot(at_end), at_end.length_squared()];
-            for (sum, product) in changes[number].iter_mut().zip(products) {
-                *sum += body.mass() * product;
+        }
+        // For each mechanism, the sums of a·a, a·b and b·b over its joints. a is the velocity with which the ends drift apart, and b is the one with
+        // which the engine moves them towards each other.
+        let mut motions = vec![[0.0; 3]; gets_mean.len()];
+        for k in 0..joints.len() {
+            let ends = joints.bodies(k);
+            let held = ends.into_iter().flatten().find(|&body| mechanisms.is_held(body));
+            let (Some(joint), Some(held)) = (joints.get(engine, k), held) else { continue };
+            let end = |body: Option<usize>| {
+                let stepped = body.and_then(&stepped);
+                stepped.map_or_else(EndMotion::default, |Stepped { body, from, .. }| {
+                    if body.is_dynamic() { EndMotion::new(body, from, dt) } else { EndMotion::guided(body) }
+                })
+            };
+            let Some([drift, back]) = joint_arcs::drift(joint, &ends.map(end), dt) else { continue };
+            let products = [drift.length_squared(), drift.dot(back), back.length_squared()];
+            for (sum, product) in motions[mechanisms.number(held)].iter_mut().zip(products) {
+                *sum += product;
             }
         }
         for i in mechanisms.held() {
             let number = mechanisms.number(i);
-            let [start, product, end] = changes[number];
-            let are_equal = product >= PARALLEL * (start * end).sqrt() && end <= LARGER * start;
+            let [drift, product, back] = motions[number];
+            let are_equal = product >= PARALLEL * (drift * back).sqrt() && back <= LARGER * drift;
             gets_mean[i] = are_equal && !excluded[number];
         }
     }

@@ -20,6 +20,7 @@ mod fresh_contacts;
 mod hooks;
 mod impacts;
 mod joint;
+mod joint_arcs;
 mod joint_response;
 mod kept_contacts;
 mod mean_velocity;

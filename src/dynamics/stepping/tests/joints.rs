@@ -88,6 +88,36 @@ fn joints_do_not_brake_a_free_rotation() {
     }
 }
 
+/// A shaft turns on a vertical hinge, with two balls welded to it. Its weight and the weight of the balls have no moment about the axis, so the
+/// shaft must keep its angular velocity.
+#[test]
+fn weight_does_not_brake_a_turnstile() {
+    let turning = 6.0 * DVec3::Y;
+    let mut scene = Scene::default();
+    let shaft = scene.add(Shape::Cylinder { radius: 0.04, height: 1.0 }, |body| RigidBody {
+        mass: 2.0,
+        ..body.with_angular_velocity(turning)
+    });
+    let ends = [Anchor::Point(DVec3::ZERO), Anchor::centre(shaft)];
+    let mut kinds = vec![LinkKind::Hinge(Hinge::new(ends, DVec3::Y, DQuat::IDENTITY))];
+    for x in [-0.42, 0.42] {
+        let at = x * DVec3::X;
+        let ball = scene.add(Shape::Sphere { radius: 0.06 }, |body| {
+            body.with_location(at).with_velocity(turning.cross(at)).with_angular_velocity(turning)
+        });
+        let between = [Anchor::centre(shaft), Anchor::Body { id: ball, at: -at }];
+        kinds.push(LinkKind::Fixed(Fixed { between, turned: DQuat::IDENTITY }));
+    }
+    let links: Vec<Link> = kinds.into_iter().map(|kind| Link { kind, collides: false }).collect();
+    scene.surfaces.fill(None);
+    let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
+    for k in 1..=5 {
+        let now = run(&mut stepping, f64::from(k)).bodies[shaft.index()].angular_velocity;
+        println!("{k} s: {now}");
+        assert!((now.y / turning.y - 1.0).abs() < 1e-3, "{k} {now}");
+    }
+}
+
 /// A ball circles on a rope of 1 m, so fast that it moves farther than its radius within a step. It must keep its speed. The rope yields by
 /// ½ (ω dt)² of its length at the start.
 #[test]
