@@ -49,6 +49,16 @@ impl Mechanisms {
         (0..self.holds.len()).filter(|&body| self.is_held(body))
     }
 
+    /// Returns each body that can move and is held by joints, with the number of joints of its mechanism.
+    pub(super) fn joint_counts(&self, joints: &Joints) -> impl Iterator<Item = (usize, usize)> {
+        let mut counts = vec![0; self.number.len()];
+        for k in 0..joints.len() {
+            let held = joints.bodies(k).into_iter().flatten().find(|&body| self.is_held(body));
+            held.into_iter().for_each(|body| counts[self.number[body]] += 1);
+        }
+        self.held().map(move |body| (body, counts[self.number[body]]))
+    }
+
     /// Whether a body can move and is held by a joint.
     pub(super) fn is_held(&self, body: usize) -> bool {
         self.holds[body].to_movable || self.holds[body].to_world

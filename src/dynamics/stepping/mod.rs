@@ -69,6 +69,11 @@ const FINAL_SWEEPS: usize = 4;
 /// and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
 const JOINT_SWEEPS: usize = 16;
 const FINAL_JOINT_SWEEPS: usize = 8;
+/// Groups of bodies with a small mechanism get more of the first sweeps, up to this number. Welded beams bend less then: one of eight parts of
+/// 5 kg with a load of 100 kg, by 0.08 m instead of 0.4 m.
+const MORE_SWEEPS: usize = 48;
+/// The largest product of these sweeps and the joints of a mechanism, which limits their cost.
+const MOST_SOLUTIONS: usize = 1600;
 /// The largest speed at which the physics engine separates overlapping bodies and corrects joints, m/s, if the thinnest moving body has a
 /// thickness of 1 m. For other thicknesses, this speed grows with the root of the thickness, as the speed after a fall does.
 const CORRECTION: f64 = 3.0;
@@ -146,6 +151,11 @@ impl TimeStepping {
         let kept_contacts = KeptContacts::new(&engine, colliders, &state);
         let held = joints.held(model.len());
         let mechanisms = Mechanisms::new(&model, &joints);
+        for (body, count) in mechanisms.joint_counts(&joints) {
+            if let Some(body) = engine.bodies.get_mut(handles[body]) {
+                body.set_additional_pgs_iterations(MORE_SWEEPS.min(MOST_SOLUTIONS / count));
+            }
+        }
         let slow = SLOW * length.sqrt();
         TimeStepping {
             time: parts.time,

@@ -170,6 +170,31 @@ fn a_thin_rod_on_a_hinge_is_stable() {
     assert!(end.balance.kinetic < 1.001 * start && end.balance.kinetic > 0.5 * start);
 }
 
+/// A beam of eight welded parts of 1 kg reaches out from a wall. The last part weighs 20 kg. The welds may yield, but the beam must not hang down.
+#[test]
+fn a_welded_beam_bends_little() {
+    let mut scene = Scene::default();
+    let mut links = Vec::new();
+    let mut end = Anchor::Point(DVec3::ZERO);
+    for k in 0..8 {
+        let part = scene.add(Shape::Box { size: DVec3::new(0.5, 0.2, 0.2) }, |body| {
+            let at = (0.25 + 0.5 * f64::from(k)) * DVec3::X;
+            let mass = if k == 7 { 20.0 } else { 1.0 };
+            RigidBody { mass, inertia: mass * body.inertia, ..body.with_location(at) }
+        });
+        let between = [end, Anchor::Body { id: part, at: -0.25 * DVec3::X }];
+        let kind = LinkKind::Fixed(Fixed { between, turned: DQuat::IDENTITY });
+        links.push(Link { kind, collides: false });
+        end = Anchor::Body { id: part, at: 0.25 * DVec3::X };
+    }
+    let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
+    for k in 1..=40 {
+        let tip = run(&mut stepping, 0.1 * f64::from(k)).bodies[7].location.y;
+        println!("{k}: {tip} m");
+        assert!(tip > -0.2, "{k} {tip}");
+    }
+}
+
 /// A door swings against the limit of its hinge at 3 rad/s. It must stay there.
 #[test]
 fn a_limit_does_not_throw_a_door_back() {
