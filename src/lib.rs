@@ -73,6 +73,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod explain;
 pub mod export;
+pub mod motion_warnings;
 mod not_drawn;
 #[cfg(feature = "render")]
 pub mod output;

@@ -1,7 +1,8 @@
 //! Warnings about arrows, trails and other things that a scene requests but no image shows.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::picture::{NotDrawn, Reason, RequestedItem, number};
+use crate::picture::number::rounded;
+use crate::picture::{NotDrawn, Reason, RequestedItem};
 use crate::scene::Quantity;
 
 /// Returns the warning that a requested arrow, trail, ghost or similar is not drawn. It gives the time, the reason, and the key to change.
@@ -75,11 +76,4 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
         (None, _) => format!("leave `{key}` out"),
     };
     Diagnostic::warning(Code::NotDrawn, message).help(help)
-}
-
-/// Formats a number with three significant digits.
-fn rounded(number: f64) -> String {
-    let mut out = String::new();
-    number::write(&mut out, number, 3);
-    out
 }

@@ -8,6 +8,7 @@ use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
 use jabuka::export::{
     ExportError, Exported, write_csv, write_events, write_glb, write_joints, write_particles,
 };
+use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::scene::ContactLaw;
@@ -150,6 +151,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         terminal::report(&report(error, output));
         Failure::Errors
     })?;
+    let warnings = motion_warnings::all(&scene, run.survey());
+    terminal::report(&Report { diagnostics: warnings, ..Report::default() });
     let left_out = match format {
         _ if scene.emitters.is_empty() || arguments.particles => "",
         Format::Csv if arguments.joints || arguments.events.is_some() => "",
@@ -181,15 +184,12 @@ fn table(
         return Ok(if rows == 1 { "1 impact".to_owned() } else { format!("{rows} impacts") });
     }
     let rows = whole(output, |file| write_csv(run, selection, file))?;
-    Ok(format!("{rows} rows, {times} times of {} bodies", scene.bodies.len()))
+    Ok(format!("{rows} rows, {times} times of {}", count_of_bodies(run)))
 }
 
 fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
     let Exported { frames, bytes, faster } = whole(output, |file| write_glb(run, selection, file))?;
-    let bodies = match run.scene().bodies.len() {
-        1 => "1 body".to_owned(),
-        bodies => format!("{bodies} bodies"),
-    };
+    let bodies = count_of_bodies(run);
     let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
     // The animation of a very slow or very fast run is sped up or slowed down. The summary then gives the factor.
     let shown = match faster {
@@ -197,6 +197,13 @@ fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<Str
         _ => format!(" ({} times as fast as in life)", two_digits(faster)),
     };
     Ok(format!("{bodies}, {frames}{shown}, {}", size(bytes)))
+}
+
+fn count_of_bodies(run: &Recorded<'_>) -> String {
+    match run.scene().bodies.len() {
+        1 => "1 body".to_owned(),
+        bodies => format!("{bodies} bodies"),
+    }
 }
 
 fn report(error: ExportError, path: &Path) -> Report {

@@ -21,8 +21,12 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     layout(out, decimals, exponent, digits);
 }
 
+/// Returns a number as text, rounded to three significant digits, as messages show it.
+pub(crate) fn rounded(number: f64) -> String {
+    text(number, 3)
+}
+
 /// Returns a number as text, rounded to `digits` significant digits.
-#[cfg(test)]
 pub(crate) fn text(number: f64, digits: usize) -> String {
     let mut out = String::new();
     write(&mut out, number, digits);

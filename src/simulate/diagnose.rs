@@ -64,7 +64,7 @@ impl SimulateError {
     pub fn help(&self) -> Option<&'static str> {
         match self {
             SimulateError::Diverged(_) => Some(
-                "take a smaller `simulation.step`: a stiff spring wants it well below √(mass / stiffness)",
+                "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper",
             ),
             SimulateError::Broken(broken) if broken.time == 0.0 => Some(
                 "with the other joints of its bodies, it cannot: their lengths and points contradict each other",

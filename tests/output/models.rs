@@ -28,3 +28,17 @@ fn a_body_beyond_the_numbers_of_the_format_is_an_error_and_no_file() {
     assert!(said.contains("error[cannot-export]: `") && said.contains("`probe` is farther away"), "{said}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left over");
 }
+
+/// Tables and models show a wrong motion as well as pictures do, so `export` gives the same warnings as `compile`.
+#[test]
+fn a_motion_that_passes_through_the_ground_gets_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let [scene, file] = ["fall.toml", "fall.csv"].map(|name| folder.path().join(name));
+    fs::write(&scene, "[simulation]\ngravity = [0, -9.81, 0]\n[environment]\nground.height = -1\n[body.ball]\nshape.sphere.radius = 0.1\n")
+        .unwrap();
+    let output = jabuka().arg("export").arg(&scene).arg("-o").arg(&file).output().unwrap();
+    let said = stderr(&output);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("warning[crossing]"), "{said}");
+    assert!(file.exists());
+}

@@ -116,6 +116,12 @@ joints are described in the same way for both schemes. Choose by scene:
   low bodies sink in more. A slender tower of twenty bodies can fall; with half the step, it stands.
 - **Sliding and spinning**: a body that slides and spins at once on several points gets the full friction against both. In reality, each weakens
   the other. Use `event-driven` contacts for such bodies.
+- **Flat faces** press with their corners or rims, in both schemes. So a disk that spins on its face stops in two thirds of the time that an even
+  pressure would need, and a square plate in about half of it.
+- **Joints that carry much**: joints are solved one after the other, so they yield. A beam of eight welded parts of 0.5 m and 5 kg with a load of
+  100 kg sags by 0.08 m at 1/240 s, and by a quarter of that with half the step. A single `compound` does not bend. A heavy load on a chain of
+  light links, of length L and mass m each, needs a step below √(m L/F) for the tension F. With a longer step, the links vibrate until the chain
+  flies apart.
 - **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube, so bodies that roll along it lose
   energy at the kinks. A moving mesh is its convex hull if it is convex. Otherwise it is cut into convex parts along its own faces, up to 128
   parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill

@@ -96,6 +96,13 @@ static NOT_BUILT: &[NotBuilt] = &[
         is_removable: false,
     },
     NotBuilt {
+        of: "the simulation",
+        words: &["seed", "random_seed", "rng_seed"],
+        help: "it is a key of the scene: write `seed = 1` above the first table",
+        comes_with: "",
+        is_removable: false,
+    },
+    NotBuilt {
         of: "a force",
         words: &["morse", "yukawa", "magnus"],
         help: "this force is not built yet; there are `constant`, `drag`, `spring`, `gravitation`, `coulomb`, \

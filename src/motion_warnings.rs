@@ -1,0 +1,136 @@
+//! Warnings about the motion in a simulation, whatever is made of it.
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::picture::number::rounded;
+use crate::scene::{ContactLaw, Scene, thinnest};
+use crate::simulate::{Corrected, Crossing, Overlap, StretchedJoint, Survey};
+
+/// Returns all warnings about the motion in a simulated scene, such as bodies that pass through planes or each other, and an energy that drifts.
+pub fn all(scene: &Scene, survey: &Survey) -> Vec<Diagnostic> {
+    let corrected = survey.corrected.iter().map(corrected);
+    corrected
+        .chain(survey.crossings.iter().map(crossing))
+        .chain(survey.overlap.iter().map(overlap))
+        .chain(survey.stretched.iter().map(stretched))
+        .chain(sunken(scene, survey))
+        .chain(energy_added(scene, survey))
+        .chain(first_order(scene, survey).or_else(|| drift(scene, survey)))
+        .collect()
+}
+
+/// Returns a warning if the energy error of the simulation exceeds 5 %.
+fn drift(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    const NOTICEABLE: f64 = 0.05;
+    let help = match scene.simulation.contacts {
+        Some(ContactLaw::TimeStepping) => "take a smaller `simulation.step`",
+        _ => "take a smaller `simulation.step`, or an `integrator` of higher order",
+    };
+    let Survey { drift, drift_scale, .. } = survey;
+    let message = format!("the energy drifts by {:.0} % of the {}", drift * 100.0, drift_scale.name());
+    (drift.abs() > NOTICEABLE).then(|| Diagnostic::warning(Code::EnergyDrift, message).help(help))
+}
+
+/// Returns a warning if a first-order method makes event-driven contacts inaccurate. The warning gives the energy error.
+fn first_order(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    const NOTICEABLE: f64 = 1e-6;
+    let simulation = &scene.simulation;
+    let method = simulation.method;
+    let is_exact = simulation.contacts == Some(ContactLaw::EventDriven);
+    let is_said = is_exact && method.order == 1 && survey.drift.abs() > NOTICEABLE;
+    let percent = rounded(survey.drift * 100.0);
+    let message = format!(
+        "`{}` is of first order, so this run is not exact: the energy drifts by {percent} % of the {}",
+        method.name,
+        survey.drift_scale.name()
+    );
+    let warning = Diagnostic::warning(Code::FirstOrder, message);
+    let help = "write `integrator = \"velocity-verlet\"` or `\"rk4\"` in [simulation]";
+    is_said.then(|| warning.help(help))
+}
+
+/// Returns the warning that a body starts with a velocity that differs from the one in the scene, because of its joints.
+fn corrected(corrected: &Corrected) -> Diagnostic {
+    let vector = |vector: glam::DVec3| vector.to_array().map(rounded).join(", ");
+    let others = match corrected.others {
+        0 => String::new(),
+        1 => ", and so does 1 other body".to_owned(),
+        others => format!(", and so do {others} other bodies"),
+    };
+    let name = &corrected.body;
+    let message =
+        format!("`{name}` starts with another velocity than it is given, since joints hold it{others}");
+    let help = format!(
+        "it starts with `velocity = [{}]` and `angular_velocity = [{}]`; write these, or others that the joints allow",
+        vector(corrected.velocity),
+        vector(corrected.angular_velocity)
+    );
+    Diagnostic::warning(Code::CorrectedStart, message).help(help)
+}
+
+/// The advice, for warnings, that turns on contacts between bodies.
+const STOPS: &str = "`simulation.contacts = \"event-driven\"` stops bodies where they touch";
+
+/// Returns the warning that a body passes through a plane.
+fn crossing(crossing: &Crossing) -> Diagnostic {
+    let plane = crossing.plane.as_ref().map_or("the ground".to_owned(), |name| format!("the plane `{name}`"));
+    let others = match crossing.others {
+        0 => String::new(),
+        1 => ", and 1 other body later".to_owned(),
+        others => format!(", and {others} other bodies later"),
+    };
+    let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
+    Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
+}
+
+/// Returns the warning that a joint gives way.
+fn stretched(stretched: &StretchedJoint) -> Diagnostic {
+    let StretchedJoint { joint, gap, time, others } = stretched;
+    let others = match others {
+        0 => String::new(),
+        1 => ", and so does 1 other joint".to_owned(),
+        others => format!(", and so do {others} other joints"),
+    };
+    let message = format!("the joint `{joint}` gives way by {} m at t = {time} s{others}", rounded(*gap));
+    let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
+    Diagnostic::warning(Code::JointGivesWay, message).help(help)
+}
+
+/// Returns a warning if bodies sink deeply into each other under time-stepping.
+fn sunken(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    /// The largest penetration without a warning, as a fraction of the thickness of the thinnest moving body.
+    const ALLOWED: f64 = 0.25;
+    let (totals, thinnest) = (survey.contacts?, thinnest(&scene.bodies)?);
+    let is_stepped = scene.simulation.contacts == Some(ContactLaw::TimeStepping);
+    let part = totals.penetration / thinnest;
+    let message = format!(
+        "bodies sink into each other by up to {} m, {:.0} % of the thickness of the thinnest moving body",
+        rounded(totals.penetration),
+        100.0 * part
+    );
+    let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
+    (is_stepped && part > ALLOWED).then(|| Diagnostic::warning(Code::DeepOverlap, message).help(help))
+}
+
+/// Returns a warning if contacts or joints give much energy to the bodies under time-stepping.
+fn energy_added(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
+    /// The largest energy that needs no warning, as a fraction of the energy that the drift is relative to.
+    const ALLOWED: f64 = 0.05;
+    let totals = survey.contacts?;
+    let is_stepped = scene.simulation.contacts == Some(ContactLaw::TimeStepping);
+    let sources = [("contacts", totals.lost + totals.rubbed), ("joints and limits", totals.taken_by_joints)];
+    let (source, taken) = sources.into_iter().min_by(|one, two| one.1.total_cmp(&two.1))?;
+    let message = format!(
+        "{source} add {} J to the energy of the bodies, but they can only take energy",
+        rounded(-taken)
+    );
+    let help = "take a smaller `simulation.step`";
+    let is_much = -taken > ALLOWED * survey.drift_energy;
+    (is_stepped && is_much).then(|| Diagnostic::warning(Code::EnergyAdded, message).help(help))
+}
+
+/// Returns the warning that two bodies overlap.
+fn overlap(overlap: &Overlap) -> Diagnostic {
+    let [one, two] = &overlap.bodies;
+    let message = format!("`{one}` and `{two}` overlap at t = {} s", overlap.time);
+    Diagnostic::warning(Code::Overlap, message).help(format!("they pass through each other; {STOPS}"))
+}
