@@ -13,48 +13,33 @@ use super::rotation;
 pub(super) struct EndMotion {
     /// The pose before the step.
     pose: Pose,
-    /// The velocity that the engine keeps after the step, m/s, and the angular velocity, rad/s.
+    /// The mean velocity in the step, m/s, and the mean angular velocity, rad/s.
     velocity: DVec3,
     turning: DVec3,
-    /// How much faster the engine moved the body (m/s) and rotated it (rad/s) than with these velocities.
-    correction: DVec3,
-    turning_correction: DVec3,
 }
 
 impl EndMotion {
     /// Reads a body that the engine has moved from the pose `from` within a step of `dt`, s.
     pub(super) fn new(body: &RigidBody, from: Pose, dt: f64) -> EndMotion {
         let to = body.position();
-        let (velocity, turning) = (body.linvel(), body.angvel());
         EndMotion {
             pose: from,
-            velocity,
-            turning,
-            correction: (to.translation - from.translation) / dt - velocity,
-            turning_correction: rotation::leading(from.rotation, to.rotation, dt) - turning,
+            velocity: (to.translation - from.translation) / dt,
+            turning: rotation::leading(from.rotation, to.rotation, dt),
         }
     }
 
-    /// Reads a body with a given motion. The engine corrects neither its place nor its orientation.
-    pub(super) fn guided(body: &RigidBody) -> EndMotion {
-        EndMotion {
-            pose: *body.position(),
-            velocity: body.linvel(),
-            turning: body.angvel(),
-            ..EndMotion::default()
-        }
+    /// Reads a body that has followed a given motion in a step of `dt`, s.
+    pub(super) fn guided(body: &RigidBody, dt: f64) -> EndMotion {
+        let (to, velocity, turning) = (body.position(), body.linvel(), body.angvel());
+        let from = rotation::advanced(to.rotation, -turning, dt);
+        EndMotion { pose: Pose::from_parts(to.translation - dt * velocity, from), velocity, turning }
     }
 
-    /// The velocity of the body's point at `place`, the mean velocity on its arc in a step of `dt` minus this velocity, and the correction
-    /// there, m/s.
-    fn at(&self, place: DVec3, dt: f64) -> [DVec3; 3] {
-        let arm = place - self.pose.translation;
-        let around = self.turning.cross(arm);
-        [
-            self.velocity + around,
-            0.5 * dt * self.turning.cross(around),
-            self.correction + self.turning_correction.cross(arm),
-        ]
+    /// The velocity of the body's point at `place`, and the mean velocity on its arc in a step of `dt` minus this velocity, m/s.
+    fn at(&self, place: DVec3, dt: f64) -> [DVec3; 2] {
+        let around = self.turning.cross(place - self.pose.translation);
+        [self.velocity + around, 0.5 * dt * self.turning.cross(around)]
     }
 }
 
@@ -64,22 +49,24 @@ impl EndMotion {
 pub(super) fn drift(joint: &GenericJoint, [one, two]: &[EndMotion; 2], dt: f64) -> Option<[DVec3; 2]> {
     let frame = one.pose * joint.local_frame1;
     let place = (two.pose * joint.local_frame2).translation;
-    let [velocity, arc, correction] = two.at(place, dt);
+    let [velocity, arc] = two.at(place, dt);
     if !joint.coupled_axes.is_empty() {
         // A rod or a rope: only the distance between the ends counts. It grows by ½ (v dt)²/L if they move across it with relative velocity v.
         if !joint.limit_axes.is_empty() && joint.limits[JointAxis::LinX as usize].impulse == 0.0 {
             return None;
         }
         let between = place - frame.translation;
-        let [first_velocity, first_arc, first_correction] = one.at(frame.translation, dt);
-        let across = (velocity - first_velocity).reject_from(between).length_squared();
+        let [first_velocity, first_arc] = one.at(frame.translation, dt);
+        let moving = velocity - first_velocity;
         let along = between.normalize();
+        let across = moving.reject_from_normalized(along).length_squared();
         let drift = (arc - first_arc).dot(along) + 0.5 * dt * across / between.length();
-        return Some([drift * along, -(correction - first_correction).dot(along) * along]);
+        return Some([drift * along, -moving.dot(along) * along]);
     }
     // The point of the first body at the second end also moves along an arc, and takes the joint's axis with it.
-    let [first_velocity, first_arc, first_correction] = one.at(place, dt);
-    let drift = arc - first_arc - dt * one.turning.cross(velocity - first_velocity);
+    let [first_velocity, first_arc] = one.at(place, dt);
+    let moving = velocity - first_velocity;
+    let drift = arc - first_arc - dt * one.turning.cross(moving);
     let held = |vector: DVec3| {
         let mut own = frame.rotation.conjugate() * vector;
         let free = |axis: JointAxesMask| !joint.locked_axes.contains(axis);
@@ -87,5 +74,5 @@ pub(super) fn drift(joint: &GenericJoint, [one, two]: &[EndMotion; 2], dt: f64) 
         axes.into_iter().enumerate().filter(|(_, axis)| free(*axis)).for_each(|(k, _)| own[k] = 0.0);
         own
     };
-    Some([held(drift), held(first_correction - correction)])
+    Some([held(drift), held(-moving)])
 }

@@ -174,7 +174,11 @@ impl MeanVelocity {
             let end = |body: Option<usize>| {
                 let stepped = body.and_then(&stepped);
                 stepped.map_or_else(EndMotion::default, |Stepped { body, from, .. }| {
-                    if body.is_dynamic() { EndMotion::new(body, from, dt) } else { EndMotion::guided(body) }
+                    if body.is_dynamic() {
+                        EndMotion::new(body, from, dt)
+                    } else {
+                        EndMotion::guided(body, dt)
+                    }
                 })
             };
             let Some([drift, back]) = joint_arcs::drift(joint, &ends.map(end), dt) else { continue };

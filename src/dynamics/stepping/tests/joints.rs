@@ -170,6 +170,49 @@ fn a_thin_rod_on_a_hinge_is_stable() {
     assert!(end.balance.kinetic < 1.001 * start && end.balance.kinetic > 0.5 * start);
 }
 
+/// A heavy rotor spins on a hinge in a light arm, which a ball joint holds at its end. The arm must stay level and revolve with Ω = τ/(I ω), with
+/// the moment τ of the weight about the ball joint.
+#[test]
+fn a_gyroscope_precesses() {
+    let (spin, arm_mass, mass) = (50.0, 0.3, 2.0);
+    let (radius, distance) = (0.2, 0.4);
+    let moment = GRAVITY * (mass * distance + arm_mass * 0.5 * distance);
+    let precession = moment / (0.5 * mass * radius * radius * spin) * DVec3::Y;
+    let mut scene = Scene::default();
+    let mut add = |shape: Shape, mass: f64, at: DVec3, spin: DVec3| {
+        scene.add(shape, |body| {
+            RigidBody { mass, inertia: mass * body.inertia, ..body }
+                .with_orientation(DQuat::from_rotation_z(-std::f64::consts::FRAC_PI_2))
+                .with_location(at)
+                .with_velocity(precession.cross(at))
+                .with_angular_velocity(precession + spin)
+        })
+    };
+    let middle = 0.5 * distance * DVec3::X;
+    let arm = add(Shape::Box { size: DVec3::new(0.05, distance, 0.05) }, arm_mass, middle, DVec3::ZERO);
+    let rotor = add(Shape::Cylinder { radius, height: 0.05 }, mass, distance * DVec3::X, spin * DVec3::X);
+    // The y axis of both bodies points along the arm.
+    let half = 0.5 * distance * DVec3::Y;
+    let pivot = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: arm, at: -half }];
+    let axle = [Anchor::Body { id: arm, at: half }, Anchor::centre(rotor)];
+    let kinds = [
+        LinkKind::Ball(Ball { between: pivot }),
+        LinkKind::Hinge(Hinge::new(axle, DVec3::Y, DQuat::IDENTITY)),
+    ];
+    let links: Vec<Link> = kinds.into_iter().map(|kind| Link { kind, collides: false }).collect();
+    scene.surfaces.fill(None);
+    let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
+    for k in 1..=5 {
+        let t = f64::from(k);
+        let now = run(&mut stepping, t).bodies[rotor.index()];
+        let expected = DQuat::from_rotation_y(precession.y * t) * (distance * DVec3::X);
+        let along = now.angular_velocity.dot(now.location.normalize());
+        println!("{t} s: {} m from {expected}, spin {along}", now.location - expected);
+        assert!(now.location.abs_diff_eq(expected, 0.05 * distance), "{t} {}", now.location);
+        assert!((along / spin - 1.0).abs() < 1e-3, "{t} {along}");
+    }
+}
+
 /// A beam of eight welded parts of 1 kg reaches out from a wall. The last part weighs 20 kg. The welds may yield, but the beam must not hang down.
 #[test]
 fn a_welded_beam_bends_little() {
