@@ -303,7 +303,7 @@ impl TimeStepping {
     /// Books the work of contacts and joints in a step that ends at time `end`, s, and finds the impacts and the rebounds.
     fn close(&mut self, end: f64) {
         let Self { books, engine, model, joints, state, loads, driven, mixing, rebounds, sliding, .. } = self;
-        let bodies = (&*model, &*joints);
+        let bodies = (&*model, &*joints, &self.mean_velocity);
         let onsets = books.close(engine, bodies, (state, loads, driven), (rebounds, mixing, sliding), end);
         rebounds.prepare(onsets, (model, end, state));
     }

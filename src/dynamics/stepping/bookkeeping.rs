@@ -7,6 +7,7 @@ use super::super::motion::Twist;
 use super::super::{Accounts, Loads, Model, State};
 use super::impacts::{Impacts, StepMotion};
 use super::joint::{Joints, MotorPush};
+use super::mean_velocity::MeanVelocity;
 use super::mixing::Mixing;
 use super::non_potential_work::NonPotentialWork;
 use super::rebound::{Onset, Rebounds};
@@ -58,7 +59,7 @@ impl Bookkeeping {
     pub(super) fn close(
         &mut self,
         engine: &PhysicsWorld,
-        (model, joints): (&Model, &Joints),
+        (model, joints, mean_velocity): (&Model, &Joints, &MeanVelocity),
         (state, loads, driven): (&mut State, &Loads, &NonPotentialWork),
         (rebounds, mixing, sliding): (&Rebounds, &Mixing, &mut Sliding),
         time: f64,
@@ -92,7 +93,7 @@ impl Bookkeeping {
         self.touched = touched;
         let dt = engine.integration_parameters.dt;
         accounts.add(1.0, driven.work(dt, &self.mean));
-        let mut pulled = 0.0;
+        let (mut pulled, mut led) = (0.0, 0.0);
         for i in (0..self.touched.len()).filter(|&i| self.touched[i] || self.held[i]) {
             let shift = state.location[i] - self.places[i] - dt * state.velocity[i];
             let account = if self.touched[i] { &mut accounts.impacts } else { &mut pulled };
@@ -100,10 +101,19 @@ impl Bookkeeping {
             if self.held[i] && model.inverse_mass()[i] != 0.0 {
                 // Contacts and joints cause the part of the velocity change that does not follow from the body's force.
                 let change = model.mass()[i] * (state.velocity[i] - self.before[i].0) - dt * loads.force[i];
-                pulled += change.dot(self.mean[i].0) + self.turned[i].dot(self.mean[i].1);
+                let work = change.dot(self.mean[i].0) + self.turned[i].dot(self.mean[i].1);
+                pulled += work;
+                if mean_velocity.is_led_by_motors(i) {
+                    led += work;
+                }
             }
         }
-        let motors: f64 = self.motors.iter().map(|push| push.work(|body| self.mean[body])).sum();
+        // A body with its mean velocity moves by the first solution of the engine, which keeps only the motors' impulses of the second one.
+        // Joints then do no work, so the work comes from the motors.
+        let is_read = |push: &&MotorPush| !push.moves(|body| mean_velocity.is_led_by_motors(body));
+        let read: f64 =
+            self.motors.iter().filter(is_read).map(|push| push.work(|body| self.mean[body])).sum();
+        let motors = led + read;
         accounts.motors += motors;
         // The remaining energy comes from joints: they yield and hit limits, and guided bodies do work through them.
         let others = pulled - pressed - motors;

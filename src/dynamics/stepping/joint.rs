@@ -65,6 +65,11 @@ pub(super) struct MotorPush {
 }
 
 impl MotorPush {
+    /// Whether the motor moves one of the bodies for which `is_led` returns true.
+    pub(super) fn moves(&self, is_led: impl Fn(usize) -> bool) -> bool {
+        self.bodies.into_iter().flatten().any(is_led)
+    }
+
     /// Returns the work of the motor in the step, J. The closure `mean` returns the mean motion of a body in the step.
     pub(super) fn work(&self, mean: impl Fn(usize) -> Twist) -> f64 {
         let rate = |side: usize| {
@@ -250,6 +255,11 @@ impl Joints {
     /// Returns a joint as the physics engine describes it.
     pub(super) fn get<'a>(&self, engine: &'a PhysicsWorld, joint: usize) -> Option<&'a GenericJoint> {
         Some(&engine.impulse_joints.get(self.handles[joint])?.data)
+    }
+
+    /// Whether a joint has a motor.
+    pub(super) fn has_motor(&self, joint: usize) -> bool {
+        self.motors[joint].is_some()
     }
 
     /// Returns the indices of the bodies at the two ends of a joint; `None` for an end at a fixed point of the world.

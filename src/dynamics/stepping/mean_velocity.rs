@@ -85,6 +85,11 @@ impl MeanVelocity {
         self.mechanisms.is_held(body)
     }
 
+    /// Whether a body has got its mean velocity in the last step, and a motor moves its mechanism.
+    pub(super) fn is_led_by_motors(&self, body: usize) -> bool {
+        self.gets_mean[body] && self.mechanisms.has_motor(body)
+    }
+
     /// Measures the ropes and the limits of joints at the start of a step of `dt`, s.
     ///
     /// If the ends move across the rope with relative velocity v, a step makes a taut rope of length L longer by ½ (v dt)²/L. Returns the

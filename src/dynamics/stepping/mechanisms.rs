@@ -10,6 +10,8 @@ pub(super) struct Mechanisms {
     number: Vec<usize>,
     /// For each body, how joints hold it.
     holds: Vec<Hold>,
+    /// For each number of a mechanism, whether one of its joints has a motor.
+    has_motor: Vec<bool>,
 }
 
 /// How joints hold a body.
@@ -36,12 +38,23 @@ impl Mechanisms {
                 [None, None] => {}
             }
         }
-        Mechanisms { number: (0..model.len()).map(|body| sets.first(body)).collect(), holds }
+        let number: Vec<usize> = (0..model.len()).map(|body| sets.first(body)).collect();
+        let mut has_motor = vec![false; model.len()];
+        for k in (0..joints.len()).filter(|&k| joints.has_motor(k)) {
+            let movable = joints.bodies(k).into_iter().flatten().filter(is_movable);
+            movable.for_each(|body| has_motor[number[body]] = true);
+        }
+        Mechanisms { number, holds, has_motor }
     }
 
     /// The number of a body's mechanism, smaller than the number of bodies.
     pub(super) fn number(&self, body: usize) -> usize {
         self.number[body]
+    }
+
+    /// Whether a motor moves the mechanism of a body.
+    pub(super) fn has_motor(&self, body: usize) -> bool {
+        self.has_motor[self.number[body]]
     }
 
     /// Returns the indices of the bodies that can move and are held by joints, in ascending order.
