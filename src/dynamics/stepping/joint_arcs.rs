@@ -4,7 +4,7 @@
 //! drift apart. The engine then moves the bodies so that the ends meet again.
 
 use glam::DVec3;
-use rapier3d_f64::prelude::{GenericJoint, JointAxesMask, JointAxis, Pose, RigidBody};
+use rapier3d_f64::prelude::{AngularInertia, GenericJoint, JointAxesMask, JointAxis, Pose, RigidBody};
 
 use super::rotation;
 
@@ -16,6 +16,8 @@ pub(super) struct EndMotion {
     /// The mean velocity in the step, m/s, and the mean angular velocity, rad/s.
     velocity: DVec3,
     turning: DVec3,
+    /// The mass, kg, and the inverse inertia of a body that forces move.
+    mass: Option<(f64, AngularInertia)>,
 }
 
 impl EndMotion {
@@ -26,6 +28,7 @@ impl EndMotion {
             pose: from,
             velocity: (to.translation - from.translation) / dt,
             turning: rotation::leading(from.rotation, to.rotation, dt),
+            mass: Some((body.mass(), body.mass_properties().effective_world_inv_inertia)),
         }
     }
 
@@ -33,7 +36,15 @@ impl EndMotion {
     pub(super) fn guided(body: &RigidBody, dt: f64) -> EndMotion {
         let (to, velocity, turning) = (body.position(), body.linvel(), body.angvel());
         let from = rotation::advanced(to.rotation, -turning, dt);
-        EndMotion { pose: Pose::from_parts(to.translation - dt * velocity, from), velocity, turning }
+        let pose = Pose::from_parts(to.translation - dt * velocity, from);
+        EndMotion { pose, velocity, turning, mass: None }
+    }
+
+    /// The radius of gyration of the body about an axis through `place`, m; 0 if forces do not move it.
+    fn gyration(&self, place: DVec3, axis: DVec3) -> f64 {
+        let Some((mass, inverse_inertia)) = self.mass else { return 0.0 };
+        let arm = (place - self.pose.translation).reject_from_normalized(axis);
+        (arm.length_squared() + 1.0 / (mass * axis.dot(inverse_inertia * axis))).sqrt()
     }
 
     /// The velocity of the body's point at `place`, and the mean velocity on its arc in a step of `dt` minus this velocity, m/s.
@@ -43,10 +54,24 @@ impl EndMotion {
     }
 }
 
-/// Returns the velocity with which the ends of a joint drift apart in a step of `dt`, s, because they move along straight lines, and the velocity
-/// with which the engine moves the ends towards each other, m/s. Both are relative velocities in the directions that the joint does not leave free.
-/// `None` for a rope that is not taut.
-pub(super) fn drift(joint: &GenericJoint, [one, two]: &[EndMotion; 2], dt: f64) -> Option<[DVec3; 2]> {
+/// The motion of the ends of a joint relative to each other, in the directions that the joint does not leave free, m/s.
+pub(super) struct Drift {
+    /// The velocity with which the ends drift apart, because they move along straight lines.
+    pub(super) drift: DVec3,
+    /// The velocity with which the engine moves the ends towards each other.
+    pub(super) back: DVec3,
+    /// For a hinge at its limit, the velocity of its turn, at the larger radius of gyration of its two bodies.
+    pub(super) turn: f64,
+}
+
+/// Returns the motion of the ends of a joint within a step of `dt`, s; `None` for a rope that is not taut. `is_at_limit` tells whether a hinge or
+/// slider is at its limit.
+pub(super) fn drift(
+    joint: &GenericJoint,
+    is_at_limit: bool,
+    [one, two]: &[EndMotion; 2],
+    dt: f64,
+) -> Option<Drift> {
     let frame = one.pose * joint.local_frame1;
     let place = (two.pose * joint.local_frame2).translation;
     let [velocity, arc] = two.at(place, dt);
@@ -61,18 +86,24 @@ pub(super) fn drift(joint: &GenericJoint, [one, two]: &[EndMotion; 2], dt: f64) 
         let along = between.normalize();
         let across = moving.reject_from_normalized(along).length_squared();
         let drift = (arc - first_arc).dot(along) + 0.5 * dt * across / between.length();
-        return Some([drift * along, -moving.dot(along) * along]);
+        return Some(Drift { drift: drift * along, back: -moving.dot(along) * along, turn: 0.0 });
     }
     // The point of the first body at the second end also moves along an arc, and takes the joint's axis with it.
     let [first_velocity, first_arc] = one.at(place, dt);
     let moving = velocity - first_velocity;
     let drift = arc - first_arc - dt * one.turning.cross(moving);
+    let is_held = |axis: JointAxesMask| {
+        joint.locked_axes.contains(axis) || is_at_limit && joint.limit_axes.contains(axis)
+    };
     let held = |vector: DVec3| {
         let mut own = frame.rotation.conjugate() * vector;
-        let free = |axis: JointAxesMask| !joint.locked_axes.contains(axis);
         let axes = [JointAxesMask::LIN_X, JointAxesMask::LIN_Y, JointAxesMask::LIN_Z];
-        axes.into_iter().enumerate().filter(|(_, axis)| free(*axis)).for_each(|(k, _)| own[k] = 0.0);
+        axes.into_iter().enumerate().filter(|(_, axis)| !is_held(*axis)).for_each(|(k, _)| own[k] = 0.0);
         own
     };
-    Some([held(drift), held(-moving)])
+    let is_turn_held = is_held(JointAxesMask::ANG_X) && !joint.locked_axes.contains(JointAxesMask::ANG_X);
+    let axis = frame.rotation * DVec3::X;
+    let turn =
+        (two.turning - one.turning).dot(axis) * one.gyration(place, axis).max(two.gyration(place, axis));
+    Some(Drift { drift: held(drift), back: held(-moving), turn: if is_turn_held { turn } else { 0.0 } })
 }

@@ -7,8 +7,9 @@
 //!
 //! The mean velocity of a step is its displacement divided by its duration. With this velocity, the step is symmetric in time, and loses no
 //! energy. This is the method SHAKE with linearised constraints. Source: E. Hairer, C. Lubich and G. Wanner, *Geometric Numerical
-//! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit or an overstretched rope
-//! pushes them. The engine then moves them to correct an overlap or a length, and this displacement must not become a velocity.
+//! Integration*, VII.1.4. So bodies on joints get their mean velocity. They do not get it if a contact, a limit that has just been hit or an
+//! overstretched rope pushes them. The engine then moves them to correct an overlap or a length, and this displacement must not become a
+//! velocity.
 //!
 //! Either all bodies of a mechanism get their mean velocity, or none of them. Otherwise a joint would act on one of its bodies and not on the other one, and the mechanism would gain or lose momentum.
 
@@ -19,7 +20,7 @@ use rapier3d_f64::prelude::{JointAxesMask, JointAxis, PhysicsWorld, Pose, RigidB
 
 use super::super::{Model, State};
 use super::joint::Joints;
-use super::joint_arcs::{self, EndMotion};
+use super::joint_arcs::{self, Drift, EndMotion};
 use super::mechanisms::Mechanisms;
 use super::touch::Touch;
 use super::{bodies, rotation};
@@ -154,14 +155,10 @@ impl MeanVelocity {
     ) {
         let Self { is_stopped, mechanisms, gets_mean, .. } = self;
         let mut excluded = vec![false; gets_mean.len()];
-        for (k, is_stopped) in is_stopped.iter().enumerate() {
-            let Some(joint) = joints.get(engine, k) else { continue };
-            let is_rope = !joint.coupled_axes.is_empty();
-            let is_pushing = joint.limits.iter().any(|limit| limit.impulse != 0.0);
-            if *is_stopped || (is_pushing && !is_rope) {
-                let bodies = joints.bodies(k).into_iter().flatten();
-                bodies.for_each(|body| excluded[mechanisms.number(body)] = true);
-            }
+        for (k, _) in is_stopped.iter().enumerate().filter(|(_, is_stopped)| **is_stopped) {
+            let is_rope = joints.get(engine, k).is_some_and(|joint| !joint.coupled_axes.is_empty());
+            let bodies = joints.bodies(k).into_iter().flatten().filter(|_| is_rope);
+            bodies.for_each(|body| excluded[mechanisms.number(body)] = true);
         }
         for i in mechanisms.held() {
             let Some(Stepped { body, is_stopped, .. }) = stepped(i) else { continue };
@@ -186,8 +183,10 @@ impl MeanVelocity {
                     }
                 })
             };
-            let Some([drift, back]) = joint_arcs::drift(joint, &ends.map(end), dt) else { continue };
-            let products = [drift.length_squared(), drift.dot(back), back.length_squared()];
+            let is_at_limit = is_stopped[k] || joint.limits.iter().any(|limit| limit.impulse != 0.0);
+            let Some(ends) = joint_arcs::drift(joint, is_at_limit, &ends.map(end), dt) else { continue };
+            let Drift { drift, back, turn } = ends;
+            let products = [drift.length_squared(), drift.dot(back), back.length_squared() + turn * turn];
             for (sum, product) in motions[mechanisms.number(held)].iter_mut().zip(products) {
                 *sum += product;
             }

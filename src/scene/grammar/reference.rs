@@ -122,6 +122,8 @@ joints are described in the same way for both schemes. Choose by scene:
   100 kg sags by 0.08 m at 1/240 s, and by a quarter of that with half the step. A single `compound` does not bend. A heavy load on a chain of
   light links, of length L and mass m each, needs a step below √(m L/F) for the tension F. With a longer step, the links vibrate until the chain
   flies apart.
+- **Machines in contact**: a machine on joints loses the part ½ ω² Δt of its rotation in each second while one of its bodies touches another one: a
+  vehicle in a curve, or an arm that leans on a stop. At 1 rad/s and 1/240 s this is 0.2 %. Without a contact, it keeps its rotation.
 - **Shapes**: a frustum is a hull with 32 sides. A torus is a ring of capsules, off by at most 1 % of its tube, so bodies that roll along it lose
   energy at the kinks. A moving mesh is its convex hull if it is convex. Otherwise it is cut into convex parts along its own faces, up to 128
   parts. A mesh that needs more parts is replaced by about a dozen convex parts, which differ from it by a few percent of its size and may fill

@@ -3,6 +3,7 @@
 mod contacts;
 mod invariants;
 mod joints;
+mod machines;
 mod rebounds;
 mod rolling;
 mod sliding;
