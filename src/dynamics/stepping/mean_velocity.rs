@@ -155,11 +155,6 @@ impl MeanVelocity {
     ) {
         let Self { is_stopped, mechanisms, gets_mean, .. } = self;
         let mut excluded = vec![false; gets_mean.len()];
-        for (k, _) in is_stopped.iter().enumerate().filter(|(_, is_stopped)| **is_stopped) {
-            let is_rope = joints.get(engine, k).is_some_and(|joint| !joint.coupled_axes.is_empty());
-            let bodies = joints.bodies(k).into_iter().flatten().filter(|_| is_rope);
-            bodies.for_each(|body| excluded[mechanisms.number(body)] = true);
-        }
         for i in mechanisms.held() {
             let Some(Stepped { body, is_stopped, .. }) = stepped(i) else { continue };
             excluded[mechanisms.number(i)] |= is_stopped
@@ -169,7 +164,7 @@ impl MeanVelocity {
         // For each mechanism, the sums of a·a, a·b and b·b over its joints. a is the velocity with which the ends drift apart, and b is the one with
         // which the engine moves them towards each other.
         let mut motions = vec![[0.0; 3]; gets_mean.len()];
-        for k in 0..joints.len() {
+        for (k, &is_stopped) in is_stopped.iter().enumerate() {
             let ends = joints.bodies(k);
             let held = ends.into_iter().flatten().find(|&body| mechanisms.is_held(body));
             let (Some(joint), Some(held)) = (joints.get(engine, k), held) else { continue };
@@ -183,7 +178,9 @@ impl MeanVelocity {
                     }
                 })
             };
-            let is_at_limit = is_stopped[k] || joint.limits.iter().any(|limit| limit.impulse != 0.0);
+            let is_rope = !joint.coupled_axes.is_empty();
+            excluded[mechanisms.number(held)] |= is_stopped && is_rope;
+            let is_at_limit = is_stopped || joint.limits.iter().any(|limit| limit.impulse != 0.0);
             let Some(ends) = joint_arcs::drift(joint, is_at_limit, &ends.map(end), dt) else { continue };
             let Drift { drift, back, turn } = ends;
             let products = [drift.length_squared(), drift.dot(back), back.length_squared() + turn * turn];
