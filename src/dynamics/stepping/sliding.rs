@@ -76,7 +76,7 @@ pub(super) fn modify(context: &mut ContactModificationContext<'_>, dt: f64) {
     // The engine applies friction at the centre of all points.
     let place = mean(contact.solver_contacts, |point| 0.5 * (point.anchor1 + point.anchor2));
     let approach = one.velocity(place) - two.velocity(place);
-    let arc = one.arc(place, dt) - two.arc(place, dt);
+    let arc = (one.arc(place, dt) - two.arc(place, dt)).reject_from_normalized(normal);
     contact.solver_contacts.iter_mut().for_each(|point| point.tangent_velocity += arc);
     let sliding = (approach + mean(contact.solver_contacts, |point| point.tangent_velocity))
         .reject_from_normalized(normal);
