@@ -14,6 +14,7 @@ mod sdl;
 mod shapes;
 mod showing;
 mod shutter;
+mod span;
 mod stage;
 mod templates;
 mod text;
@@ -28,6 +29,7 @@ use self::meshes::Meshes;
 use self::particles::Particles;
 use self::sdl::Style;
 use self::showing::Showing;
+use self::span::Span;
 use self::stage::StageText;
 use self::templates::Templates;
 use self::unit::Unit;
@@ -177,12 +179,17 @@ impl Emitter {
     }
 
     /// Returns the name and text of each file beside the scripts: the main script and the options with which one `povray` command renders
-    /// the whole sequence, and the common include file if there is one.
+    /// the whole sequence, and the common include file if there is one. `frames` are the frames whose scripts are in the folder, in any
+    /// order: the command renders these.
     ///
     /// # Errors
     /// If a template fails.
-    pub fn sequence(&self, scene: &Scene) -> Result<Vec<(&'static str, String)>, EmitError> {
-        let values = values::sequence(scene);
+    pub fn sequence(
+        &self,
+        scene: &Scene,
+        frames: impl IntoIterator<Item = usize>,
+    ) -> Result<Vec<(&'static str, String)>, EmitError> {
+        let values = values::sequence(scene, Span::of(frames));
         let shared = self.shared.iter().map(|text| Ok((COMMON, text.clone())));
         let rendered =
             [MASTER, INI].into_iter().map(|name| Ok((name, self.templates.render(name, &values)?)));

@@ -9,6 +9,7 @@ use super::materials::MaterialText;
 use super::names;
 use super::sdl::Style;
 use super::showing::NeededMacros;
+use super::span::Span;
 use super::stage::{self, CameraText, StageText};
 use crate::dynamics::{BodySnapshot, Shape};
 use crate::picture::Plan;
@@ -42,7 +43,7 @@ pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText
 }
 
 /// Returns the values for the templates `animation.pov` and `animation.ini`.
-pub(super) fn sequence(scene: &Scene) -> Value {
+pub(super) fn sequence(scene: &Scene, span: Span) -> Value {
     let frames = scene.simulation.frames();
     let last = frames.saturating_sub(1);
     let digits = names::width(frames);
@@ -60,6 +61,11 @@ pub(super) fn sequence(scene: &Scene) -> Value {
         frame_rate => scene.simulation.frame_rate,
         assets => !scene.povray.assets.is_empty(),
         end => scene.simulation.time(last),
+        first_script => span.first,
+        last_script => span.last,
+        script_step => span.step,
+        gaps => span.gaps,
+        partial => span != Span { first: 0, last, step: 1, gaps: false },
     }
 }
 
@@ -229,7 +235,7 @@ mod tests {
         for (heading, value) in [
             ("## The values of `common.inc`", common(&scene, &stage, &materials)),
             ("## The values of `frame.pov`", constants.of(&plan, &frame, String::new(), String::new())),
-            ("## The values of `animation.pov` and `animation.ini`", sequence(&scene)),
+            ("## The values of `animation.pov` and `animation.ini`", sequence(&scene, Span::of([0]))),
         ] {
             let mut found = BTreeSet::new();
             names(&value, "", &mut found);

@@ -32,7 +32,7 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
         entries.push(Entry::of(number, name, text.as_bytes()));
         Ok::<(), OutputError>(())
     };
-    for (name, text) in run.emitter().sequence(scene)? {
+    for (name, text) in run.emitter().sequence(scene, [frame.index])? {
         put(None, name.to_owned(), &text)?;
     }
     let trails = TrailFiles::default();

@@ -67,7 +67,11 @@ pub fn write(
     let scripts = Scripts::write(run, folder, selection, &trails, done)?;
     let mut entries = Vec::new();
     let trails = trails.into_entries();
-    for (name, text) in run.emitter().sequence(run.scene())? {
+    let kept = kept(folder, selection, &known)?;
+    let of_frame =
+        |entry: &Entry| entry.frame.filter(|&frame| entry.name == frame_name(frame, scripts.scene_frames));
+    let present = scripts.written(selection).chain(kept.iter().filter_map(of_frame));
+    for (name, text) in run.emitter().sequence(run.scene(), present)? {
         folder.write(name, text.as_bytes())?;
         entries.push(Entry::of(None, name.to_owned(), text.as_bytes()));
     }
@@ -77,7 +81,6 @@ pub fn write(
     entries.extend(trails);
     removed.retain(|frame| !selection.contains(*frame));
     let bytes = scripts.bytes + entries.iter().map(|entry| entry.bytes).sum::<u64>();
-    let kept = kept(folder, selection, &known)?;
     let written = Written { scripts: scripts.frames, bytes, kept: frames(&kept), removed: removed.len() };
     entries.extend(kept);
     entries.extend(kept_trails);
@@ -145,10 +148,15 @@ impl Scripts {
         Ok(Scripts { ledger, scene_frames, per_frame, frames, bytes })
     }
 
+    /// Yields the numbers of the frames whose scripts were written.
+    fn written(&self, selection: &Selection) -> impl Iterator<Item = usize> {
+        (0..self.scene_frames).filter(|&frame| selection.contains(frame))
+    }
+
     /// Yields the manifest entries of the written scripts, merged with other sorted entries, in the order of the manifest.
     fn merged(&self, others: Vec<Entry>, selection: &Selection) -> impl Iterator<Item = io::Result<Entry>> {
-        let frames = (0..self.scene_frames).filter(|&frame| selection.contains(frame));
-        let mut scripts = frames
+        let mut scripts = self
+            .written(selection)
             .flat_map(|frame| (0..self.per_frame).map(move |which| (frame, which)))
             .map(|(frame, which)| self.entry(frame, which))
             .peekable();

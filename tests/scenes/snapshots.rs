@@ -15,7 +15,7 @@ fn scripts_of_the_gallery() {
             let frame = run.frames().nth(index).unwrap().unwrap();
             insta::assert_snapshot!(name, run.script(&frame).unwrap());
         }
-        for (name, text) in run.emitter().sequence(&scene).unwrap() {
+        for (name, text) in run.emitter().sequence(&scene, 0..=last).unwrap() {
             insta::assert_snapshot!(name, text);
         }
     });
