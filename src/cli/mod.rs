@@ -87,19 +87,25 @@ enum Failure {
     Usage(String),
 }
 
-/// Parses the arguments of this process, runs the command, and returns the exit code.
+/// Runs the command that the arguments of this process name, and returns the exit code.
 pub(crate) fn main() -> ExitCode {
+    interrupt::survive_the_limit_of_files();
+    ExitCode::from(terminal::ended(run()))
+}
+
+/// Parses the arguments of this process, and runs the command.
+fn run() -> u8 {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) if error.kind() == ErrorKind::DisplayVersion && version::is_verbose() => {
             terminal::result(&version::report());
-            return ExitCode::SUCCESS;
+            return 0;
         }
         Err(error) => return terminal::misused(&error),
     };
     if arguments.verbose {
         terminal::error("error: `--verbose` goes with `--version`\n");
-        return ExitCode::from(2);
+        return 2;
     }
     let result = match arguments.command {
         Command::Compile(arguments) => compile::run(&arguments),
@@ -124,20 +130,20 @@ pub(crate) fn main() -> ExitCode {
         Command::Sandbox(arguments) => return sandbox::run(arguments),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(Failure::Errors) => ExitCode::from(1),
+        Ok(()) => 0,
+        Err(Failure::Errors) => 1,
         // 130 is the exit code by which shells report that Ctrl-C has ended a command.
-        Err(Failure::Interrupted) => ExitCode::from(130),
+        Err(Failure::Interrupted) => 130,
         Err(Failure::Scene(message)) => {
             terminal::error(&format!("error: {message}\n"));
-            ExitCode::from(1)
+            1
         }
         Err(Failure::Usage(message)) => {
             terminal::error(&format!(
                 "error: {}\n\nFor more information, try '--help'.\n",
                 visible(&message)
             ));
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The command `jabuka preview`: shows a scene in the browser and updates it when the file changes.
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use jabuka::preview::Preview;
 use jabuka::sandbox::Launcher;
@@ -42,6 +43,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let listening = |address: &str| {
         terminal::result(&format!("{address}\n"));
+        if terminal::is_lost() {
+            // Without the address, nobody can open the page.
+            stop.store(true, Ordering::Relaxed);
+            return;
+        }
         terminal::error("Ctrl-C ends it.\n");
         if !arguments.no_open {
             // If the browser cannot be opened, the user can still open the printed address.
@@ -56,6 +62,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         terminal::error(&format!("error: the page cannot be served{port}: {error}\n"));
         Failure::Errors
     })?;
+    if terminal::is_lost() {
+        return Err(Failure::Errors);
+    }
     // The preview runs until the user interrupts it.
     Err(Failure::Interrupted)
 }

@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use jabuka::sandbox::{self, Launch};
 
@@ -32,11 +31,11 @@ pub(super) struct Arguments {
 }
 
 /// Replaces this process by the confined program. Returns only if no program is given or it cannot be started.
-pub(super) fn run(arguments: Arguments) -> ExitCode {
+pub(super) fn run(arguments: Arguments) -> u8 {
     let mut words = arguments.program.into_iter();
     let Some(program) = words.next() else {
         terminal::result(&format!("{}\n", sandbox::enforced()));
-        return ExitCode::SUCCESS;
+        return 0;
     };
     let launch = Launch {
         program: program.into(),
@@ -48,5 +47,5 @@ pub(super) fn run(arguments: Arguments) -> ExitCode {
     };
     let error = launch.run();
     terminal::error(&format!("jabuka sandbox: {error}\n"));
-    ExitCode::from(error.code())
+    error.code()
 }

@@ -1,6 +1,5 @@
 //! The command `jabuka status`: shows how many images of a folder are rendered.
 
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -41,7 +40,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     /// The interval at which `--watch` reads the status again.
     const PAUSE: Duration = Duration::from_secs(2);
     // On a terminal, each new status replaces the previous one.
-    let redraw = std::io::stdout().is_terminal() && arguments.format == Format::Text;
+    let redraw = terminal::is_interactive() && arguments.format == Format::Text;
     let mut shown = String::new();
     let read = if arguments.verify { Status::verified } else { Status::read };
     loop {
@@ -65,7 +64,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         if status.is_complete() {
             return Ok(());
         }
-        if !arguments.watch {
+        if !arguments.watch || terminal::is_lost() {
             return Err(Failure::Errors);
         }
         std::thread::sleep(PAUSE);

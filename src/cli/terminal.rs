@@ -3,22 +3,27 @@
 //! All output passes through this module. It makes control characters visible, so that no printed text can send commands to the terminal.
 //! It keeps line breaks, so a caller that prints a name must escape line breaks in the name first.
 //!
-//! Failed writes are ignored, because a reader may close the pipe early (`jabuka … | head`).
+//! Nothing else writes to standard output. After a failed write, nothing more is written there, and [`ended`] turns the failure into an error at
+//! the end of the command. So the files that the command writes are complete, and no command can forget to check. It is no failure if the reader
+//! closes the pipe early (`jabuka … | head`).
 
-use std::io::{IsTerminal, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use clap::error::ContextKind;
-use jabuka::diagnostic::{Report, is_invisible, visible, visible_lines};
+use jabuka::diagnostic::{Code, Report, is_invisible, visible, visible_lines};
 use jabuka::output::Folder;
 use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 
+/// The first error of writing to standard output.
+static LOST: OnceLock<io::Error> = OnceLock::new();
+
 /// Prints a result to standard output.
 pub(super) fn result(text: &str) {
-    write(std::io::stdout().lock(), &visible_lines(text));
+    print(&visible_lines(text));
 }
 
 /// Prints a result in JSON to standard output. Invisible characters are escaped as in JSON.
@@ -30,28 +35,72 @@ pub(super) fn json(text: &str) {
         }
         c => c.to_string(),
     };
-    write(std::io::stdout().lock(), &text.chars().map(escape).collect::<String>());
+    print(&text.chars().map(escape).collect::<String>());
 }
 
 /// Prints a result to the terminal, and replaces the given number of lines above it.
 pub(super) fn in_place_of(lines: usize, text: &str) {
     let up = if lines > 0 { format!("\x1b[{lines}A\x1b[J") } else { String::new() };
-    write(std::io::stdout().lock(), &(up + &visible_lines(text)));
+    print(&(up + &visible_lines(text)));
+}
+
+fn print(text: &str) {
+    if is_lost() {
+        return;
+    }
+    let mut stream = stdout().lock();
+    keep(stream.write_all(text.as_bytes()).and_then(|()| stream.flush()));
+}
+
+#[allow(clippy::disallowed_methods, reason = "this module is the one that writes to standard output")]
+fn stdout() -> io::Stdout {
+    io::stdout()
+}
+
+/// Remembers the error of a failed write to standard output.
+fn keep(written: io::Result<()>) {
+    if let Err(error) = written {
+        // Only the first error tells what went wrong.
+        let _ = LOST.set(error);
+    }
+}
+
+/// Returns true if nothing more can be printed to standard output, because its reader has gone or its disk is full.
+pub(super) fn is_lost() -> bool {
+    LOST.get().is_some()
+}
+
+/// Returns true if standard output is a terminal.
+pub(super) fn is_interactive() -> bool {
+    stdout().is_terminal()
+}
+
+/// Returns the exit code of a command that would end with `code`: if standard output could not be written, prints the error, and the command has
+/// failed.
+pub(super) fn ended(code: u8) -> u8 {
+    match LOST.get() {
+        Some(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            report(&Report::of_error(Code::CannotWrite, format!("cannot write to standard output: {error}")));
+            code.max(1)
+        }
+        _ => code,
+    }
 }
 
 /// Prints a message to standard error.
 pub(super) fn error(text: &str) {
-    write(std::io::stderr().lock(), &visible_lines(text));
+    complain(&visible_lines(text));
 }
 
-fn write(mut stream: impl Write, text: &str) {
-    let _ = stream.write_all(text.as_bytes());
+/// Prints a message to standard error. If this fails, there is nobody left to tell.
+fn complain(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
 /// Prints errors and warnings to standard error, in colors if it is a terminal and `NO_COLOR` is not set.
 pub(super) fn report(report: &Report) {
-    let color = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
-    write(std::io::stderr().lock(), &report.to_text(color));
+    let color = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    complain(&report.to_text(color));
 }
 
 /// If a check found a protected file, prints the error and converts it to a [`Failure`]. Passes on any other result.
@@ -82,18 +131,19 @@ pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
 }
 
 /// Prints the error in the command-line arguments, or the help that the user requested, and returns the exit code.
-pub(super) fn misused(error: &clap::Error) -> ExitCode {
+pub(super) fn misused(error: &clap::Error) -> u8 {
     let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
         let command = format!("jabuka compile {}", shell::path(Path::new(&scene)));
         self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
-        return ExitCode::from(2);
+        return 2;
     }
     // The message of clap repeats arguments, which may contain control characters.
     let text = error.render().to_string();
     match visible_lines(&text) == text {
-        true => drop(error.print()),
+        true if error.use_stderr() => drop(error.print()),
+        true => keep(error.print().and_then(|()| stdout().flush())),
         false => self::error(&text),
     }
-    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
+    if error.use_stderr() { 2 } else { 0 }
 }
