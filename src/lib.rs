@@ -84,6 +84,8 @@ pub mod picture;
 pub mod preview;
 pub mod random;
 #[cfg(feature = "render")]
+mod regular_file;
+#[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 mod run;

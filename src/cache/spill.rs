@@ -13,6 +13,7 @@ use super::checkpoint::{self, Stopped};
 use super::digest::CacheKey;
 use super::file::{self, At};
 use super::{PART, SAVING};
+use crate::regular_file;
 use crate::simulate::{Checkpoint, Store};
 
 /// The size up to which the recorded pages of a run stay in memory, bytes.
@@ -184,7 +185,8 @@ impl Part {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let path =
             folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
-        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
+        let options = &mut OpenOptions::new();
+        let file = regular_file::open(&path, options.read(true).write(true).create(true).truncate(false))?;
         file.try_lock().map_err(io::Error::from)?;
         // A killed process may have left a checkpoint, which does not belong to this new run.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));

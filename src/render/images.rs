@@ -1,12 +1,14 @@
 //! The folder of the images: checks that jabuka made it, locks it, and adds finished images.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::RenderError;
 use super::record::{HIDDEN, Record, Verdict};
+use super::undated::undated;
 use crate::output::Manifest;
+use crate::regular_file;
 
 /// A folder of images that is locked, so that only this process renders into it.
 pub struct Images {
@@ -71,10 +73,15 @@ impl Images {
         Ok(path)
     }
 
-    /// Moves a finished image into the folder, and then writes its record. If the process is killed between the two steps, the image has
-    /// no valid record and is rendered again.
+    /// Moves a finished image into the folder, without its date, and then writes its record. If the process is killed between the two
+    /// steps, the image has no valid record and is rendered again.
     pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {
         let path = self.image(name);
+        let bytes = regular_file::read(finished).map_err(RenderError::io(finished))?;
+        if let Some(bytes) = undated(&bytes) {
+            let mut file = regular_file::create(finished).map_err(RenderError::io(finished))?;
+            file.write_all(&bytes).map_err(RenderError::io(finished))?;
+        }
         let record = record.clone().of_image(finished).map_err(RenderError::io(finished))?;
         fs::rename(finished, &path).map_err(RenderError::io(&path))?;
         record.write(&self.folder, name).map_err(RenderError::io(Record::path(&self.folder, name)))?;
@@ -90,8 +97,9 @@ impl Images {
     /// Adds a copy of an existing image under another name, with its own record.
     pub(super) fn copy(&self, from: &str, name: &str, record: &Record) -> Result<(), RenderError> {
         let temporary = self.hidden().join(format!("work-{}-copy.png", std::process::id()));
-        let bytes = fs::read(self.image(from)).map_err(RenderError::io(self.image(from)))?;
-        fs::write(&temporary, bytes).map_err(RenderError::io(self.image(name)))?;
+        let bytes = regular_file::read(&self.image(from)).map_err(RenderError::io(self.image(from)))?;
+        let copied = regular_file::create(&temporary).and_then(|mut file| file.write_all(&bytes));
+        copied.map_err(RenderError::io(self.image(name)))?;
         self.adopt(&temporary, name, record)
     }
 
@@ -123,7 +131,9 @@ impl Images {
         let folder = self.hidden().join("failed");
         fs::create_dir_all(&folder).map_err(RenderError::io(&folder))?;
         let path = folder.join(format!("{name}.txt"));
-        fs::write(&path, format!("{why}\n")).map_err(RenderError::io(&path))
+        let written =
+            regular_file::create(&path).and_then(|mut file| file.write_all(format!("{why}\n").as_bytes()));
+        written.map_err(RenderError::io(&path))
     }
 
     fn forget_failure(&self, name: &str) -> Result<(), RenderError> {
@@ -188,7 +198,7 @@ fn lock(folder: &Path, path: &Path) -> Result<File, RenderError> {
     if fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink()) {
         return Err(RenderError::Link(path.to_owned()));
     }
-    let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+    let file = regular_file::open(path, OpenOptions::new().write(true).create(true).truncate(false));
     let file = file.map_err(RenderError::io(path))?;
     match file.try_lock() {
         Ok(()) => Ok(file),

@@ -35,6 +35,7 @@ mod result_collector;
 mod sequence;
 mod started;
 mod status;
+mod undated;
 
 pub use contact_sheet::{ContactSheet, Shot};
 pub use error::RenderError;

@@ -1,13 +1,14 @@
 //! Finds the installed POV-Ray and its version.
 
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, UNIX_EPOCH};
 
 use super::RenderError;
 use super::started::Started;
+use crate::regular_file;
 use crate::sandbox::{Confinement, Needs};
 
 /// An installed POV-Ray of a known version.
@@ -40,7 +41,7 @@ impl PovRay {
     ) -> Result<PovRay, RenderError> {
         let path = PovRay::locate(given)?;
         let mark = mark(&path, &confinement).map_err(RenderError::io(&path))?;
-        let remembered = fs::read_to_string(memory).ok();
+        let remembered = regular_file::read_to_string(memory).ok();
         let remembered = remembered.as_deref().and_then(|text| text.split_once('\n'));
         if let Some((_, version)) = remembered.filter(|(of, _)| *of == mark) {
             let version = version.trim_end().to_owned();
@@ -49,7 +50,8 @@ impl PovRay {
         let said = ask(&path, &confinement)?;
         if let Some(version) = version(&said) {
             // If the answer cannot be cached, the next command asks POV-Ray again.
-            let _ = fs::write(memory, format!("{mark}\n{version}\n"));
+            let _ = regular_file::create(memory)
+                .and_then(|mut file| file.write_all(format!("{mark}\n{version}\n").as_bytes()));
             let version = version.to_owned();
             return Ok(PovRay { path, version, confinement, unlimited: None });
         }

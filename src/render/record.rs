@@ -26,6 +26,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sha2::{Digest, Sha256};
 
+use crate::regular_file;
+
 /// The hidden folder beside the images. It contains the records, and other data about the images.
 pub const HIDDEN: &str = ".jabuka";
 
@@ -172,7 +174,7 @@ impl Record {
         /// The largest number of bytes that are read: far more than any record needs.
         const MAX_BYTES: u64 = 64 << 10;
         let mut text = String::new();
-        let file = File::open(Record::path(images, name)).ok()?;
+        let file = regular_file::open_to_read(&Record::path(images, name)).ok()?;
         file.take(MAX_BYTES).read_to_string(&mut text).ok()?;
         Record::parse(&text)
     }

@@ -15,6 +15,7 @@ use super::files;
 use super::record::{Compare, Files, HIDDEN, Record, State, Verdict};
 use crate::diagnostic::visible;
 use crate::output::{self, MANIFEST};
+use crate::regular_file;
 use crate::simulate::Selection;
 
 /// The age at which the marker of a running frame counts as abandoned. A living process updates its marker twice a minute.
@@ -265,7 +266,7 @@ impl Running {
     fn read(images: &Path, name: &str, frame: usize) -> Option<(Running, bool)> {
         let path = images.join(HIDDEN).join("running").join(name);
         let touched = fs::metadata(&path).ok()?.modified().ok()?;
-        let text = fs::read_to_string(&path).ok()?;
+        let text = regular_file::read_to_string(&path).ok()?;
         let mut words = text.split_whitespace();
         let host = words.next()?.to_owned();
         let process = words.next()?.parse().ok()?;
@@ -280,7 +281,7 @@ impl Failed {
     /// Reads the reason of a frame's failure. `None` if the frame has not failed, or its script has changed since.
     fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
         let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
-        let text = fs::read_to_string(&path).ok()?;
+        let text = regular_file::read_to_string(&path).ok()?;
         let modified = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
         if modified(script) > modified(&path) {
             return None;
@@ -296,11 +297,13 @@ fn is_made(film: &Path, how: &str, place: &FolderContents) -> bool {
     hasher.update(format!("{how}\n"));
     for frame in &place.frames {
         let name = place.name(*frame);
-        let Ok(record) = fs::read_to_string(Record::path(&place.images, &name)) else { return false };
+        let Ok(record) = regular_file::read_to_string(&Record::path(&place.images, &name)) else {
+            return false;
+        };
         hasher.update(format!("{}\n", record.trim_end_matches('\n')));
     }
     let digest: String = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    let noted = fs::read_to_string(Record::path(&place.images, "film")).unwrap_or_default();
+    let noted = regular_file::read_to_string(&Record::path(&place.images, "film")).unwrap_or_default();
     fs::metadata(film).is_ok_and(|film| film.is_file() && film.len() > 0)
         && noted.trim_end() == format!("film {digest}")
 }

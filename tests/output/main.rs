@@ -5,6 +5,7 @@
 mod support;
 
 mod assets;
+mod cache_files;
 mod check;
 mod checkpoint;
 mod edited;

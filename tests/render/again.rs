@@ -188,3 +188,26 @@ fn a_damaged_image_is_not_copied() {
     assert!(said.contains("changed   0-1 since they were rendered"), "{said}");
     assert!([0, 1, 2].into_iter().all(|frame| image(frame) == good));
 }
+
+/// Checks that two renders of a scene, at two times and in two folders, give the same bytes: with and without motion blur, and of one moment.
+#[test]
+fn images_have_no_date() {
+    const BLURRED: &[&str] = &["--set", "camera.shutter=0.02", "--set", "camera.samples=2"];
+    let images = |changed: &[&str]| {
+        let place = Place::new(SCENE);
+        place.succeed(&[&["render", "scene.toml", "--frames", "0-1"], changed].concat());
+        place.succeed(&[&["still", "scene.toml", "-t", "0.04", "-o", "still.png"], changed].concat());
+        ["out/scene/images/frame_0000.png", "out/scene/images/frame_0001.png", "still.png"]
+            .map(|name| fs::read(place.path(name)).unwrap())
+    };
+    for changed in [&[], BLURRED] {
+        let first = images(changed);
+        // The date has a resolution of a second.
+        std::thread::sleep(std::time::Duration::from_millis(1100));
+        assert!(first == images(changed), "{changed:?}");
+        for image in &first {
+            let has = |word: &[u8]| image.windows(word.len()).any(|part| part == word);
+            assert!(has(b"IDAT") && !has(b"tIME") && !has(b"Render Date"));
+        }
+    }
+}

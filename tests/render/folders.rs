@@ -1,10 +1,36 @@
 //! Tests of folders that belong to others, are in use or are missing, and of missing programs.
 
 use std::fs;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use crate::scene::{Place, SCENE, names};
 use crate::support::stderr;
+
+/// Checks that pipes in the place of hidden files block nothing: they are replaced, or they are an error.
+#[test]
+fn pipes_among_the_hidden_files_block_nothing() {
+    let place = Place::new(SCENE);
+    let render = ["render", "scene.toml", "--frames", "0"];
+    place.succeed(&render);
+    let within = |arguments: &[&str]| {
+        let mut command = Command::new("timeout");
+        command.args(["60", env!("CARGO_BIN_EXE_jabuka")]).args(arguments).current_dir(place.path(""));
+        command.output().unwrap().status.code()
+    };
+    let pipe = |name: &str| {
+        let path = place.path("out/scene/images/.jabuka").join(name);
+        fs::remove_file(&path).unwrap_or_default();
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+    };
+    for name in ["povray", "frame_0000.txt", "failed/frame_0000.txt"] {
+        pipe(name);
+        assert_ne!(within(&["status", "out/scene"]), Some(124), "{name}");
+        assert_eq!(within(&render), Some(0), "{name}");
+    }
+    pipe("lock");
+    assert_eq!(within(&render), Some(1));
+}
 
 #[test]
 fn a_folder_with_files_of_others_is_left_alone() {
