@@ -7,7 +7,7 @@ use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
 use std::process::Command;
 
-use super::{landlock, readable};
+use super::{environment, landlock, readable};
 
 /// A program to start in the sandbox, with its rights.
 #[derive(Clone, Debug, Default)]
@@ -74,6 +74,7 @@ impl Launch {
         }
         let mut command = Command::new(&program);
         command.args(&self.arguments);
+        command.env_clear().envs(environment::passed_on());
         if let Some(folder) = self.write.iter().find(|path| path.is_dir()) {
             for variable in ["TMPDIR", "POV_TEMP_DIR"] {
                 command.env(variable, std::path::absolute(folder).unwrap_or_else(|_| folder.clone()));

@@ -9,9 +9,11 @@
 //! | the launcher, and the rights of programs with and without `--trust` | [`Launcher`], [`Confinement`] |
 //! | the steps of the launcher before it becomes the program | [`Launch`] |
 //! | paths that every program may read: the system's folders, and the program's own files | `readable` |
+//! | the environment variables that every program receives | `environment` |
 //! | the rules for the kernel, and what the running kernel can enforce | `landlock`, [`enforced`] |
 
 mod confinement;
+mod environment;
 #[cfg_attr(not(target_os = "linux"), path = "no_landlock.rs")]
 mod landlock;
 mod launch;

@@ -44,11 +44,15 @@ const SYSTEM: &[&str] = &[
     "/dev/tty",
     "/dev/urandom",
     "/dev/zero",
-    // The number of processors, the free memory, and a process's information about itself.
+    // The number of processors, the free memory, and a process's information about itself, but not its environment or its open files.
     "/proc/cpuinfo",
     "/proc/filesystems",
     "/proc/meminfo",
-    "/proc/self",
+    "/proc/self/cgroup",
+    "/proc/self/maps",
+    "/proc/self/stat",
+    "/proc/self/statm",
+    "/proc/self/status",
     "/proc/stat",
     "/proc/sys",
     "/sys/devices/system/cpu",

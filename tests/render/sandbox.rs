@@ -153,6 +153,33 @@ fn the_launcher_grants_what_is_named_and_the_folders_of_the_system() {
     assert_eq!(fs::read_to_string(place.path("scene.toml")).unwrap(), SCENE);
 }
 
+/// Checks that a script learns nothing of the environment, which may hold passwords and keys.
+#[test]
+fn the_environment_is_closed() {
+    let place = Place::new(SCENE);
+    for script in
+        ["cat /proc/self/environ", "cat /proc/$$/environ; cat /proc/$PPID/environ", "ls /proc/self/fd"]
+    {
+        assert!(!shell(&place, script), "{script}");
+    }
+    let sandbox = |arguments: &[&str], program: &[&str]| {
+        let mut command = jabuka();
+        command.arg("sandbox").args(arguments).arg("--").args(program);
+        command.env("API_TOKEN", "sekret").env("LC_ALL", "C").env("POVINI", "/etc/none");
+        stdout(&command.output().unwrap())
+    };
+    // Even a trusted program, which may read all files, gets only what it needs.
+    for said in [sandbox(&[], &["env"]), sandbox(&["--read", "/"], &["cat", "/proc/self/environ"])] {
+        assert!(said.contains("PATH=") && said.contains("LC_ALL=C") && said.contains("POVINI="), "{said}");
+        assert!(!said.contains("sekret"), "{said}");
+    }
+    let sdl = "#fopen F \"/proc/self/environ\" read\n#read (F, X)";
+    let place = Place::new(&format!("povray.sdl = '''\n{sdl}\n'''\n{SCENE}"));
+    place.succeed(&["compile", "scene.toml", "--trust", "--frames", "0"]);
+    let said = stderr(&place.run(&["render", "out/scene"]));
+    assert!(said.starts_with("error[outside-sandbox]: frame 0: "), "{said}");
+}
+
 #[test]
 fn nothing_connects_to_the_network() {
     let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
