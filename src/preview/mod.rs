@@ -8,11 +8,12 @@
 //! | a panic of a thread, as an error on the page | `panicked` |
 //! | the data of a run for the page | `describe`, `shown`, `swarms`, `samples` |
 //! | the encoding of frames as bytes | `numbers` |
-//! | the server, its access control, and its errors | `routes`, `access`, `failed` |
+//! | the server, its connections, its access control, and its errors | `routes`, `connections`, `access`, `failed` |
 //! | a frame rendered by POV-Ray | `render` |
 //! | the page itself | `page`, and the files in the folder of that name |
 
 mod access;
+mod connections;
 mod describe;
 mod failed;
 mod numbers;
@@ -89,17 +90,17 @@ impl Preview {
         listening(&format!("http://{address}/?token={}", server.token.as_str()));
         // This thread ends with the process, so a scene that takes long to read does not delay the end.
         thread::Builder::new().name("scene".to_owned()).spawn(move || session.follow(stop))?;
-        let served = runtime.block_on(async {
+        runtime.block_on(async {
             tokio::select! {
-                served = axum::serve(listener, routes::router(server)).into_future() => served,
-                () = until(stop) => Ok(()),
+                never = connections::serve(listener, routes::router(server)) => match never {},
+                () = until(stop) => {}
             }
         });
         stop.store(true, Ordering::Relaxed);
         renderer.end();
         // Open connections lose no data when they are closed.
         runtime.shutdown_timeout(Duration::from_secs(1));
-        served
+        Ok(())
     }
 }
 

@@ -32,6 +32,7 @@ use tokio_stream::wrappers::ReceiverStream;
 use tokio_stream::{Stream, StreamExt as _};
 
 use super::access::{self, Refused, Token};
+use super::connections;
 use super::failed::Failed;
 use super::page;
 use super::render::{Renderer, Wanted};
@@ -78,7 +79,8 @@ pub(super) fn router(server: Server) -> Router {
     let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, text)| {
         router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *text) }))
     });
-    api.merge(page).layer(middleware::from_fn(guarded)).with_state(server)
+    let all = api.merge(page).layer(middleware::from_fn(connections::with_whole_body));
+    all.layer(middleware::from_fn(guarded)).with_state(server)
 }
 
 /// Refuses requests from other pages, and adds the security headers to each answer.

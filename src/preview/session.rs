@@ -107,11 +107,19 @@ impl Session {
         Arc::new(Session { path, options, cache, reader, inner, next, pulse, said })
     }
 
-    /// Reads the scene, and reads it again whenever one of its files changes, until `stop` is set.
+    /// Reads the scene, and reads it again whenever one of its files changes, until `stop` is set. A panic becomes an error on the page, and the
+    /// next version is read all the same.
     pub(super) fn follow(self: &Arc<Session>, stop: &AtomicBool) {
         let mut watched = Watched::new(std::slice::from_ref(&self.path));
         loop {
-            let again = self.read(&mut watched);
+            let mut again = false;
+            let read = caught("reading the scene", || {
+                again = self.read(&mut watched);
+                Ok(())
+            });
+            if let Err(report) = read {
+                self.fail(&report);
+            }
             let read = Instant::now();
             loop {
                 if stop.load(Ordering::Relaxed) {
@@ -197,7 +205,7 @@ impl Session {
         options
     }
 
-    /// Reads the current files of the scene. A panic becomes an error report, so that the session can read the next version.
+    /// Reads the current files of the scene. A panic becomes an error report.
     fn scene(&self, options: &Options) -> Result<Scene, Report> {
         caught("reading the scene", || (self.reader)(&self.path, options))
     }
@@ -254,6 +262,17 @@ impl Session {
         }
     }
 
+    /// Shows an error of jabuka itself on the page. What failed may have been the terminal, so the terminal comes last.
+    fn fail(&self, report: &Report) {
+        self.lock().problem = Some(report.to_text(false));
+        self.beat();
+        // If the terminal fails again, the page has the error.
+        let _ = caught("printing the report", || {
+            (self.said)(report);
+            Ok(())
+        });
+    }
+
     fn begin(self: &Arc<Session>, scene: Scene) -> io::Result<Arc<PreviewRun>> {
         let id = self.next.fetch_add(1, Ordering::Relaxed);
         let session = Arc::downgrade(self);
@@ -276,7 +295,8 @@ mod tests {
     use super::*;
     use crate::scene::Follow;
 
-    /// Makes a session for tests. Reading a scene with the title `panic` panics, and running a scene with the title `lost` panics.
+    /// Makes a session for tests. Reading a scene with the title `panic` panics, and running a scene with the title `lost` panics. So does
+    /// reporting an error about a mass.
     fn fragile(path: PathBuf) -> Arc<Session> {
         let read = |path: &Path, options: &Options| {
             let mut scene = Scene::from_path_with(path, options)?;
@@ -289,7 +309,8 @@ mod tests {
             }
             Ok(scene)
         };
-        Session::with_reader(path, Options::default(), Cache::none(), |_| {}, read)
+        let said = |report: &Report| assert!(!report.to_text(false).contains("mass"), "cannot report it");
+        Session::with_reader(path, Options::default(), Cache::none(), said, read)
     }
 
     #[test]
@@ -319,10 +340,19 @@ mod tests {
             let of_simulating = of_run(&session.state());
             save("good again");
             wait(&|state| of_run(state).is_none());
+            save("heavy'\nbody.ball.mass = -1 #");
+            wait(&|state| state.problem.as_ref().is_some_and(|problem| problem.contains("jabuka failed")));
+            let of_reporting = session.state().problem;
+            save("good at last");
+            wait(&|state| state.problem.is_none());
             stop.store(true, Ordering::Relaxed);
-            [of_reading, of_simulating].map(Option::unwrap_or_default)
+            [of_reading, of_simulating, of_reporting].map(Option::unwrap_or_default)
         });
-        let expected = ["reading the scene: cannot read π", "simulating: index out of bounds"];
+        let expected = [
+            "reading the scene: cannot read π",
+            "simulating: index out of bounds",
+            "reading the scene: cannot report it",
+        ];
         for (problem, expected) in problems.iter().zip(expected) {
             assert!(problem.contains(&format!("jabuka failed while {expected}")), "{problem}");
         }

@@ -1,5 +1,6 @@
 //! Tests of the access to the preview's server: it answers only its own page, and only with the token.
 
+use std::io::{Read as _, Write as _};
 use std::net::{IpAddr, SocketAddr, TcpStream, UdpSocket};
 use std::time::Duration;
 
@@ -223,4 +224,36 @@ fn it_listens_on_the_loopback_address_alone() {
         table.lines().filter(listens).filter_map(|line| line.split_whitespace().nth(1)).collect();
     let here: Vec<&&str> = locals.iter().filter(|local| local.ends_with(&format!(":{port:04X}"))).collect();
     assert_eq!(here, [&format!("0100007F:{port:04X}")]);
+}
+
+/// Checks that connections without a whole request are closed, and that they keep no page from being served.
+#[test]
+fn requests_that_are_not_sent_to_their_end_are_given_up() {
+    let server = Scene::gallery("parabola").served();
+    let (port, token) = (server.port(), server.token());
+    let host = format!("Host: 127.0.0.1:{port}\r\n");
+    let begin = |text: &str| {
+        let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.write_all(text.as_bytes()).unwrap();
+        stream
+    };
+    let body = format!("POST /api/render?token={token} HTTP/1.1\r\n{host}Content-Length: 100\r\n\r\n{{");
+    let head = format!("GET / HTTP/1.1\r\n{host}");
+    let mut begun = [begin(""), begin("G"), begin(&head), begin(&body), begin(&format!("{head}\r\n"))];
+    let silent: Vec<TcpStream> = (0..150).map(|_| begin("")).collect();
+    let answers = begun.each_mut().map(|stream| {
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        answer.lines().next().unwrap_or_default().to_owned()
+    });
+    assert_eq!(answers[..2], ["", ""]);
+    // The server may say why it gives up, or close the connection at once.
+    for (answer, status) in [(2, "408"), (3, "408")] {
+        let answer = &answers[answer];
+        assert!(answer.is_empty() || answer.starts_with(&format!("HTTP/1.1 {status} ")), "{answer}");
+    }
+    assert_eq!(answers[4], "HTTP/1.1 200 OK", "a connection that is not used any more is closed, too");
+    assert_eq!(get(port, "/").status, 200);
+    drop(silent);
 }

@@ -23,7 +23,8 @@ function begin() {
     while (newest) {
       const state = newest;
       newest = undefined;
-      await changed(state).catch((error) => console.error(error));
+      // If a run has been replaced meanwhile, the next state of the server names the new one.
+      await changed(state).catch((error) => error.status === 404 || console.error(error));
     }
     busy = false;
   };

@@ -56,10 +56,9 @@ function draw() {
   const present = run.shownIn(frame, open.view);
   const particles = run.description.particles ? run.particlesIn(frame) : NONE;
   if (!player.playing && ((run.hasShown && !present) || !particles)) return;
-  // While playing, missing data is replaced by that of the last complete frame.
-  if (present) open.shown = present;
-  const shown = present ?? (open.shownOf === run.id ? open.shown : undefined);
-  open.shownOf = run.id;
+  // While playing, missing data is replaced by that of the last complete frame of the same run and camera.
+  if (present) run.latest = { view: open.view, shown: present };
+  const shown = present ?? (run.latest?.view === open.view ? run.latest.shown : undefined);
   drawn.dirty = false;
   const canvas = element("picture");
   const scale = Math.min(2, window.devicePixelRatio || 1);

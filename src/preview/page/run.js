@@ -29,6 +29,8 @@ export class Run {
     /** The fetched poses, in pieces by index. Each piece contains `frames` frames. */
     this.pieces = new Map();
     this.shown = new Map();
+    /** The objects that were last drawn beside the bodies (`shown`), and the camera that saw them (`view`). */
+    this.latest = undefined;
     /** The fetched particles, by frame. */
     this.swarms = new Map();
     this.swarmBytes = 0;
@@ -61,7 +63,7 @@ export class Run {
   /** Stores the progress of the run. Returns true if the run has a new description, because it has finished. */
   async progressed(progress) {
     const settled = progress.settled && !this.progress?.settled;
-    const isNew = settled && !this.description.stage && !progress.problem;
+    const isNew = progress.settled && !this.description.stage && !progress.problem;
     this.progress = progress;
     if (isNew) {
       this.description = await json(`/api/runs/${this.id}`);

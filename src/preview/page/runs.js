@@ -76,7 +76,9 @@ async function wanted(which, { integrator, step }, usual) {
 }
 
 async function opened(id) {
+  const { scene } = open;
   const run = await Run.open(id);
+  run.scene = scene;
   const progress = open.state.runs[id];
   if (progress) await run.progressed(progress);
   return run;
@@ -103,10 +105,13 @@ async function show(id, serial) {
   if (serial !== open.serial) return run.close();
   open.run?.close();
   open.run = run;
+  // A comparison belongs to the scene that it was made for.
+  if (open.other && open.other.scene !== run.scene) leave();
   if (open.view > run.description.views.length) open.view = 0;
   player.take(run);
   paint(run);
   panel.take(run);
+  plots.take([run, ...(open.other ? [open.other] : [])], panel.body);
   describe(run);
   if (open.other) await compare(open.other.id, serial);
 }
@@ -118,14 +123,16 @@ function paint(run) {
   if (open.other?.bodies === run.bodies) open.painter.put("other", run.description.bodies.map((_, body) => ({ body, pose: body })));
 }
 
+/** Ends the comparison with another run. */
+function leave() {
+  open.other?.close();
+  open.other = null;
+  open.painter.release("other");
+  element("comparison").textContent = "";
+}
+
 async function compare(id, serial) {
-  if (id === null) {
-    open.other?.close();
-    open.other = null;
-    open.painter.release("other");
-    element("comparison").textContent = "";
-    return;
-  }
+  if (id === null) return leave();
   const run = open.other?.id === id ? open.other : await opened(id);
   if (serial !== open.serial && run !== open.other) return run.close();
   if (open.other !== run) open.other?.close();

@@ -33,6 +33,11 @@ fn of_several_files() -> Scene {
     Scene::of(RING).with("parts/ball.toml", BALL).with("meshes/twisted_ring.obj", &ring)
 }
 
+in_the_browser! { Scene::of(BALL), "live.mjs":
+    after_ten_scenes_that_are_shown_each_the_page_shows_the_last,
+    after_ten_scenes_that_are_saved_at_once_the_page_shows_the_last,
+}
+
 in_the_browser! { of_several_files(), "live.mjs":
     files_that_a_scene_takes_in_count_as_well,
 }
