@@ -27,6 +27,17 @@ impl Pace {
         Pace { rate, speed: rate / scene_rate }
     }
 
+    /// The pace of a film of these frames of a scene, in ascending order, at the same frame rate. `None` if the frames are at uneven
+    /// distances, so that the film has no single speed. A single frame keeps the pace.
+    pub fn of_frames(self, scene_rate: f64, frames: impl IntoIterator<Item = usize>) -> Option<Pace> {
+        let frames: Vec<usize> = frames.into_iter().collect();
+        let mut distances = frames.windows(2).map(|pair| pair[1].saturating_sub(pair[0]));
+        let Some(distance) = distances.next() else { return Some(self) };
+        #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
+        let speed = self.rate * distance as f64 / scene_rate;
+        distances.all(|other| other == distance).then_some(Pace { speed, ..self })
+    }
+
     /// The speed of the film in words, such as `4 times slower than life`. `None` for real time, to one part in a thousand.
     pub fn in_words(self) -> Option<String> {
         let (times, how) =
@@ -51,6 +62,20 @@ mod tests {
         assert_eq!([1.0, 23.976, 120.0].map(rate), [1.0, 23.976, 120.0]);
         assert_eq!([0.99, 3.0e-7, 120.1, 1.0e17].map(rate), [25.0; 4]);
         assert_eq!(Pace::new(3.0e-7, Some(50.0)).rate, 50.0);
+    }
+
+    /// A film of every tenth frame of 100 in a second shows 2.5 s in a second if it has the rate 25.
+    #[test]
+    fn frames_at_even_distance_make_a_faster_film() {
+        let of = |frames: &[usize]| {
+            let pace = Pace::new(100.0, Some(25.0)).of_frames(100.0, frames.iter().copied());
+            pace.and_then(Pace::in_words)
+        };
+        assert_eq!(of(&[0, 10, 20, 30]).unwrap(), "2.5 times faster than life");
+        assert_eq!(of(&[5, 6, 7]).unwrap(), "4 times slower than life");
+        assert_eq!(of(&[5]).unwrap(), "4 times slower than life");
+        assert_eq!(of(&[0, 4, 8]), None, "it is life");
+        assert_eq!(of(&[0, 4, 9]), None, "no single speed");
     }
 
     #[test]

@@ -61,6 +61,12 @@ impl Labels {
         said
     }
 
+    /// Returns the kinetic energy of the bodies whose motion is given, J. The balance of a run leaves it out, because no force moves them.
+    fn given(&self, moment: &Moment<'_>) -> f64 {
+        let given = moment.bodies.iter().filter(|at| self.bodies[at.id].motion.is_some());
+        given.map(|at| of_body(&self.bodies[at.id], at, BodyMeasure::Kinetic)).sum()
+    }
+
     #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
     fn measure(&self, measure: Measure, moment: &Moment<'_>) -> f64 {
         let energy = |of: fn(&Balance) -> f64| moment.balance.map_or(f64::NAN, of);
@@ -68,8 +74,8 @@ impl Labels {
         match measure {
             Measure::Run(RunMeasure::Time) => moment.time,
             Measure::Run(RunMeasure::Frame) => moment.frame as f64,
-            Measure::Run(RunMeasure::Energy) => energy(|balance| balance.total),
-            Measure::Run(RunMeasure::Kinetic) => energy(|balance| balance.kinetic),
+            Measure::Run(RunMeasure::Energy) => energy(|balance| balance.total) + self.given(moment),
+            Measure::Run(RunMeasure::Kinetic) => energy(|balance| balance.kinetic) + self.given(moment),
             Measure::Run(RunMeasure::Potential) => energy(|balance| balance.potential),
             Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
             Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
@@ -196,5 +202,30 @@ mod tests {
                 frame.balance.kinetic
             );
         }
+    }
+
+    /// A body that a motion guides has a kinetic energy, too: with 2 kg at 6 m/s, it is 36 J, for the body and for the scene.
+    #[test]
+    fn the_kinetic_energy_of_the_scene_contains_that_of_given_motions() {
+        let scene = Scene::parse(
+            "
+            simulation = { duration = 1, gravity = [0, -10, 0] }
+            [body.guided]
+            shape.sphere.radius = 0.1
+            mass = 2
+            motion.formula.location = ['3 * cos(2 * t)', '3 * sin(2 * t)', 0]
+            [body.thrown]
+            shape.sphere.radius = 0.1
+            mass = 2
+            velocity = [3, 0, 0]
+            [label.measured]
+            text = '${guided.kinetic:.6} ${kinetic_energy:.6} ${energy:.6}'
+            ",
+        )
+        .unwrap();
+        let labels = Labels::new(&scene, scene.labels[0].color.unwrap_or(crate::scene::Color::WHITE));
+        let frame = crate::simulate::Frames::new(&scene).next().unwrap().unwrap();
+        let said = labels.said(&scene.labels[0], &Moment::now(&frame));
+        assert_eq!(said, "36.000000 45.000000 45.000000");
     }
 }
