@@ -44,7 +44,7 @@ fn first_order(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
         survey.drift_scale.name()
     );
     let warning = Diagnostic::warning(Code::FirstOrder, message);
-    let help = "write `integrator = \"velocity-verlet\"` or `\"rk4\"` in [simulation]";
+    let help = "leave `simulation.integrator` out, or write `\"velocity-verlet\"` or `\"rk4\"`";
     is_said.then(|| warning.help(help))
 }
 

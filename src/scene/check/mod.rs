@@ -299,7 +299,7 @@ fn build(
     context: &mut Context<'_>,
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
-    let (simulation, counts) = simulation::read(&root.table("simulation"), needs_steps(&root));
+    let (simulation, counts) = simulation::read(&root, needs_steps(&root));
     simulation::check(&root.table("simulation"), &simulation, context);
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);

@@ -7,12 +7,25 @@ use super::counts::Counts;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::dynamics::{METHODS, Method};
-use crate::scene::SimulationSettings;
+use crate::scene::{ContactLaw, SimulationSettings};
+
+/// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as
+/// accurate as the motion between them.
+const CONSTRAINED: &str = "velocity-verlet";
 
 /// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
 /// freely.
-pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (SimulationSettings, Counts) {
-    let method = view.text("integrator").and_then(Method::by_name).unwrap_or(&METHODS[0]);
+pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, Counts) {
+    let view = root.table("simulation");
+    let contacts = contact::law(&view);
+    let is_constrained = match contacts {
+        // Time stepping has its own integrator.
+        Some(ContactLaw::TimeStepping) => false,
+        Some(ContactLaw::EventDriven) => true,
+        None => !root.named("joint").is_empty(),
+    };
+    let default = Method::by_name(CONSTRAINED).filter(|_| is_constrained).unwrap_or(&METHODS[0]);
+    let method = view.text("integrator").and_then(Method::by_name).unwrap_or(default);
     let mut simulation = SimulationSettings {
         duration: view.number("duration").unwrap_or_default(),
         frame_rate: view.number("frame_rate").unwrap_or_default(),
@@ -20,7 +33,7 @@ pub(super) fn read(view: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
         tolerance: view.number("tolerance").unwrap_or_default(),
         method,
         gravity: view.vector("gravity").unwrap_or_default(),
-        contacts: contact::law(view),
+        contacts,
     };
     let SimulationSettings { duration, frame_rate, step, .. } = simulation;
     let counts = Counts { duration, frame_rate, step, needs_steps };
@@ -60,4 +73,31 @@ pub(super) fn check(view: &View<'_>, simulation: &SimulationSettings, context: &
         )
     };
     context.diagnostics.push(Diagnostic::error(Code::BadIntegrator, message).at(span, "").help(help));
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scene;
+
+    #[test]
+    fn the_default_integrator_suits_joints_and_event_driven_contacts() {
+        let ball = "[body.ball]\nshape.sphere.radius = 0.1\nlocation = [1, 1, 0]\n";
+        let rod = "[joint.rod.rod]\nbetween = [[0, 1, 0], 'ball']\n";
+        let event_driven = "simulation.contacts = 'event-driven'\n";
+        let time_stepping = "simulation.contacts = 'time-stepping'\n";
+        let own = "simulation.integrator = 'euler-cromer'\n";
+        for (text, expected) in [
+            (ball.to_owned(), "euler-cromer"),
+            (format!("{ball}{rod}"), "velocity-verlet"),
+            (format!("{event_driven}{ball}"), "velocity-verlet"),
+            (format!("{event_driven}{ball}{rod}"), "velocity-verlet"),
+            (format!("{time_stepping}{ball}"), "euler-cromer"),
+            (format!("{time_stepping}{ball}{rod}"), "euler-cromer"),
+            (format!("{own}{ball}{rod}"), "euler-cromer"),
+            (format!("{own}{event_driven}{ball}"), "euler-cromer"),
+        ] {
+            let scene = Scene::parse(&text).unwrap();
+            assert_eq!(scene.simulation.method.name, expected, "{text}");
+        }
+    }
 }

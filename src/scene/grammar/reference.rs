@@ -34,7 +34,6 @@ const CONTACTS: &str = "
 duration = 4
 gravity = [0, -9.81, 0]
 contacts = \"event-driven\"
-integrator = \"velocity-verlet\"
 
 [body.ball]
 shape.sphere.radius = 0.1
@@ -68,8 +67,8 @@ the body stays in contact and then sticks, slides or rolls according to the forc
   with any bodies that may hit them within a step.
 - **At rest**: bodies that have rested on each other for eight steps are frozen until something touches them or a force on them changes. So
   a heap at rest costs nothing.
-- **Integrators** of first order (`euler-cromer`, `explicit-euler`) are no more accurate at impacts than between them; a warning gives
-  the energy error. Use `velocity-verlet` or `rk4`.
+- **Integrators**: the default is `velocity-verlet`. Methods of first order (`euler-cromer`, `explicit-euler`) are no more accurate at
+  impacts than between them; a warning gives the energy error.
 - **Energy**: impacts and friction have the accounts `impacts` and `friction` in the energy balance, and are not part of the drift.
 - **Display**: `arrows.weight`, `arrows.normal` and `arrows.friction` of a body show the forces on it at their points of action. Labels
   can show the count `impacts`, and `jabuka export SCENE --events FILE.csv` writes a row for each impact.

@@ -17,7 +17,7 @@ use super::labels;
 use super::lights::LIGHT;
 use super::materials::MATERIAL;
 use super::{Bound, KeySpec, Rule, TableSpec};
-use crate::dynamics::{METHODS, Method};
+use crate::dynamics::Method;
 use crate::scene::sdl::Where;
 use crate::scene::{ContactLaw, Layout, Preset};
 
@@ -163,7 +163,7 @@ static SIMULATION: TableSpec = TableSpec {
         .default_number(1e-9)
         .also(&["tol", "rtol", "atol", "accuracy", "epsilon"]),
         KeySpec::new("integrator", Choice(integrators), "The integration method")
-            .default_word(METHODS[0].name)
+            .default("`velocity-verlet` with joints or event-driven contacts, else `euler-cromer`")
             .also(&["method", "solver"]),
         KeySpec::new("gravity", VECTOR, "The acceleration of every movable body")
             .unit("m/s²")
