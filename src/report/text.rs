@@ -219,12 +219,12 @@ impl Assessment {
                 format!("the run reaches this; so does the following, {} times as fast:", digits(saved, 2))
             }
             (false, saved) if saved >= 1.5 => {
-                format!("write this, which is {} times as fast:", digits(saved, 2))
+                format!("write this, which is {} times as fast as your run:", digits(saved, 2))
             }
             (false, saved) if saved <= 0.67 => {
-                format!("write this, which takes {} times as long:", digits(1.0 / saved, 2))
+                format!("write this, which takes {} times as long as your run:", digits(1.0 / saved, 2))
             }
-            (false, _) => "write this, which takes about as long:".to_owned(),
+            (false, _) => "write this, which takes about as long as your run:".to_owned(),
         };
         line(out, "advice", &why);
         for written in self.lines_to_write(best) {

@@ -97,9 +97,9 @@ pub(super) static BODY: TableSpec = TableSpec {
         )
         .default_flag(false)
         .also(&["static", "anchored"]),
-        RESTITUTION.default("the other body's; 0 if neither has one"),
+        RESTITUTION.default("0"),
         FRICTION.default("the other body's; 0.5 if neither has one"),
-        ROLLING_FRICTION.default("the other body's; 0 if neither has one"),
+        ROLLING_FRICTION.default("0"),
         COLLIDES,
         COLLISION_GROUP,
         KeySpec::new(

@@ -7,22 +7,22 @@ use super::{Bound, KeySpec};
 pub(super) const RESTITUTION: KeySpec = KeySpec::new(
     "restitution",
     Number(Bound::From(0.0, 1.0)),
-    "The ratio of the rebound speed to the approach speed: 0 for no bounce, 1 for no loss. Of two values \
-     the larger counts",
+    "The ratio of the rebound speed to the approach speed: 0 for no bounce, 1 for no loss. Of the two \
+     bodies' values, the larger counts",
 )
 .also(&["bounciness", "bounce", "elasticity", "cor", "coefficient_of_restitution"]);
 
 pub(super) const FRICTION: KeySpec = KeySpec::new(
     "friction",
     NON_NEGATIVE,
-    "The coefficient of friction (Coulomb). Of two values the geometric mean counts",
+    "The coefficient of friction (Coulomb). Of the two bodies' values, the geometric mean counts",
 )
 .also(&["mu", "static_friction", "dynamic_friction", "kinetic_friction", "friction_coefficient"]);
 
 pub(super) const ROLLING_FRICTION: KeySpec = KeySpec::new(
     "rolling_friction",
     NON_NEGATIVE,
-    "The ratio of the largest rolling resistance torque to the normal force. Of two values the larger counts",
+    "The ratio of the largest rolling resistance torque to the normal force. Of the two bodies' values, the larger counts",
 )
 .unit("m")
 .also(&["rolling_resistance"]);

@@ -103,7 +103,7 @@ pub(super) static EMITTER: TableSpec = TableSpec {
         )
         .default_flag(false)
         .also(&["collision", "collisions", "collide", "contact", "contacts"]),
-        RESTITUTION.default("that of the body; 0 if neither has one"),
+        RESTITUTION.default("0"),
         FRICTION.default("that of the body; 0.5 if neither has one"),
     ],
 };

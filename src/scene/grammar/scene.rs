@@ -222,9 +222,9 @@ static GROUND: TableSpec = TableSpec {
         KeySpec::new("tile", POSITIVE, "The edge of one tile").unit("m").default(
             "the `spacing` of a grid on it; else 1, 2 or 5 times a power of ten, by the size of the motion",
         ),
-        RESTITUTION.default("that of the body on it; 0 if neither has one"),
+        RESTITUTION.default("0"),
         FRICTION.default("that of the body on it; 0.5 if neither has one"),
-        ROLLING_FRICTION.default("that of the body on it; 0 if neither has one"),
+        ROLLING_FRICTION.default("0"),
     ],
 };
 
