@@ -80,10 +80,103 @@ impl Field<'_> {
         self.loads.force[i] * self.model.inverse_mass()[i]
     }
 
-    /// Returns the time derivative of a body's orientation at the current stage, 1/s.
-    pub(super) fn turning(&self, i: usize) -> DQuat {
-        orientation_rate(self.stage.orientation[i], self.model.angular_velocity(i, self.stage))
+    /// Returns the time derivatives of a body's orientation (1/s) and of its angular momentum in its [`axes`] (N m) at the current stage.
+    /// In principal axes, the latter is Euler's equation M' = Rᵀ (τ + L × ω).
+    pub(super) fn turning(&self, i: usize) -> (DQuat, DVec3) {
+        let Field { model, stage, loads, .. } = self;
+        let (orientation, torque) = (stage.orientation[i], loads.torque[i]);
+        let velocity = model.angular_velocity(i, stage);
+        let rate = if can_flip(model.inverse_inertia()[i]) {
+            orientation.conjugate() * (torque + stage.angular_momentum[i].cross(velocity))
+        } else {
+            torque
+        };
+        (orientation_rate(orientation, velocity), rate)
     }
+
+    /// Returns the angular momentum of a body in its [`axes`] at the current stage, kg m²/s.
+    pub(super) fn momentum(&self, i: usize) -> DVec3 {
+        axes(self.model, i, self.stage.orientation[i]).conjugate() * self.stage.angular_momentum[i]
+    }
+}
+
+/// Returns the rotation from the axes in which the angular momentum of a body is integrated to world axes.
+///
+/// If the moments of inertia differ, these are the principal axes: an error of the orientation then does not change the angular velocity in
+/// the body, whose flips about the intermediate axis enlarge errors many times. A body with two equal moments does not flip, and its
+/// angular momentum changes less often in world axes than in those of the body.
+pub(super) fn axes(model: &Model, i: usize, orientation: DQuat) -> DQuat {
+    if can_flip(model.inverse_inertia()[i]) { orientation } else { DQuat::IDENTITY }
+}
+
+/// Returns true if the three moments of inertia differ, so that rotations about the intermediate axis are unstable.
+fn can_flip(inertia: DVec3) -> bool {
+    let DVec3 { x, y, z } = inertia;
+    x != y && y != z && z != x
+}
+
+/// What the rotation of a body without torque keeps, in quantities that stay exact close to the unstable axis: the angular momentum, and
+/// D = Σ (1/Iᵢ − 1/I₂) Mᵢ², which is twice the energy minus |M|²/I₂. I₂ is the intermediate moment of inertia, so D depends only on the
+/// small components Mᵢ of the angular momentum there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FreeRotation {
+    /// The angular momentum of the body, world axes, kg m²/s; not zero.
+    momentum: DVec3,
+    /// D, J.
+    invariant: f64,
+}
+
+impl FreeRotation {
+    /// Returns the rotations of the bodies in [`Bodies::turning`]. Empty if a force can have a torque.
+    pub(super) fn all(field: &Field<'_>) -> impl Iterator<Item = FreeRotation> {
+        let turning: &[usize] = if field.model.turns_bodies() { &[] } else { &field.bodies.turning };
+        turning.iter().map(|&i| {
+            let momentum = field.momentum(i);
+            let invariant = momentum.dot(beyond_middle(field.model.inverse_inertia()[i]) * momentum);
+            FreeRotation { momentum: field.stage.angular_momentum[i], invariant }
+        })
+    }
+
+    /// Removes the errors of a step from the orientation and from the angular momentum in the body's [`axes`], as far as they change what
+    /// the rotation keeps. A small error of D would otherwise grow to a large error of the time between two flips of the body.
+    pub(super) fn restore(
+        &self,
+        inverse_inertia: DVec3,
+        orientation: DQuat,
+        momentum: DVec3,
+    ) -> (DQuat, DVec3) {
+        /// The smallest sin² of the angle between the gradients of |M|² and D at which D is restored. It is smaller only close to a
+        /// stable axis, where errors do not grow.
+        const LEAST: f64 = 1e-3;
+        if !can_flip(inverse_inertia) {
+            // In world axes, the angular momentum stays as it is.
+            return (orientation, momentum);
+        }
+        let factors = beyond_middle(inverse_inertia);
+        let mut momentum = momentum;
+        // Two steps of Newton's method along the gradients.
+        for _ in 0..2 {
+            let gradient = factors * momentum;
+            let (mm, mg, gg) = (momentum.length_squared(), momentum.dot(gradient), gradient.length_squared());
+            let size = 0.5 * (self.momentum.length_squared() - mm);
+            let shape = 0.5 * (self.invariant - mg);
+            let area = mm * gg - mg * mg;
+            momentum += if area > LEAST * mm * gg {
+                ((size * gg - shape * mg) * momentum + (shape * mm - size * mg) * gradient) / area
+            } else {
+                (size / mm) * momentum
+            };
+        }
+        let turned = (orientation * momentum).normalize_or_zero();
+        let back = DQuat::from_rotation_arc(turned, self.momentum.normalize_or_zero());
+        ((back * orientation).normalize(), momentum)
+    }
+}
+
+/// Returns the inverse moments of inertia minus the one between the other two.
+fn beyond_middle(inverse: DVec3) -> DVec3 {
+    let DVec3 { x, y, z } = inverse;
+    inverse - DVec3::splat(x.min(y).max(x.max(y).min(z)))
 }
 
 /// The error of a position or speed is relative to its value, but at least to this fraction of the typical value.

@@ -1,15 +1,22 @@
 //! The state of all advanced bodies as one list of numbers: the positions of all moving bodies, their velocities, the orientation and
-//! angular momentum of each rotating body, and the work done so far.
+//! angular momentum (in the body's [`axes`]) of each rotating body, and the work done so far.
 
 use std::ops::Range;
 
 use glam::{DQuat, DVec3};
 
-use super::super::super::State;
-use super::super::bodies::Field;
+use super::super::super::{Model, State};
+use super::super::bodies::{Field, FreeRotation, axes};
 
 /// The number of values for the rotation of a body: four for its orientation and three for its angular momentum.
 const OF_TURN: usize = 7;
+
+/// The allowed error of a rotation, as a fraction of that of a place. Tops and tumbling bodies multiply their errors more than places do.
+const OF_ROTATION: f64 = 0.3;
+
+/// The same fraction if no force has a torque. What such a rotation keeps is restored after each step, so a smaller error of the steps
+/// pays off.
+const OF_FREE_ROTATION: f64 = 0.1;
 
 /// Returns the indices in the list at which the velocities, the rotations and the work begin.
 fn places(field: &Field<'_>) -> [usize; 3] {
@@ -25,7 +32,7 @@ pub(super) fn read(field: &Field<'_>, values: &mut Vec<f64>) {
     values.extend(bodies.moving.iter().flat_map(|&i| stage.velocity[i].to_array()));
     for &i in &bodies.turning {
         values.extend(stage.orientation[i].to_array());
-        values.extend(stage.angular_momentum[i].to_array());
+        values.extend(field.momentum(i).to_array());
     }
     if bodies.works {
         values.push(stage.accounts.work);
@@ -42,13 +49,19 @@ pub(super) fn write(field: &Field<'_>, values: &[f64], state: &mut State) {
         state.location[i] = at;
         state.velocity[i] = velocity;
     }
-    for (&i, turn) in bodies.turning.iter().zip(values[turns..work].as_chunks::<OF_TURN>().0) {
-        let [x, y, z, w, momentum @ ..] = *turn;
-        state.orientation[i] = DQuat::from_xyzw(x, y, z, w).normalize();
-        state.angular_momentum[i] = momentum.into();
-    }
+    write_turns(field.model, &bodies.turning, &values[turns..work], state);
     if bodies.works {
         state.accounts.work = values[work];
+    }
+}
+
+/// Writes the values of rotations to the bodies `turning`.
+fn write_turns(model: &Model, turning: &[usize], values: &[f64], state: &mut State) {
+    for (&i, turn) in turning.iter().zip(values.as_chunks::<OF_TURN>().0) {
+        let [x, y, z, w, momentum @ ..] = *turn;
+        let orientation = DQuat::from_xyzw(x, y, z, w).normalize();
+        state.orientation[i] = orientation;
+        state.angular_momentum[i] = axes(model, i, orientation) * DVec3::from(momentum);
     }
 }
 
@@ -56,12 +69,19 @@ fn triples(values: &[f64]) -> impl Iterator<Item = DVec3> {
     values.as_chunks::<3>().0.iter().map(|&triple| triple.into())
 }
 
-/// Normalizes the quaternions of all orientations in the list.
-pub(super) fn normalize(field: &Field<'_>, values: &mut [f64]) {
+/// Normalizes the quaternions of all orientations in the list, and restores what `free` rotations keep.
+pub(super) fn normalize(field: &Field<'_>, free: &[FreeRotation], values: &mut [f64]) {
     let [_, turns, work] = places(field);
-    for turn in values[turns..work].as_chunks_mut::<OF_TURN>().0 {
-        let [x, y, z, w, ..] = *turn;
-        turn[..4].copy_from_slice(&DQuat::from_xyzw(x, y, z, w).normalize().to_array());
+    for (k, turn) in values[turns..work].as_chunks_mut::<OF_TURN>().0.iter_mut().enumerate() {
+        let [x, y, z, w, momentum @ ..] = *turn;
+        let mut orientation = DQuat::from_xyzw(x, y, z, w).normalize();
+        if let Some(rotation) = free.get(k) {
+            let inverse_inertia = field.model.inverse_inertia()[field.bodies.turning[k]];
+            let (restored, momentum) = rotation.restore(inverse_inertia, orientation, momentum.into());
+            turn[4..].copy_from_slice(&momentum.to_array());
+            orientation = restored;
+        }
+        turn[..4].copy_from_slice(&orientation.to_array());
     }
 }
 
@@ -77,11 +97,7 @@ pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &
         for (&i, velocity) in bodies.moving.iter().zip(triples(&values[velocities..turns])) {
             stage.velocity[i] = velocity;
         }
-        for (&i, turn) in bodies.turning.iter().zip(values[turns..work].as_chunks::<OF_TURN>().0) {
-            let [x, y, z, w, momentum @ ..] = *turn;
-            stage.orientation[i] = DQuat::from_xyzw(x, y, z, w).normalize();
-            stage.angular_momentum[i] = momentum.into();
-        }
+        write_turns(field.model, &bodies.turning, &values[turns..work], stage);
     }
     field.evaluate(t);
     slope[..velocities].copy_from_slice(&values[velocities..turns]);
@@ -89,8 +105,9 @@ pub(super) fn find_slope(field: &mut Field<'_>, t: f64, values: &[f64], slope: &
         *slope = field.acceleration(i).to_array();
     }
     for (&i, slope) in field.bodies.turning.iter().zip(slope[turns..work].as_chunks_mut::<OF_TURN>().0) {
-        slope[..4].copy_from_slice(&field.turning(i).to_array());
-        slope[4..].copy_from_slice(&field.loads.torque[i].to_array());
+        let (turning, momentum) = field.turning(i);
+        slope[..4].copy_from_slice(&turning.to_array());
+        slope[4..].copy_from_slice(&momentum.to_array());
     }
     if field.bodies.works {
         slope[work] = field.loads.power.work;
@@ -119,12 +136,13 @@ pub(super) fn each_body(
         energy += field.model.mass()[i] * speed * speed;
         see(i, [(at, length), (velocity, speed)]);
     }
+    let part = if field.model.turns_bodies() { OF_ROTATION } else { OF_FREE_ROTATION };
     for (k, &i) in field.bodies.turning.iter().enumerate() {
         let start = turns + OF_TURN * k;
         let momentum = start + 4..start + OF_TURN;
         let usual = field.model.inertia()[i].max_element() * scales.speed / scales.length;
         let size = largest(momentum.clone(), if usual.is_finite() { usual } else { 0.0 });
-        see(i, [(start..start + 4, 1.0), (momentum, size)]);
+        see(i, [(start..start + 4, part), (momentum, part * size)]);
     }
     if field.bodies.works {
         let size = largest(work..work + 1, energy);

@@ -5,7 +5,7 @@ mod flat;
 
 use super::super::BodyId;
 use super::super::State;
-use super::bodies::Field;
+use super::bodies::{Field, FreeRotation};
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 use coefficients::{
@@ -38,6 +38,8 @@ pub(super) struct Dop853 {
     proposal: f64,
     /// The time since the orientations of uniformly rotating bodies were stored, s.
     elapsed: f64,
+    /// What the rotations without torque keep.
+    free: Vec<FreeRotation>,
 }
 
 impl Dop853 {
@@ -117,7 +119,7 @@ impl Dop853 {
     /// Makes the values in `stage` the new state, and computes their slope.
     fn accept(&mut self, field: &mut Field<'_>, now: Time, h: f64) {
         std::mem::swap(&mut self.values, &mut self.stage);
-        flat::normalize(field, &mut self.values);
+        flat::normalize(field, &self.free, &mut self.values);
         flat::find_slope(field, now.after(h).seconds(), &self.values, &mut self.slopes[0]);
         self.elapsed += h;
     }
@@ -157,6 +159,8 @@ fn eighth_root(x: f64) -> f64 {
 impl Stepper for Dop853 {
     fn begin(&mut self, field: &mut Field<'_>, now: Time) {
         flat::read(field, &mut self.values);
+        self.free.clear();
+        self.free.extend(FreeRotation::all(field));
         let count = self.values.len();
         self.slopes.iter_mut().chain([&mut self.stage]).for_each(|room| room.resize(count, 0.0));
         self.elapsed = 0.0;
@@ -216,6 +220,7 @@ impl Clone for Dop853 {
     fn clone_from(&mut self, source: &Self) {
         self.values.clone_from(&source.values);
         self.slopes[0].clone_from(&source.slopes[0]);
+        self.free.clone_from(&source.free);
         let count = self.values.len();
         self.slopes.iter_mut().chain([&mut self.stage]).for_each(|room| room.resize(count, 0.0));
         (self.tolerance, self.proposal, self.elapsed) = (source.tolerance, source.proposal, source.elapsed);

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 
 use self::lane::{End, Lane};
 use super::super::{BodyId, State};
-use super::bodies::Field;
+use super::bodies::{Field, axes};
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 
@@ -111,8 +111,9 @@ impl GaussRadau {
         }
         for (turn, &i) in others.as_chunks::<OF_TURN>().0.iter().zip(&field.bodies.turning) {
             let [xyz, w, momentum] = turn.each_ref().map(&value);
-            stage.orientation[i] = DQuat::from_vec4(xyz.extend(w.x)).normalize();
-            stage.angular_momentum[i] = momentum;
+            let orientation = DQuat::from_vec4(xyz.extend(w.x)).normalize();
+            stage.orientation[i] = orientation;
+            stage.angular_momentum[i] = axes(field.model, i, orientation) * momentum;
         }
     }
 
@@ -127,10 +128,10 @@ impl GaussRadau {
         for ([xyz, w, momentum], &i) in
             turns.as_chunks_mut::<OF_TURN>().0.iter_mut().zip(&field.bodies.turning)
         {
-            let rate = field.turning(i);
+            let (rate, torque) = field.turning(i);
             see(xyz, rate.xyz(), 1);
             see(w, DVec3::X * rate.w, 1);
-            see(momentum, field.loads.torque[i], 2);
+            see(momentum, torque, 2);
         }
         rest.iter_mut().for_each(|work| see(work, DVec3::X * field.loads.power.work, 3));
     }
@@ -195,7 +196,7 @@ impl Stepper for GaussRadau {
         let mut fastest = field.scales.speed / field.scales.length;
         for &i in &bodies.turning {
             let turn = stage.orientation[i];
-            self.lanes.extend([turn.xyz(), DVec3::X * turn.w, stage.angular_momentum[i]].map(lane));
+            self.lanes.extend([turn.xyz(), DVec3::X * turn.w, field.momentum(i)].map(lane));
             fastest = fastest.max(field.model.angular_velocity(i, stage).length());
         }
         self.lanes.extend(bodies.works.then(|| lane(DVec3::X * stage.accounts.work)));
@@ -241,8 +242,9 @@ impl Stepper for GaussRadau {
         }
         let (turns, rest) = others.split_at(OF_TURN * field.bodies.turning.len());
         for ([xyz, w, momentum], &i) in turns.as_chunks::<OF_TURN>().0.iter().zip(&field.bodies.turning) {
-            state.orientation[i] = DQuat::from_vec4(xyz.value.value.extend(w.value.value.x)).normalize();
-            state.angular_momentum[i] = momentum.value.value;
+            let orientation = DQuat::from_vec4(xyz.value.value.extend(w.value.value.x)).normalize();
+            state.orientation[i] = orientation;
+            state.angular_momentum[i] = axes(field.model, i, orientation) * momentum.value.value;
         }
         rest.iter().for_each(|work| state.accounts.work = work.value.value.x);
         field.bodies.spin(field.model, self.elapsed, state);

@@ -1,3 +1,4 @@
+mod accuracy;
 mod planets;
 
 use glam::{DQuat, DVec3};
