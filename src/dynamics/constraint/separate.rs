@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::State;
 use super::solver::Solver;
-use super::sweep::Purpose;
+use super::sweep::{Purpose, SWEEPS};
 use super::{Law, Row};
 
 /// Overlaps below this fraction of the smallest body's size are ignored.
@@ -35,9 +35,11 @@ impl Solver {
         self.unknown.fill(0.0);
         let deepest = goals.iter().fold(0.0_f64, |most, goal| most.max(*goal));
         if self.joints() == 0 {
-            self.sweep_islands(&goals, false, APART * deepest);
+            self.sweep_islands(&goals, false, (APART * deepest, SWEEPS, true));
         } else {
-            self.sweep_until(APART * deepest, |solver| solver.sweep_rows(&goals, Purpose::Impact));
+            self.sweep_until((APART * deepest, SWEEPS, true), |solver| {
+                solver.sweep_rows(&goals, Purpose::Impact)
+            });
         }
         let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
         for (&body, member) in bodies.zip(&self.members).filter(|(_, member)| member.inverse_mass != 0.0) {

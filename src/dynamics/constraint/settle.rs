@@ -4,11 +4,16 @@ use glam::{DQuat, DVec3};
 
 use super::super::integrator::drift_body;
 use super::super::{Model, State};
+use super::Row;
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
 use super::solver::{FAILURE, Solver};
 
 /// An equation holds if its error is at most this fraction of its scale: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
+
+/// If the errors at the start of a step, divided by its length, exceed this fraction of the largest rate, the step does not correct them.
+/// In a piece of 1e-15 s, rounding errors of positions would become velocities.
+const SUDDEN: f64 = 1e-9;
 
 /// The largest number of iterations of a projection. Each iteration multiplies the error by at most the square of the rotation angle in a
 /// step. So a projection that needs more iterations does not converge.
@@ -32,6 +37,9 @@ impl Solver {
         self.first.clone_from(&self.jacobian);
         self.first_rates.clear();
         self.first_rates.extend(self.rows.iter().map(|row| row.rate));
+        let sudden = |row: &Row| row.violation.abs() > SUDDEN * self.largest_rate * dt;
+        let is_sudden = !self.contacts.is_empty() && self.rows.iter().any(sudden);
+        let left: Vec<f64> = self.rows.iter().filter(|_| is_sudden).map(|row| row.violation).collect();
         let mut trial = std::mem::take(&mut self.trial);
         let of_all = trial.len() != state.len();
         let known = self.structure.as_ref().filter(|_| !of_all).map(|structure| &structure.bodies[..]);
@@ -48,6 +56,7 @@ impl Solver {
                 drift_body(model, dt, &mut trial, i);
             }
             self.measure(t + dt, &trial);
+            self.rows.iter_mut().zip(&left).for_each(|(row, left)| row.violation -= left);
             let worst = self.worst();
             let is_enough = worst < FAILURE && worst > 0.5 * before;
             // The equations of friction at several points can contradict each other, so the error may stay.
@@ -91,7 +100,9 @@ impl Solver {
         self.settle_velocities(model, state);
     }
 
-    pub(super) fn settle_places(&mut self, t: f64, state: &mut State) {
+    /// Moves the bodies the shortest distance to satisfy the active constraint rows. [`hold_joints`](Self::hold_joints) or
+    /// [`begin`](Self::begin) selects them.
+    pub(in crate::dynamics) fn settle_places(&mut self, t: f64, state: &mut State) {
         let mut before = f64::INFINITY;
         // The last stage of many methods is at the end of the step, so its factorization is accurate enough.
         self.is_factorised = self.factorised.to_bits() == t.to_bits();

@@ -21,6 +21,12 @@ const SETTLED: f64 = 1e-7;
 /// afterwards correct the remaining error.
 const STRUCK: f64 = 1e-5;
 
+/// The number of sweeps, in units of [`SWEEPS`], when the impulses of faster sweeps have added energy.
+const PATIENT: usize = 20;
+
+/// Impulses add energy if they do more work than the errors that the sweeps leave explain, by more than this factor.
+const EXCUSED: f64 = 10.0;
+
 /// What the impulses of a set of Gauss–Seidel sweeps stand for: an impact, or forces during a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::dynamics) enum Purpose {
@@ -145,10 +151,6 @@ impl Solver {
     /// Finds the impulses in `unknown`, and applies them to the velocities of the members. `before` holds the rate of each constraint row
     /// without these impulses.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
-        self.unknown.fill(0.0);
-        if let Purpose::Forces(time) = purpose {
-            self.start_warm(time);
-        }
         let fastest = before.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         if purpose != Purpose::Impact {
             self.forced = fastest;
@@ -156,29 +158,84 @@ impl Solver {
         // Rates need no accuracy far below their change by forces in a substep.
         let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
         let tolerance = part * fastest.max(self.forced);
-        if self.joints() == 0 {
-            self.sweep_islands(goals, true, tolerance);
-            if let Purpose::Forces(time) = purpose {
-                self.remember_forces(time);
+        let members = self.members.clone();
+        let mut goals = goals.to_vec();
+        self.sweep_warmly(&goals, purpose, tolerance);
+        let moved: Vec<f64> = self.rows.iter().map(|row| row.rate).collect();
+        let now = self.rates_now();
+        if purpose != Purpose::Impact && self.adds_energy(&moved, &now, tolerance) {
+            // A contact that opens in the first half of a substep was made to open on in the second. It may close again instead.
+            for (goal, law) in goals.iter_mut().zip(&self.laws) {
+                *goal = if *law == Law::Inequality { goal.min(0.0) } else { *goal };
             }
-            return;
+            self.members.clone_from(&members);
+            self.sweep_warmly(&goals, purpose, tolerance);
         }
-        self.sweep_until(tolerance, |solver| {
-            let change = solver.sweep_rows(goals, purpose);
-            (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
-        });
+        // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
+        if self.least.is_empty() && self.adds_energy(&goals, before, tolerance) {
+            // From zero, and without acceleration, each step of a sweep brings the energy nearer to its least value.
+            self.unknown.fill(0.0);
+            self.members.clone_from(&members);
+            self.sweep_all(&goals, purpose, (tolerance, PATIENT * SWEEPS, false));
+        }
         if let Purpose::Forces(time) = purpose {
             self.remember_forces(time);
         }
     }
 
-    /// Repeats Gauss–Seidel sweeps with Anderson acceleration until no rate changes by more than `tolerance`. `sweep` returns the largest
-    /// change of a rate.
-    pub(super) fn sweep_until(&mut self, tolerance: f64, mut sweep: impl FnMut(&mut Self) -> f64) {
+    /// Sweeps with acceleration. Forces start from those of the last substep.
+    fn sweep_warmly(&mut self, goals: &[f64], purpose: Purpose, tolerance: f64) {
+        self.unknown.fill(0.0);
+        if let Purpose::Forces(time) = purpose {
+            self.start_warm(time);
+        }
+        self.sweep_all(goals, purpose, (tolerance, SWEEPS, true));
+    }
+
+    /// Sweeps over all contacts, limits and motors, at most `sweeps` times, until no sweep changes a rate by more than `tolerance`.
+    fn sweep_all(
+        &mut self,
+        goals: &[f64],
+        purpose: Purpose,
+        (tolerance, sweeps, is_fast): (f64, usize, bool),
+    ) {
+        if self.joints() == 0 {
+            self.sweep_islands(goals, true, (tolerance, sweeps, is_fast));
+            return;
+        }
+        self.sweep_until((tolerance, sweeps, is_fast), |solver| {
+            let change = solver.sweep_rows(goals, purpose);
+            (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
+        });
+    }
+
+    /// Returns true if the impulses in `unknown` add energy to the motion relative to `goals`, which no contact can. Their work is
+    /// computed from the mean of the present rate of each constraint row and that in `before`.
+    fn adds_energy(&self, goals: &[f64], before: &[f64], tolerance: f64) -> bool {
+        let (mut work, mut size) = (0.0, 0.0);
+        for (row, impulse) in self.unknown.iter().enumerate() {
+            if matches!(self.laws[row], Law::Inequality | Law::Friction { .. }) {
+                work += impulse * (0.5 * (before[row] + self.rate_of(row)) - goals[row]);
+                size += impulse.abs();
+            }
+        }
+        work > EXCUSED * tolerance * size
+    }
+
+    /// Repeats Gauss–Seidel sweeps, at most `sweeps` times, until no rate changes by more than `tolerance`; with Anderson acceleration if
+    /// `is_fast` is true. `sweep` returns the largest change of a rate.
+    pub(super) fn sweep_until(
+        &mut self,
+        (tolerance, sweeps, is_fast): (f64, usize, bool),
+        mut sweep: impl FnMut(&mut Self) -> f64,
+    ) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
-        for left in (0..SWEEPS).rev() {
+        for left in (0..sweeps).rev() {
             if sweep(self) <= tolerance || left == 0 {
                 return;
+            }
+            if !is_fast {
+                continue;
             }
             for (row, &further) in anderson.go_further(&self.unknown).iter().enumerate() {
                 self.unknown[row] += further;

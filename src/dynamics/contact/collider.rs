@@ -92,11 +92,17 @@ impl Collider {
         if turning == 0.0 { 0.0 } else { turning * reach }
     }
 
-    /// Returns the bodies held at rest that a moving body touches, by index.
+    /// Returns the bodies held at rest that a moving body touches, or that a body with a given motion pushes, by index.
     pub(in crate::dynamics) fn touched_at_rest(&mut self, model: &Model, state: &State) -> Vec<usize> {
-        let is_held = |body: &usize| model.inverse_mass()[*body] == 0.0 && model.can_move(*body);
-        let touching = self.touching_all(model, state);
-        touching.iter().flat_map(|pair| pair.bodies).filter(is_held).collect()
+        let is_unmoved = |body: &usize| model.inverse_mass()[*body] == 0.0;
+        let is_held = |body: &usize| is_unmoved(body) && model.can_move(*body);
+        // A body with a given motion disturbs a body at rest only if it approaches: it may stand beside it for good.
+        let is_disturbed = |pair: &Touching| {
+            let comes = |touch: &Touch| rate(&touch.meeting, pair.bodies, (model, state)) < 0.0;
+            !pair.bodies.iter().all(is_unmoved) || pair.touches.iter().any(comes)
+        };
+        let touching = self.touching_all(model, state).into_iter().filter(is_disturbed);
+        touching.flat_map(|pair| pair.bodies).filter(is_held).collect()
     }
 
     /// Returns true if any bodies are advanced by Moreau's scheme.
@@ -327,9 +333,12 @@ impl Collider {
     }
 }
 
-/// Returns true if no load can move either of two bodies.
+/// Returns true if no impact between two bodies can change the motion of either. A body held at rest yields to a body with a given motion.
 pub(super) fn is_passive(bodies: [usize; 2], model: &Model) -> bool {
-    bodies.iter().all(|&body| model.inverse_mass()[body] == 0.0)
+    let is_unmoved = |body: usize| model.inverse_mass()[body] == 0.0;
+    let is_pushed = |[held, pusher]: [usize; 2]| model.can_move(held) && model.motion(pusher).is_some();
+    let [a, b] = bodies;
+    is_unmoved(a) && is_unmoved(b) && !is_pushed([a, b]) && !is_pushed([b, a])
 }
 
 /// Computes the rate of the gap at a pair of points of two bodies, m/s.

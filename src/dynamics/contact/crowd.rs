@@ -95,14 +95,13 @@ impl Crowd {
     }
 
     /// Returns true if Moreau's scheme handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
-    /// immovable.
+    /// immovable. A body held at rest is not immovable: whatever hits it releases it.
     pub(super) fn holds(&self, bodies: [usize; 2], model: &Model) -> bool {
         if self.bodies.is_empty() {
             return false;
         }
         let is_in = |body: &usize| self.bodies.contains(body);
-        let is_passive = |body: &usize| model.inverse_mass()[*body] == 0.0;
-        bodies.iter().any(is_in) && bodies.iter().all(|body| is_in(body) || is_passive(body))
+        bodies.iter().any(is_in) && bodies.iter().all(|body| is_in(body) || !model.can_move(*body))
     }
 }
 

@@ -407,12 +407,22 @@ impl Crowd {
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
         model.place(t + 0.5 * part, now);
+        // The joints have opened a little on the way. Their ends are brought together while the impulses are found: reactions that act at
+        // two places instead of one would change the angular momentum.
+        let flown: Vec<_> = self.bodies.iter().map(|&i| (now.location[i], now.orientation[i])).collect();
+        if joints > 0 {
+            self.solver.hold_joints(model, t + 0.5 * part, now);
+            self.solver.settle_places(t + 0.5 * part, now);
+        }
         model.sum(t + 0.5 * part, now, loads);
         self.solver.prepare_sweeps(model, t + 0.5 * part, now);
         let goals = self.solver.middle(&goals);
         self.kick(model, 0.5 * part, now, loads);
         let solver = &mut self.solver;
         solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
+        for (&i, (location, orientation)) in self.bodies.iter().zip(flown) {
+            (now.location[i], now.orientation[i]) = (location, orientation);
+        }
         for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
             now.velocity[i] = 2.0 * now.velocity[i] - velocity;
             now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
