@@ -1,4 +1,5 @@
-//! Makes a digest of all that the scripts depend on, by which jabuka knows those that it would write again.
+//! Makes a digest of all that the scripts depend on, by which jabuka knows those that it would write again. Puts the example scenes into the
+//! program.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -19,15 +20,41 @@ fn main() -> io::Result<()> {
     }
     let hex: String = digest.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
     println!("cargo::rustc-env=JABUKA_BUILD={hex}");
-    Ok(())
+    println!("cargo::rerun-if-changed=scenes");
+    fs::write(Path::new(&variable("OUT_DIR")?).join("scenes.rs"), scenes(&root.join("scenes"))?)
+}
+
+/// Returns Rust code with the text of each scene in a folder, and the bytes of each file in its subfolders. Scripts do not depend on them.
+fn scenes(folder: &Path) -> io::Result<String> {
+    let (mut scenes, mut files) = (String::new(), String::new());
+    for path in sorted(folder)? {
+        if path.is_dir() {
+            for file in sorted(&path)? {
+                let name = file.strip_prefix(folder).map_err(io::Error::other)?;
+                files.push_str(&format!("    ({name:?}, include_bytes!({file:?})),\n"));
+            }
+        } else if let Some(name) =
+            path.file_stem().filter(|_| path.extension().is_some_and(|end| end == "toml"))
+        {
+            scenes.push_str(&format!("    Example {{ name: {name:?}, text: include_str!({path:?}) }},\n"));
+        }
+    }
+    Ok(format!(
+        "static SCENES: &[Example] = &[\n{scenes}];\nstatic FILES: &[(&str, &[u8])] = &[\n{files}];\n"
+    ))
+}
+
+/// Returns the paths in a folder, by name.
+fn sorted(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+    paths.sort();
+    Ok(paths)
 }
 
 /// Adds a file, or all files of a folder in the order of their names, where it is there.
 fn add(path: &Path, digest: &mut Hash) -> io::Result<()> {
     if path.is_dir() {
-        let mut paths = fs::read_dir(path)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
-        paths.sort();
-        return paths.iter().try_for_each(|path| add(path, digest));
+        return sorted(path)?.iter().try_for_each(|path| add(path, digest));
     }
     if path.is_file() {
         let bytes = fs::read(path)?;

@@ -1,4 +1,4 @@
-//! Lists the names that a scene can use: integrators, shapes, colors and so on, each with a one-line description.
+//! Lists the names that a scene can use: integrators, shapes, colors and so on, each with a one-line description; and the example scenes.
 //!
 //! The names come from the same tables that the check of a scene uses. A new category is one line in [`CATEGORIES`].
 
@@ -7,12 +7,13 @@ use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};
 use crate::scene::{BodyMeasure, ContactLaw, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
+use crate::starter::Example;
 
-/// A category of names that scenes can use, such as shapes.
+/// A category of names, such as the shapes that scenes can use.
 pub struct Category {
     /// The name of the category, such as `shapes`.
     pub name: &'static str,
-    /// The key or table of a scene in which these names are used.
+    /// The key or table of a scene, or the command, in which these names are used.
     pub place: &'static str,
     /// Returns all names of the category, each with a one-line description.
     pub entries: fn() -> Vec<(&'static str, String)>,
@@ -37,8 +38,17 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
     Category { name: "measures", place: "`text` of [label.NAME]", entries: measures },
+    Category { name: "scenes", place: "`jabuka new NAME --like SCENE`", entries: scenes },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
 ];
+
+impl Category {
+    /// Returns the category with this name, in the plural or in the singular.
+    pub fn named(name: &str) -> Option<&'static Category> {
+        let is_it = |plural: &str| ["", "s", "es"].iter().any(|end| plural.strip_suffix(end) == Some(name));
+        CATEGORIES.iter().find(|category| is_it(category.name))
+    }
+}
 
 fn integrators() -> Vec<(&'static str, String)> {
     Method::all().map(|method| (method.name, method.summary.to_owned())).collect()
@@ -50,6 +60,11 @@ fn contacts() -> Vec<(&'static str, String)> {
 
 fn finishes() -> Vec<(&'static str, String)> {
     Finish::ALL.iter().map(|finish| (finish.name(), finish.summary().to_owned())).collect()
+}
+
+/// Returns the example scenes, with their titles.
+fn scenes() -> Vec<(&'static str, String)> {
+    Example::all().map(|example| (example.name, example.title().to_owned())).collect()
 }
 
 fn materials() -> Vec<(&'static str, String)> {

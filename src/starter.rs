@@ -1,25 +1,102 @@
-//! The example scene that `jabuka new` writes.
+//! The scenes that `jabuka new` writes: a first scene, and copies of the examples in `scenes/`.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+
+// `SCENES`, and `FILES`, which the scenes read: made by `build.rs` from the folder `scenes/`.
+include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
 /// A scene that shows the main keys, with comments.
 pub const STARTER: &str = include_str!("starter.toml");
 
-/// Writes the example scene into a new file. Returns its path: the given one, with `.toml` added if it is missing.
+/// A scene of the folder `scenes/`.
+#[derive(Debug)]
+pub struct Example {
+    /// The name of its file, without `.toml`.
+    pub name: &'static str,
+    /// Its text.
+    pub text: &'static str,
+}
+
+impl Example {
+    /// Returns all examples, by name.
+    pub fn all() -> impl Iterator<Item = &'static Example> {
+        SCENES.iter()
+    }
+
+    /// Returns the title of the scene. If the text has none, it is empty.
+    pub fn title(&self) -> &'static str {
+        let line = self.text.lines().find_map(|line| line.strip_prefix("title = \""));
+        line.map_or("", |line| line.trim_end_matches('"'))
+    }
+
+    /// Returns the files that the scene reads, each with its path relative to the scene.
+    fn files(&self) -> impl Iterator<Item = &'static (&'static str, &'static [u8])> {
+        let text = self.text;
+        FILES.iter().filter(move |(name, _)| text.contains(&format!("\"{name}\"")))
+    }
+}
+
+/// Writes the first scene into a new file. Returns its path: the given one, with `.toml` added if it is missing.
 ///
 /// # Errors
-/// If the file exists already, or cannot be written.
-pub fn write_starter(path: &Path) -> io::Result<PathBuf> {
-    let mut path = path.to_owned();
-    if path.extension().is_none_or(|extension| extension != "toml") {
-        path.as_mut_os_string().push(".toml");
+/// If the file exists already, or cannot be written. The error comes with the given path.
+pub fn write_starter(path: &Path) -> Result<PathBuf, (PathBuf, io::Error)> {
+    write_all(path, STARTER, [])
+}
+
+/// Writes an example into a new file, and beside it the files that it reads. Returns its path, as [`write_starter`] does.
+///
+/// # Errors
+/// If a file exists already with other content, or cannot be written. The error comes with the path of the file.
+pub fn write_scene(path: &Path, example: &Example) -> Result<PathBuf, (PathBuf, io::Error)> {
+    write_all(path, example.text, example.files())
+}
+
+fn write_all(
+    path: &Path,
+    text: &str,
+    files: impl IntoIterator<Item = &'static (&'static str, &'static [u8])>,
+) -> Result<PathBuf, (PathBuf, io::Error)> {
+    let mut scene = path.to_owned();
+    if scene.extension().is_none_or(|extension| extension != "toml") {
+        scene.as_mut_os_string().push(".toml");
     }
-    let mut file = File::create_new(&path)?;
-    file.write_all(STARTER.as_bytes()).inspect_err(|_| {
+    let failed = |error| (path.to_owned(), error);
+    let mut file = File::create_new(&scene).map_err(failed)?;
+    let written =
+        files.into_iter().try_for_each(|(name, bytes)| write_beside(&scene.with_file_name(name), bytes));
+    written.and_then(|()| file.write_all(text.as_bytes()).map_err(failed)).inspect_err(|_| {
         // Remove the incomplete file. If removing fails, too, the error of writing is reported anyway.
-        let _ = fs::remove_file(&path);
+        let _ = fs::remove_file(&scene);
     })?;
-    Ok(path)
+    Ok(scene)
+}
+
+/// Writes a file that a scene reads. A file that is there already is kept; it must have the same bytes.
+fn write_beside(path: &Path, bytes: &[u8]) -> Result<(), (PathBuf, io::Error)> {
+    let failed = |error| (path.to_owned(), error);
+    path.parent().map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
+    match File::create_new(path) {
+        Ok(mut file) => file.write_all(bytes).map_err(|error| {
+            let _ = fs::remove_file(path);
+            failed(error)
+        }),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            if has_bytes(path, bytes).map_err(failed)? { Ok(()) } else { Err(failed(error)) }
+        }
+        Err(error) => Err(failed(error)),
+    }
+}
+
+/// Returns true if a regular file has exactly these bytes.
+fn has_bytes(path: &Path, bytes: &[u8]) -> io::Result<bool> {
+    // A pipe would block.
+    if !fs::metadata(path)?.is_file() {
+        return Ok(false);
+    }
+    let mut found = Vec::new();
+    File::open(path)?.take(bytes.len() as u64 + 1).read_to_end(&mut found)?;
+    Ok(found == bytes)
 }

@@ -1,23 +1,66 @@
-//! The command `jabuka explain`: explains the code of an error or a warning.
+//! The command `jabuka explain`: explains the code of an error or a warning, a key of the scene language, or a name that scenes can use.
 
+use jabuka::catalog::CATEGORIES;
 use jabuka::explain::{Explanation, explanations};
+use jabuka::scene::grammar::{SCENE, find_keys};
 
 use super::{Failure, terminal};
 
-/// Explain the code of an error or a warning, with examples
+/// Explain the code of an error or a warning, with examples; or a key of a scene
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The code to explain, such as `unknown-key` in `error[unknown-key]`; without it, all codes are listed
+    /// The code to explain, such as `unknown-key` in `error[unknown-key]`; or a key, such as `body.restitution`. Without it, all codes are
+    /// listed
+    #[arg(value_name = "CODE or KEY")]
     code: Option<String>,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Some(code) = &arguments.code else {
+    let Some(word) = &arguments.code else {
         let rows: Vec<_> = explanations().map(|entry| (entry.code.name(), entry.title())).collect();
         terminal::rows(&rows);
         return Ok(());
     };
-    let explanation = Explanation::of(code).map_err(|near| terminal::unknown("code", code, near))?;
-    terminal::result(&explanation.to_string());
-    Ok(())
+    let near_code = match Explanation::of(word) {
+        Ok(explanation) => {
+            terminal::result(&explanation.to_string());
+            return Ok(());
+        }
+        Err(near) => near,
+    };
+    let near_key = match find_keys(word) {
+        Ok(keys) => {
+            match keys.as_slice() {
+                [key] => terminal::result(&key.to_string()),
+                keys => terminal::rows(
+                    &keys.iter().map(|key| (key.path.as_str(), key.spec.meaning)).collect::<Vec<_>>(),
+                ),
+            }
+            return Ok(());
+        }
+        Err(near) => near,
+    };
+    if let Some(text) = name(word) {
+        terminal::result(&text);
+        return Ok(());
+    }
+    let failure = terminal::unknown("code or key", word, near_code.or(near_key.as_deref()));
+    let tables: Vec<&str> = SCENE.keys.iter().map(|key| key.name).collect();
+    terminal::error(&format!(
+        "`jabuka explain` lists the codes; the keys of a scene: {}\n",
+        tables.join(", ")
+    ));
+    Err(failure)
+}
+
+/// Explains a name that scenes can use, such as `rk4`, by its entries in the lists of `jabuka list`.
+fn name(word: &str) -> Option<String> {
+    let lines = CATEGORIES.iter().flat_map(|category| {
+        let entries = (category.entries)().into_iter().filter(|(name, _)| *name == word);
+        entries.map(|(name, what)| {
+            format!("{name}: {what}\nin `jabuka list {}`: {}\n", category.name, category.place)
+        })
+    });
+    let text: Vec<String> = lines.collect();
+    (!text.is_empty()).then(|| text.join("\n"))
 }

@@ -1,11 +1,11 @@
 //! The command `jabuka list`: lists the available integrators, materials, shapes and so on.
 
-use jabuka::catalog::CATEGORIES;
+use jabuka::catalog::{CATEGORIES, Category};
 use jabuka::diagnostic::nearest;
 
 use super::{Failure, terminal};
 
-/// List the names that scenes can use: integrators, shapes, colors, …
+/// List the names that scenes can use (integrators, shapes, colors, …), and the example scenes
 #[derive(clap::Args)]
 pub(super) struct Arguments {
     /// The category to list, such as `shapes`; without it, all categories are listed
@@ -18,9 +18,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         terminal::rows(&rows);
         return Ok(());
     };
-    let names: Vec<&str> = CATEGORIES.iter().map(|category| category.name).collect();
-    let found = CATEGORIES.iter().find(|category| category.name == name);
-    let category = found.ok_or_else(|| {
+    let category = Category::named(name).ok_or_else(|| {
+        let names: Vec<&str> = CATEGORIES.iter().map(|category| category.name).collect();
         let failure = terminal::unknown("list of", name, nearest(name, names.iter().copied()));
         terminal::error(&format!("the lists: {}\n", names.join(", ")));
         failure

@@ -27,9 +27,9 @@ pub(super) struct Arguments {
     /// The time of the image, in seconds; it need not be the time of a frame
     #[arg(short, long, value_name = "SECONDS", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
-    /// The PNG file to write
+    /// The PNG file to write [default: SCENE.png, with --view SCENE-NAME.png]
     #[arg(short, long, value_name = "FILE.png")]
-    output: PathBuf,
+    output: Option<PathBuf>,
     #[command(flatten)]
     picture: PictureArguments,
     #[command(flatten)]
@@ -44,9 +44,10 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let stop = interrupt::watched();
     let start = Instant::now();
-    if arguments.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("png")) {
-        let message =
-            format!("an image is a PNG, and `{}` does not end in `.png`", visible_path(&arguments.output));
+    let is_png =
+        |path: &Path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if let Some(path) = arguments.output.as_deref().filter(|path| !is_png(path)) {
+        let message = format!("an image is a PNG, and `{}` does not end in `.png`", visible_path(path));
         return Err(Failure::Usage(message));
     }
     arguments.povray.look().map_err(|error| failed(&error))?;
@@ -54,10 +55,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let view = arguments.view.as_deref().map(|name| run_arguments::view(&scene, name)).transpose()?;
     check_time(&scene, arguments.time)?;
 
-    let folder = script_folder(&scene, view);
+    let name = name_with_view(&scene, view);
+    let output = arguments.output.clone().unwrap_or_else(|| format!("{name}.png").into());
+    // Other commands do not write to this folder.
+    let folder = Path::new("out/.still").join(name);
     let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder);
     let protected = protected.and_then(|protected| protected.and_folder(&folder.join("images")));
-    terminal::report_protected(protected.and_then(|protected| protected.check(&arguments.output)))?;
+    terminal::report_protected(protected.and_then(|protected| protected.check(&output)))?;
     let (folder, breakdown) = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
@@ -81,18 +85,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::Errors);
     }
     for script in sequence.scripts() {
-        images.copy_out(&script.name, &arguments.output).map_err(|error| failed(&error))?;
+        images.copy_out(&script.name, &output).map_err(|error| failed(&error))?;
     }
-    let (shown, took) = (visible_path(&arguments.output), start.elapsed().as_secs_f64());
+    let (shown, took) = (visible_path(&output), start.elapsed().as_secs_f64());
     terminal::result(&format!("{shown}: t = {} s, in {took:.2} s\n", arguments.time));
     let kept = format!("the image at t = {} s is made", arguments.time);
     breakdown.map_or(Ok(()), |breakdown| Err(run_arguments::report_breakdown(&breakdown, &kept)))
 }
 
-/// Returns the folder for the script of a still image. Other commands do not write to this folder.
-fn script_folder(scene: &Scene, view: Option<&View>) -> PathBuf {
+/// Returns the name of the scene, followed by that of the view.
+fn name_with_view(scene: &Scene, view: Option<&View>) -> String {
     let view_name = view.map(|view| format!("-{}", view.name)).unwrap_or_default();
-    Path::new("out/.still").join(format!("{}{view_name}", scene.name))
+    format!("{}{view_name}", scene.name)
 }
 
 /// Simulates the scene and writes the script of the requested moment into `folder`. The returned folder stays locked, so that no other

@@ -18,6 +18,20 @@ use jabuka::overwrite::CannotOverwrite;
 
 use super::{Failure, shell};
 
+/// Commands, each with the words that other programs have for it.
+const OTHER_WORDS: [(&str, &[&str]); 10] = [
+    ("preview", &["run", "view", "show", "play", "watch", "open", "live", "simulate", "start", "serve"]),
+    ("compile", &["build", "make", "write", "scripts"]),
+    ("render", &["film", "video", "movie", "animate", "draw", "images"]),
+    ("still", &["image", "picture", "snapshot", "screenshot", "frame", "shot"]),
+    ("new", &["init", "create", "add"]),
+    ("check", &["validate", "lint", "verify", "test"]),
+    ("export", &["convert", "csv", "save"]),
+    ("report", &["accuracy", "analyze", "energy"]),
+    ("list", &["ls", "materials", "shapes", "integrators", "scenes", "examples"]),
+    ("batch", &["submit", "slurm", "cluster"]),
+];
+
 /// The first error of writing to standard output.
 static LOST: OnceLock<io::Error> = OnceLock::new();
 
@@ -136,6 +150,11 @@ pub(super) fn misused(error: &clap::Error) -> u8 {
     if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
         let command = format!("jabuka compile {}", shell::path(Path::new(&scene)));
         self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
+        return 2;
+    }
+    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string).unwrap_or_default();
+    if let Some((command, _)) = OTHER_WORDS.iter().find(|(_, words)| words.contains(&&*word)) {
+        self::error(&format!("error: there is no command `{word}`; did you mean `jabuka {command}`?\n"));
         return 2;
     }
     // The message of clap repeats arguments, which may contain control characters.

@@ -3,9 +3,11 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::support::{self, commands, jabuka, root, stderr, stdout};
 use jabuka::catalog::CATEGORIES;
+use jabuka::scene::grammar::all_keys;
 
 /// Options of other programs that the project's texts mention, by program.
 const FOREIGN: [(&str, &[&str]); 8] = [
@@ -106,12 +108,22 @@ fn list_shows_what_there_is_to_choose_from() {
 }
 
 #[test]
+fn a_list_is_found_by_the_singular_of_its_name() {
+    for (one, many) in
+        [("shape", "shapes"), ("finish", "finishes"), ("color", "colors"), ("contact", "contacts")]
+    {
+        let [one, many] = [one, many].map(|name| jabuka().args(["list", name]).output().unwrap());
+        assert!(one.status.success() && one.stdout == many.stdout, "{}", stderr(&one));
+    }
+}
+
+#[test]
 fn what_cannot_be_listed_is_an_error() {
-    let output = jabuka().args(["list", "shape"]).output().unwrap();
+    let output = jabuka().args(["list", "shaps"]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let said = stderr(&output);
     assert!(
-        said.starts_with("error: there is no list of `shape`; did you mean `shapes`?\nthe lists: "),
+        said.starts_with("error: there is no list of `shaps`; did you mean `shapes`?\nthe lists: "),
         "{said}"
     );
     let said = stderr(&jabuka().args(["list", "foo"]).output().unwrap());
@@ -186,6 +198,178 @@ fn a_new_scene_compiles_without_a_warning() {
     assert_eq!(std::fs::read_to_string(&scene).unwrap(), "mine");
     assert_eq!(new("no/such/folder/x").status.code(), Some(1));
     assert!(new("a.b").status.success() && folder.path().join("a.b.toml").is_file());
+}
+
+#[test]
+fn a_new_scene_can_be_like_any_example() {
+    let folder = tempfile::tempdir().unwrap();
+    let new =
+        |arguments: &[&str]| jabuka().current_dir(folder.path()).arg("new").args(arguments).output().unwrap();
+    let scenes = fs::read_dir(root().join("scenes")).unwrap().map(|entry| entry.unwrap().path());
+    let scenes: Vec<_> = scenes.filter(|path| path.is_file()).collect();
+    let listed = stdout(&jabuka().args(["list", "scenes"]).output().unwrap());
+    assert_eq!(listed.lines().count(), scenes.len());
+    let mut mine = Vec::new();
+    for scene in &scenes {
+        let name = scene.file_stem().unwrap().to_str().unwrap();
+        assert!(listed.lines().any(|line| line.starts_with(&format!("{name} "))), "{name}");
+        let output = new(&[name, "--like", name]);
+        let said = format!("{name}.toml: a scene to start from; `jabuka preview {name}.toml` shows it\n");
+        assert_eq!(stdout(&output), said, "{}", stderr(&output));
+        let copy = folder.path().join(format!("{name}.toml"));
+        assert_eq!(fs::read(&copy).unwrap(), fs::read(scene).unwrap());
+        mine.push(copy);
+    }
+    // The files that a scene reads are there, too: every copy is a complete scene.
+    let output = jabuka().arg("check").args(&mine).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+
+    for named in ["scenes/atom.toml", "atom.toml"] {
+        assert!(new(&[&format!("copy of {}", named.replace('/', "_")), "--like", named]).status.success());
+    }
+    let output = new(&["mine", "--like", "pendulum"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = "error: there is no example scene `pendulum`; did you mean `double_pendulum` or `pendulum_wave`?\n\
+                `jabuka list scenes` shows all\n";
+    assert_eq!(stderr(&output), said);
+    assert!(stderr(&new(&["mine", "--like", "crnak"])).contains("; did you mean `crank`?\n"));
+    assert!(!folder.path().join("mine.toml").exists());
+
+    // A file that is there already is kept, and then there is no scene either.
+    fs::write(folder.path().join("meshes/hourglass.obj"), "mine").unwrap();
+    let output = new(&["sand", "--like", "hourglass"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(stderr(&output), "error: the file `meshes/hourglass.obj` is there already\n");
+    assert!(!folder.path().join("sand.toml").exists());
+    assert_eq!(fs::read(folder.path().join("meshes/hourglass.obj")).unwrap(), b"mine");
+}
+
+#[test]
+fn explain_tells_about_keys_and_names() {
+    let explain = |word: &str| jabuka().args(["explain", word]).output().unwrap();
+    let said = stdout(&explain("body.ball.restitution"));
+    insta::assert_snapshot!(said, @r"
+    key       body.NAME.restitution
+    meaning   The ratio of the rebound speed to the approach speed: 0 for no bounce, 1 for no loss. Of the two bodies' values, the larger counts
+    value     a number from 0 to 1
+    default   0
+    ");
+    insta::assert_snapshot!(stdout(&explain("body.shape.sphere")), @r"
+    key       body.NAME.shape.sphere
+    meaning   A ball
+    value     a table with the keys of a sphere
+
+      radius  Its radius
+    ");
+    let said = stdout(&explain("body.ball.shape.sphere.radius"));
+    assert!(said.ends_with("unit      m\ndefault   none: the key is required\n"), "{said}");
+    assert!(stdout(&explain("gravity")).starts_with("key       simulation.gravity\n"));
+    let said = stdout(&explain("radius"));
+    assert!(said.lines().any(|line| line.starts_with("body.NAME.shape.sphere.radius  ")), "{said}");
+    assert_eq!(
+        stdout(&explain("studio")),
+        "studio: A photographer's room: white and seamless, with soft lights\n\
+         in `jabuka list environments`: `environment`\n"
+    );
+    let output = explain("simulation.gravty");
+    let said = stderr(&output);
+    let begin = "error: there is no code or key `simulation.gravty`; did you mean `simulation.gravity`?\n";
+    assert!(output.status.code() == Some(1) && said.starts_with(begin), "{said}");
+    assert!(said.lines().nth(1).unwrap().contains(": title, include, "), "{said}");
+}
+
+#[test]
+fn the_page_of_keys_says_what_explain_says() {
+    let page = fs::read_to_string(root().join("docs/scene-language.md")).unwrap();
+    for key in all_keys() {
+        let row = format!("| `{}` | ", key.spec.name);
+        let has_meaning = |line: &str| line.starts_with(&row) && line.contains(key.spec.meaning);
+        assert!(page.lines().any(has_meaning), "{}", key.path);
+    }
+}
+
+#[test]
+fn each_command_has_a_manual_page_with_its_options() {
+    for (name, options) in
+        commands::tree().iter().filter(|(name, _)| !["", "help", "sandbox"].contains(&name.as_str()))
+    {
+        let output = jabuka().args(["man", name]).output().unwrap();
+        assert!(output.status.success(), "{name}: {}", stderr(&output));
+        let page = stdout(&output);
+        assert!(page.contains(&format!(".TH jabuka-{name} 1")), "{page}");
+        for option in options {
+            let written = format!("\\-\\-{}", option.replace('-', "\\-"));
+            assert!(page.contains(&written), "{name}: {option}");
+        }
+    }
+    assert!(stdout(&jabuka().arg("man").output().unwrap()).contains("jabuka man COMMAND"));
+    let output = jabuka().args(["man", "rendr"]).output().unwrap();
+    assert_eq!(stderr(&output), "error: there is no command `rendr`; did you mean `render`?\n");
+    assert_eq!(jabuka().args(["man", "sandbox"]).output().unwrap().status.code(), Some(1));
+}
+
+#[test]
+fn shells_complete_the_closed_lists() {
+    let script = |shell: &str| stdout(&jabuka().args(["completions", shell]).output().unwrap());
+    // What bash offers after the words of a command and a blank.
+    let offered = |words: &str| {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        fs::write(&file, script("bash")).unwrap();
+        let ask = format!(
+            "source {}; COMP_WORDS=({words} ''); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); \
+             _jabuka jabuka '' \"${{COMP_WORDS[-2]}}\"; echo \"${{COMPREPLY[@]}}\"",
+            file.path().display()
+        );
+        let output = Command::new("bash").args(["-c", &ask]).output().unwrap();
+        stdout(&output).split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    for (words, value) in [
+        ("jabuka list", "shapes"),
+        ("jabuka explain", "unknown-key"),
+        ("jabuka explain", "body.restitution"),
+        ("jabuka new mine --like", "newtons_cradle"),
+        ("jabuka man", "render"),
+    ] {
+        assert!(offered(words).iter().any(|word| word == value), "{words}: {:?}", offered(words));
+    }
+    for shell in ["zsh", "fish"] {
+        assert!(script(shell).contains("newtons_cradle"), "{shell}");
+    }
+}
+
+#[test]
+fn words_of_other_programs_lead_to_the_command() {
+    for (word, command) in
+        [("run", "preview"), ("view", "preview"), ("build", "compile"), ("film", "render"), ("init", "new")]
+    {
+        let output = jabuka().arg(word).arg("scene.toml").output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert_eq!(
+            stderr(&output),
+            format!("error: there is no command `{word}`; did you mean `jabuka {command}`?\n")
+        );
+    }
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_told_the_one_beside_it() {
+    let place = support::place::Place::new(&[("throw.toml", MEETING), ("bounce.toml", MEETING)]);
+    let folder = place.0.path();
+    for (command, named, meant) in [
+        ("compile", "throw", Some("throw.toml")),
+        ("check", "./throw", Some("./throw.toml")),
+        ("render", "thorw.toml", Some("throw.toml")),
+        ("preview", "bonce", Some("bounce.toml")),
+        ("compile", "pendulum.toml", None),
+        ("compile", "no/such/throw", None),
+    ] {
+        let output = jabuka().current_dir(folder).args([command, named]).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let meant = meant.map_or_else(String::new, |meant| format!("; did you mean `{meant}`?"));
+        let said =
+            format!("error[cannot-read]: cannot read the scene `{named}`: there is no such file{meant}\n");
+        assert!(stderr(&output).starts_with(&said), "{}", stderr(&output));
+    }
 }
 
 #[test]

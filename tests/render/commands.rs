@@ -197,6 +197,22 @@ fn scripts_do_not_replace_what_the_scene_reads() {
 }
 
 #[test]
+fn a_still_without_a_name_has_the_name_of_the_scene_and_the_view() {
+    let place = Place::new(&format!("{SCENE}\n[view.side]\nlocation = [9, 2, 0]"));
+    let said = stdout(&place.succeed(&["still", "scene.toml"]));
+    assert!(said.starts_with("scene.png: t = 0 s, in "), "{said}");
+    let said = stdout(&place.succeed(&["still", "scene.toml", "--view", "side"]));
+    assert!(said.starts_with("scene-side.png: t = 0 s, in "), "{said}");
+    assert!(pixels(&place.path("scene.png")) != pixels(&place.path("scene-side.png")));
+    // A file that the scene reads is not replaced.
+    let place = Place::new(&format!("povray.assets = ['scene.png']\n{SCENE}"));
+    fs::write(place.path("scene.png"), "mine").unwrap();
+    let output = place.run(&["still", "scene.toml"]);
+    assert!(stderr(&output).contains("error[cannot-overwrite]"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(place.path("scene.png")).unwrap(), "mine");
+}
+
+#[test]
 fn a_still_is_the_image_of_any_moment() {
     let place = Place::new(SCENE);
     let still = |time: &str, name: &str| {

@@ -8,6 +8,7 @@ mod camera;
 mod contact;
 mod default;
 mod emitters;
+mod find;
 mod forces;
 mod joints;
 mod kind;
@@ -23,6 +24,7 @@ mod shapes;
 mod showing;
 
 pub use default::DefaultValue;
+pub use find::{FoundKey, all_keys, find_keys};
 pub(in crate::scene) use forces::END;
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
