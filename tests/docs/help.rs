@@ -88,13 +88,13 @@ fn list_shows_what_there_is_to_choose_from() {
     box          A box, optionally with rounded edges (`size`, `rounding`)
     cylinder     A cylinder (`radius`, `height`)
     capsule      A cylinder with a hemisphere on either end (`radius`, `height`)
-    cone         An upright cone or frustum; the centre of mass of a cone is a quarter of the height above its base (`radius`, `height`, `top_radius`)
+    cone         An upright cone or frustum; the center of mass of a cone is a quarter of the height above its base (`radius`, `height`, `top_radius`)
     torus        A ring around the y axis (`radius`, `tube_radius`)
     mesh         A solid with a triangle mesh from a file, in the file's axes (`file`, `scale`, `smooth`)
     plane        An infinite plane, always fixed (`normal`)
     axes         A triad of arrows along x, y, z, as heavy as a ball of half their length (`length`)
     heightfield  A landscape with heights from the gray levels of an image, always fixed; its `location` is the middle of its rectangle at the height of black (`file`, `size`, `smooth`)
-    compound     Several solids of one density as one body; its `location` is their common centre of mass (`parts`)
+    compound     Several solids of one density as one body; its `location` is their common center of mass (`parts`)
     sdl          An object in SDL, with a solid for mechanics (`object`, `stand_in`)
     ");
     let said = stdout(&jabuka().args(["list", "colors"]).output().unwrap());
@@ -280,7 +280,7 @@ fn explain_tells_about_keys_and_names() {
 
 #[test]
 fn the_page_of_keys_says_what_explain_says() {
-    let page = fs::read_to_string(root().join("docs/scene-language.md")).unwrap();
+    let page = jabuka::scene::grammar::reference();
     for key in all_keys() {
         let row = format!("| `{}` | ", key.spec.name);
         let has_meaning = |line: &str| line.starts_with(&row) && line.contains(key.spec.meaning);

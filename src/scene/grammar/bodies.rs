@@ -15,7 +15,7 @@ pub(super) static BODY: TableSpec = TableSpec {
     noun: "a body",
     rule: Rule::AtMostOne(&[&["mass", "density"], &["fixed", "motion"]]),
     keys: &[
-        KeySpec::new("shape", Table(&SHAPE), "Its shape, centred at its location, with its axis along y")
+        KeySpec::new("shape", Table(&SHAPE), "Its shape, centered at its location, with its axis along y")
             .required(),
         KeySpec::new("mass", POSITIVE, "Its mass").unit("kg").default_number(1.0).also(&["m", "weight"]),
         KeySpec::new("density", POSITIVE, "Its density, which sets its mass")
@@ -40,7 +40,7 @@ pub(super) static BODY: TableSpec = TableSpec {
         )
         .unit("kg·m²")
         .default("those of a uniform solid of its shape"),
-        KeySpec::new("location", VECTOR, "Its centre of mass at the start")
+        KeySpec::new("location", VECTOR, "Its center of mass at the start")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["position", "pos", "center", "translate", "origin"]),
@@ -84,7 +84,7 @@ pub(super) static BODY: TableSpec = TableSpec {
         .unit("s")
         .default("it stays")
         .also(&["death", "dies", "until", "vanishes", "t1"]),
-        KeySpec::new("force", VECTOR, "A constant force at its centre, in world axes")
+        KeySpec::new("force", VECTOR, "A constant force at its center, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),
         KeySpec::new("torque", VECTOR, "A constant torque, in world axes")
@@ -134,7 +134,7 @@ static BODY_LOOK: TableSpec = TableSpec {
         KeySpec::new(
             "scale",
             Number(Bound::From(1e-9, 1e9)),
-            "Draw it this many times its true size, about its centre of mass",
+            "Draw it this many times its true size, about its center of mass",
         )
         .default_number(1.0)
         .also(&["size", "magnification", "enlarge"]),

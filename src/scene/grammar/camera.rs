@@ -27,7 +27,7 @@ pub(super) static CAMERA: TableSpec = TableSpec {
             "The point in the middle of the picture; numbers, or formulas of `t`",
         )
         .unit("m")
-        .default("the centre of the motion")
+        .default("the center of the motion")
         .also(&["target", "lookat", "to"]),
         KeySpec::new(
             "keyframes",

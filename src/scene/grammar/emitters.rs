@@ -139,7 +139,7 @@ static FROM: TableSpec = TableSpec {
         KeySpec::new(
             "body",
             Reference(Collection::Body),
-            "The emitting body; the position is in its axes, from its centre",
+            "The emitting body; the position is in its axes, from its center",
         )
         .default("none: the position is in the world")
         .also(&["on", "attached_to", "follow"]),

@@ -109,7 +109,7 @@ static CONSTANT: TableSpec = TableSpec {
     noun: "a constant force",
     rule: Rule::Any,
     keys: &[
-        KeySpec::new("force", VECTOR, "The force at the centre of each body, in world axes")
+        KeySpec::new("force", VECTOR, "The force at the center of each body, in world axes")
             .unit("N")
             .default_numbers(&[0.0, 0.0, 0.0]),
         KeySpec::new("torque", VECTOR, "The torque on each body, in world axes")
@@ -158,7 +158,7 @@ static SPRING: TableSpec = TableSpec {
                 min: 2,
                 max: usize::MAX,
             },
-            "Its ends: each the name of a body (its centre), a point of a body, or a point of the world; \
+            "Its ends: each the name of a body (its center), a point of a body, or a point of the world; \
              more than two make a chain",
         )
         .unit("m")
@@ -187,7 +187,7 @@ pub(in crate::scene) static END: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         KeySpec::new("body", Reference(Collection::Body), "The body of this end").required(),
-        KeySpec::new("at", VECTOR, "The point in the body's own axes, relative to its centre of mass")
+        KeySpec::new("at", VECTOR, "The point in the body's own axes, relative to its center of mass")
             .unit("m")
             .default_numbers(&[0.0, 0.0, 0.0])
             .also(&["point", "location", "position", "offset", "anchor"]),
@@ -353,7 +353,7 @@ static FORMULA: TableSpec = TableSpec {
         KeySpec::new(
             "force",
             ListOfBody(3, QUANTITIES),
-            "The force at the centre of each body, in world axes: `x`, `y`, `z` are its position, `r` its \
+            "The force at the center of each body, in world axes: `x`, `y`, `z` are its position, `r` its \
              distance from the origin, `vx`, `vy`, `vz` its velocity, `speed` its magnitude, `t` the time",
         )
         .unit("N")

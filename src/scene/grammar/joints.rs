@@ -59,7 +59,7 @@ const PAIR: &str =
     "The two joined things: each the name of a body, a point of a body, or a point of the world";
 
 const POINTS: &str =
-    "Its two ends: each the name of a body (its centre), a point of a body, or a point of the world";
+    "Its two ends: each the name of a body (its center), a point of a body, or a point of the world";
 
 const AT: KeySpec = KeySpec::new(
     "at",
@@ -130,7 +130,7 @@ static SLIDER: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         between(PAIR),
-        AT.default("the centre of the second"),
+        AT.default("the center of the second"),
         axis("The axis along which the second moves, in the world at the start; fixed to the first"),
         limits("The smallest and the largest displacement of the second along the axis; 0 at the start")
             .unit("m")
@@ -145,7 +145,7 @@ static SLIDER: TableSpec = TableSpec {
 static FIXED: TableSpec = TableSpec {
     noun: "a fixed joint",
     rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the centre of the second"), JOINT_COLLIDES, LOOK, JOINT_ARROWS],
+    keys: &[between(PAIR), AT.default("the center of the second"), JOINT_COLLIDES, LOOK, JOINT_ARROWS],
 };
 
 static ROD: TableSpec = TableSpec {
@@ -266,7 +266,7 @@ static PULLEY: TableSpec = TableSpec {
         KeySpec::new(
             "ratio",
             POSITIVE,
-            "How far the first end moves out for each metre that the second moves in",
+            "How far the first end moves out for each meter that the second moves in",
         )
         .default_number(1.0),
         KeySpec::new(

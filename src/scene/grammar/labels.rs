@@ -26,12 +26,12 @@ pub(super) const LABEL: KeySpec =
 pub(super) const SCALE_BAR: KeySpec = KeySpec::new(
     "scale_bar",
     Either(&SCALE_BAR_KINDS),
-    "A bar that shows a length at the centre of the motion",
+    "A bar that shows a length at the center of the motion",
 )
 .default_flag(false)
 .also(&["scalebar", "ruler", "scale"]);
 pub(super) const GRID: KeySpec =
-    KeySpec::new("grid", Either(&GRID_KINDS), "Lines with numbers in metres, to read positions from")
+    KeySpec::new("grid", Either(&GRID_KINDS), "Lines with numbers in meters, to read positions from")
         .default_flag(false)
         .also(&["grids", "graph_paper"]);
 

@@ -28,7 +28,7 @@ static FORMULA: TableSpec = TableSpec {
     noun: "a motion by formulas",
     rule: Rule::Any,
     keys: &[
-        KeySpec::new("location", TIMED_VECTOR, "Its centre of mass; formulas of `t`")
+        KeySpec::new("location", TIMED_VECTOR, "Its center of mass; formulas of `t`")
             .unit("m")
             .default("that of the body")
             .also(&["position", "pos"]),
@@ -94,7 +94,7 @@ static KEYFRAME: TableSpec = TableSpec {
             .unit("s")
             .required()
             .also(&["t"]),
-        KeySpec::new("location", VECTOR, "Its centre of mass")
+        KeySpec::new("location", VECTOR, "Its center of mass")
             .unit("m")
             .default("that of the previous keyframe, or of the body")
             .also(&["position", "pos"]),
@@ -141,7 +141,7 @@ static COLUMNS: TableSpec = TableSpec {
         KeySpec::new("time", Text, "The column of the time").default("\"t\", or else \"time\"").also(&["t"]),
         KeySpec::new("body", Text, "The column of the body's name; without it, all rows belong to the body")
             .default("\"body\""),
-        KeySpec::new("location", NAMES, "The columns of its centre of mass").default("[\"x\", \"y\", \"z\"]"),
+        KeySpec::new("location", NAMES, "The columns of its center of mass").default("[\"x\", \"y\", \"z\"]"),
         KeySpec::new(
             "orientation",
             List { of: &Text, min: 4, max: 4 },

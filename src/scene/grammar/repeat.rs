@@ -81,7 +81,7 @@ static RING: TableSpec = TableSpec {
     rule: Rule::Any,
     keys: &[
         count(),
-        KeySpec::new("radius", POSITIVE, "The radius of the circle through the copies' centres")
+        KeySpec::new("radius", POSITIVE, "The radius of the circle through the copies' centers")
             .unit("m")
             .required()
             .also(&["r", "diameter"]),

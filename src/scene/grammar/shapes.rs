@@ -17,7 +17,7 @@ const CAPSULE: KeySpec =
 const CONE: KeySpec = KeySpec::new(
     "cone",
     Table(&CONE_KEYS),
-    "An upright cone or frustum; the centre of mass of a cone is a quarter of the height above its base",
+    "An upright cone or frustum; the center of mass of a cone is a quarter of the height above its base",
 )
 .also(&["frustum"]);
 const TORUS: KeySpec =
@@ -67,7 +67,7 @@ pub(super) static SHAPE: TableSpec = TableSpec {
         KeySpec::new(
             "compound",
             Table(&COMPOUND),
-            "Several solids of one density as one body; its `location` is their common centre of mass",
+            "Several solids of one density as one body; its `location` is their common center of mass",
         )
         .also(&["union", "parts", "composite", "group"]),
         KeySpec::new("sdl", Table(&SDL), "An object in SDL, with a solid for mechanics").also(&[
@@ -104,7 +104,7 @@ static PART: TableSpec = TableSpec {
         KeySpec::new(
             "location",
             VECTOR,
-            "The part's own centre of mass, along the body's axes; their common origin does not matter",
+            "The part's own center of mass, along the body's axes; their common origin does not matter",
         )
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
@@ -127,7 +127,7 @@ static SDL: TableSpec = TableSpec {
         KeySpec::new(
             "object",
             Sdl(Where::Inside),
-            "One object in SDL, in metres, with its centre of mass at the origin; without `material` it \
+            "One object in SDL, in meters, with its center of mass at the origin; without `material` it \
              keeps its own textures, and is black without any",
         )
         .required()
@@ -221,7 +221,7 @@ static TORUS_KEYS: TableSpec = TableSpec {
     noun: "a torus",
     rule: Rule::Any,
     keys: &[
-        KeySpec::new("radius", POSITIVE, "The distance from its centre to the middle of its tube")
+        KeySpec::new("radius", POSITIVE, "The distance from its center to the middle of its tube")
             .unit("m")
             .required()
             .also(&["r", "size", "diameter", "major_radius", "major"]),
@@ -250,12 +250,12 @@ static MESH_KEYS: TableSpec = TableSpec {
             "file",
             Asset,
             "The file, OBJ or STL, in the scene's folder. Its surface must be closed, unless the body is \
-             fixed or has `mass` and `inertia`. The body's `location` is the centre of its mass (of its area, \
+             fixed or has `mass` and `inertia`. The body's `location` is the center of its mass (of its area, \
              if it is open), not the origin of the file",
         )
         .required()
         .also(&["path", "name", "source", "obj", "stl", "filename"]),
-        KeySpec::new("scale", POSITIVE, "The length of one unit of the file: 0.001 for millimetres")
+        KeySpec::new("scale", POSITIVE, "The length of one unit of the file: 0.001 for millimeters")
             .unit("m")
             .default_number(1.0)
             .also(&["unit", "units", "size", "factor"]),
@@ -278,7 +278,7 @@ static HEIGHTFIELD: TableSpec = TableSpec {
         KeySpec::new(
             "size",
             Numbers(3, Bound::Positive),
-            "The distance between the centres of the first and last pixel along x; the height from black to \
+            "The distance between the centers of the first and last pixel along x; the height from black to \
              white; and the distance along z",
         )
         .unit("m")

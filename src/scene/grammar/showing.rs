@@ -65,7 +65,7 @@ static ARROWS_TABLE: TableSpec = TableSpec {
         KeySpec::new("force", ARROW, "The net force on it, magenta")
             .default_flag(false)
             .also(&["f", "forces"]),
-        KeySpec::new("weight", ARROW, "Its weight, green, from its centre")
+        KeySpec::new("weight", ARROW, "Its weight, green, from its center")
             .default_flag(false)
             .also(&["gravity"]),
         KeySpec::new(
@@ -152,7 +152,7 @@ static TRAIL_TABLE: TableSpec = TableSpec {
         KeySpec::new(
             "at",
             VECTOR,
-            "The point of the body that draws it, in the body's own axes, relative to its centre of mass",
+            "The point of the body that draws it, in the body's own axes, relative to its center of mass",
         )
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
