@@ -6,17 +6,24 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 /// The maximum length of a line, in bytes. Even a face with hundreds of vertices needs far less.
 const LONGEST: u64 = 1 << 24;
 
+/// The mark that some editors write at the beginning of a text in UTF-8.
+pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Passes the lines of a mesh file, one at a time, to the parser of an external crate (for OBJ or STL). If the parser fails, `number` is
 /// the number of the faulty line.
 pub(super) struct Lines<'a> {
     file: BufReader<File>,
-    /// The number of lines read so far, which is the number of the current line.
+    /// The number of the current line, or of its first line if it is continued.
     pub(super) number: usize,
     line: Vec<u8>,
     /// The number of bytes of the current line that the parser has consumed.
     used: usize,
     rewrite: Box<Rewrite<'a>>,
     ended: bool,
+    /// True if a backslash at the end of a line joins the next line to it.
+    is_continued: bool,
+    /// The number of line breaks read so far.
+    read: usize,
 }
 
 /// A function that changes a line before the parser reads it.
@@ -37,7 +44,13 @@ impl<'a> Lines<'a> {
     pub(super) fn new(file: File, rewrite: impl FnMut(&mut Vec<u8>, Place) + 'a) -> Lines<'a> {
         let file = BufReader::new(file);
         let rewrite = Box::new(rewrite);
-        Lines { file, number: 0, line: Vec::new(), used: 0, rewrite, ended: false }
+        let line = Vec::new();
+        Lines { file, number: 0, line, used: 0, rewrite, ended: false, is_continued: false, read: 0 }
+    }
+
+    /// Joins a line that ends with a backslash with the next one, as in OBJ files. A comment ends with its line.
+    pub(super) fn with_continuations(self) -> Lines<'a> {
+        Lines { is_continued: true, ..self }
     }
 
     fn advance(&mut self) -> io::Result<()> {
@@ -46,13 +59,28 @@ impl<'a> Lines<'a> {
         if self.ended {
             return Ok(());
         }
-        let length = (&mut self.file).take(LONGEST).read_until(b'\n', &mut self.line)?;
-        if length as u64 == LONGEST {
-            return Err(io::Error::new(io::ErrorKind::InvalidData, "a line of more than 16 MiB"));
+        self.number = self.read + 1;
+        loop {
+            let start = self.line.len();
+            let most = LONGEST - start as u64;
+            let length = (&mut self.file).take(most).read_until(b'\n', &mut self.line)?;
+            if length as u64 == most {
+                return Err(io::Error::new(io::ErrorKind::InvalidData, "a line of more than 16 MiB"));
+            }
+            self.ended = length == 0 && start == 0;
+            self.read += usize::from(length > 0);
+            if self.read == 1 && self.line.starts_with(BYTE_ORDER_MARK) {
+                self.line.drain(..BYTE_ORDER_MARK.len());
+            }
+            self.line.truncate(self.line.trim_ascii_end().len());
+            let is_whole = length == 0 || !self.is_continued || !self.line[start..].ends_with(b"\\");
+            if is_whole || self.line.contains(&b'#') {
+                break;
+            }
+            self.line.pop();
+            self.line.push(b' ');
         }
-        self.ended = length == 0;
-        self.number += usize::from(!self.ended);
-        self.line.truncate(self.line.trim_ascii_end().len());
+        self.number = self.number.min(self.read);
         (self.rewrite)(&mut self.line, if self.ended { Place::End } else { Place::Line(self.number) });
         if !self.ended || !self.line.is_empty() {
             self.line.push(b'\n');
@@ -89,7 +117,7 @@ impl Seek for Lines<'_> {
     /// format.
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
         self.file.seek(SeekFrom::Start(0))?;
-        (self.number, self.used, self.ended) = (0, 0, false);
+        (self.number, self.read, self.used, self.ended) = (0, 0, 0, false);
         self.line.clear();
         Ok(0)
     }

@@ -11,7 +11,7 @@ use super::{MeshError, Triangles};
 
 /// Reads the vertices and triangles of an OBJ file. Splits polygons into fans of triangles, and ignores points and lines.
 pub(super) fn read(file: File) -> Result<Triangles, MeshError> {
-    let mut lines = Lines::new(file, only_geometry);
+    let mut lines = Lines::new(file, only_geometry).with_continuations();
     let options =
         LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
     let no_materials = |_: &std::path::Path| Ok((Vec::new(), HashMap::new()));

@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use glam::DVec3;
 use stl_io::create_stl_reader;
 
-use super::lines::{Lines, Place};
+use super::lines::{BYTE_ORDER_MARK, Lines, Place};
 use super::{MeshError, Triangles};
 
 /// The size of the header of a binary STL file, in bytes. Its last four bytes are the number of triangles.
@@ -23,7 +23,8 @@ pub(super) fn read(mut file: File) -> Result<Triangles, MeshError> {
     let length = file.metadata()?.len();
     let count = head.get(HEAD - 4..).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
     let claimed = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
-    let says_solid = head.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let words = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&head).trim_ascii_start();
+    let says_solid = words.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     // A binary file may begin with `solid`, too. Its number of triangles, however, almost always contains a zero byte, unlike text.
     if claimed == Some(length) || !says_solid || head.contains(&0) {
         return match (count, claimed) {

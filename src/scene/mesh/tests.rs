@@ -74,6 +74,26 @@ fn binary_stl() -> Vec<u8> {
     bytes
 }
 
+/// Breaks each line that has vertices or faces after each of its words.
+fn continued(text: &str, with: &str) -> String {
+    let line = |line: &str| match line.trim_start().starts_with(['v', 'f']) {
+        true => line.split_whitespace().collect::<Vec<_>>().join(&format!(" {with}")) + "\n",
+        false => format!("{line}\n"),
+    };
+    text.lines().map(line).collect()
+}
+
+/// Puts a byte-order mark before a text.
+fn marked(text: &str) -> Vec<u8> {
+    format!("\u{feff}{text}").into_bytes()
+}
+
+#[test]
+fn an_error_in_a_continued_line_names_its_first_line() {
+    let text = "# A corner.\nv 0 \\\n0 0\nv 1 0 0\nv 0 \\\n1 \\\nx\nv 0 0 1\n";
+    assert_eq!(why("corner.obj", text.as_bytes()), "line 5: a vertex is `v x y z`, in numbers");
+}
+
 fn read_bytes(name: &str, bytes: &[u8]) -> Result<Mesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -91,6 +111,13 @@ fn every_format_gives_the_same_solid() {
         ("corner.OBJ", OBJ_TEXT.as_bytes().to_vec()),
         ("corner.obj", OBJ_TEXT.replace('\n', "\r\n").into_bytes()),
         ("corner.obj", OBJ_TEXT.bytes().map(|byte| if byte > 127 { 0xe9 } else { byte }).collect()),
+        ("corner.obj", continued(OBJ_TEXT, "\\\n").into_bytes()),
+        ("corner.obj", continued(OBJ_TEXT, " \\\r\n\t").into_bytes()),
+        ("corner.obj", marked(OBJ_TEXT.trim_start())),
+        ("corner.obj", format!("# C:\\models\\\n{OBJ_TEXT}\n# the end \\").into_bytes()),
+        ("corner.obj", format!("{}\\\n\\", OBJ_TEXT.trim_end()).into_bytes()),
+        ("corner.stl", marked(STL_TEXT.trim_start())),
+        ("corner.stl", marked(STL_TEXT)),
         ("corner.stl", STL_TEXT.into()),
         ("corner.stl", STL_TEXT.trim_start().to_lowercase().into_bytes()),
         ("corner.Stl", binary_stl()),
@@ -133,7 +160,7 @@ fn what_cannot_be_read_says_why_and_where() {
     assert_eq!(obj("v nan 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 3"), "a vertex is at [NaN, 0, 0]");
     assert_eq!(obj("v 1e60 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 3").split(" at ").next(), Some("a vertex is"));
     let huge = format!("v 0 0 0\nf 1{}\n", " 1".repeat(9_000_000));
-    assert_eq!(obj(&huge), "line 1: it is no text");
+    assert_eq!(obj(&huge), "line 2: it is no text");
 
     let stl = |bytes: &[u8]| why("x.stl", bytes);
     let broken = STL_TEXT.replace("vertex 0 0 1", "vertex 0 0 one");
