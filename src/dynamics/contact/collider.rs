@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::{BodyId, Breakdown, Constraint, Model, State};
+use super::super::{BodyId, Breakdown, Constraint, Model, Shape, State};
 use super::approach::{Approach, TOUCH, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
 use super::lasting_contact::LastingContact;
-use super::pairs::Pairs;
+use super::pairs::{Pairs, overlapping};
 use super::path::{Path, pose};
 use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
@@ -299,26 +299,29 @@ impl Collider {
         closed: &[Arc<LastingContact>],
     ) -> Option<Breakdown> {
         self.meet_bodies(model);
+        let Collider { contacts, solids, is_known, .. } = self;
+        is_known.resize(model.len(), false);
+        // The overlaps are found before the list of pairs is made, which would be very long if all bodies were in one place.
+        let overlap = |bodies: [usize; 2]| {
+            let [a, b] = bodies;
+            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { return None };
+            if is_known[a] && is_known[b] || closed.iter().any(|contact| contact.bodies == bodies) {
+                return None;
+            }
+            let poses = [a, b].map(|i| pose(i, model, state));
+            let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
+            (near.gap < -OVERLAP * scale(bodies, [x, y], state)).then_some(-near.gap)
+        };
+        let (found, _) = overlapping(contacts, solids, (model, state), overlap);
+        if let Some((bodies, depth)) = found.into_iter().min_by_key(|(bodies, _)| *bodies) {
+            return Some(Breakdown::Overlapping { bodies: bodies.map(BodyId::new), time, depth });
+        }
         self.paths.clear();
         self.paths.extend((0..model.len()).map(|i| Path::of(i, model, state, state, 1.0)));
         self.pairs.forget();
         let Collider { contacts, solids, pairs, paths, is_known, .. } = self;
-        is_known.resize(model.len(), false);
         paths.iter_mut().for_each(Path::stop);
         pairs.follow(contacts, solids, paths, (model, state));
-        for pair in &pairs.list {
-            let [a, b] = pair.bodies;
-            let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            if is_known[a] && is_known[b] || closed.iter().any(|contact| contact.bodies == pair.bodies) {
-                continue;
-            }
-            let poses = [a, b].map(|i| pose(i, model, state));
-            let Some(near) = nearest(x, &poses[0], y, &poses[1], f64::INFINITY) else { continue };
-            if near.gap < -OVERLAP * scale(pair.bodies, [x, y], state) {
-                let bodies = pair.bodies.map(BodyId::new);
-                return Some(Breakdown::Overlapping { bodies, time, depth: -near.gap });
-            }
-        }
         for (i, is_known) in is_known.iter_mut().enumerate() {
             *is_known = model.is_present(i);
         }
@@ -357,4 +360,30 @@ pub(super) fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f
         if reach.is_finite() { state.location[bodies[i]].abs().max_element() + reach } else { 0.0 }
     };
     size(0).max(size(1))
+}
+
+/// Returns the deepest overlap of some bodies and its depth, m, if very many of their pairs overlap by more than `allowed`, m. The bodies
+/// are given by their indices. Meshes and shapes without a [`Solid`] do not count.
+pub(in crate::dynamics) fn crowded(
+    contacts: &Contacts,
+    some: &[usize],
+    allowed: f64,
+    (model, state): (&Model, &State),
+) -> Option<([usize; 2], f64)> {
+    let mut solids = vec![None; model.len()];
+    for &i in some {
+        let collides = contacts.surfaces.get(i).is_some_and(Option::is_some);
+        let shape = model.shape(i).filter(|shape| collides && !matches!(shape, Shape::Mesh { .. }));
+        solids[i] = shape.and_then(Solid::of);
+    }
+    let overlap = |[a, b]: [usize; 2]| {
+        let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { return None };
+        let near = nearest(x, &pose(a, model, state), y, &pose(b, model, state), f64::INFINITY)?;
+        (near.gap < -allowed).then_some(-near.gap)
+    };
+    let (found, is_crowded) = overlapping(contacts, &solids, (model, state), overlap);
+    let deepest = |one: &&([usize; 2], f64), two: &&([usize; 2], f64)| {
+        one.1.total_cmp(&two.1).then_with(|| two.0.cmp(&one.0))
+    };
+    found.iter().filter(|_| is_crowded).max_by(deepest).copied()
 }

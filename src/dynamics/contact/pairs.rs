@@ -122,11 +122,64 @@ pub(super) fn near(
     margins: &[f64],
     (model, state): (&Model, &State),
 ) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    sweep(
+        solids,
+        |i| margins[i],
+        (model, state),
+        |bodies| {
+            if let Some(law) = law(contacts, bodies, model) {
+                pairs.push(Pair { bodies, law, free: 0.0 });
+            }
+            true
+        },
+    );
+    pairs.sort_by_key(|pair| pair.bodies);
+    pairs
+}
+
+/// The number of overlapping pairs per body after which the search for overlaps ends. Without an overlap, the number of pairs whose boxes
+/// overlap is proportional to the number of bodies.
+const MOST_OVERLAPS: usize = 8;
+
+/// Finds pairs of bodies that overlap and do not pass through each other. `depth` returns the overlap of a pair of near bodies, m, or
+/// `None`. Returns all such pairs, in no special order, and false; or, if there are very many, some of them and true. So many bodies in one
+/// place take time and memory in proportion to their number.
+pub(super) fn overlapping(
+    contacts: &Contacts,
+    solids: &[Option<Solid>],
+    (model, state): (&Model, &State),
+    depth: impl Fn([usize; 2]) -> Option<f64>,
+) -> (Vec<([usize; 2], f64)>, bool) {
+    let most = MOST_OVERLAPS * solids.iter().flatten().count().max(MOST_OVERLAPS);
+    let mut found = Vec::new();
+    sweep(
+        solids,
+        |_| 0.0,
+        (model, state),
+        |bodies| {
+            let depth = law(contacts, bodies, model).and_then(|_| depth(bodies));
+            found.extend(depth.map(|depth| (bodies, depth)));
+            found.len() < most
+        },
+    );
+    let is_crowded = found.len() >= most;
+    (found, is_crowded)
+}
+
+/// Calls `show` for each pair of present bodies whose boxes overlap when enlarged by a margin for each body, m, the smaller index first.
+/// Ends when `show` returns false.
+fn sweep(
+    solids: &[Option<Solid>],
+    margin: impl Fn(usize) -> f64,
+    (model, state): (&Model, &State),
+    mut show: impl FnMut([usize; 2]) -> bool,
+) {
     let mut boxes: Vec<(usize, [DVec3; 2])> = Vec::new();
     for (i, solid) in solids.iter().enumerate() {
         let (Some(solid), true) = (solid, model.is_present(i)) else { continue };
         let [low, high] = solid.bounds(&pose(i, model, state));
-        boxes.push((i, [low - margins[i], high + margins[i]]));
+        boxes.push((i, [low - margin(i), high + margin(i)]));
     }
     // The boxes are swept along the axis on which they are spread the most.
     let spread = |axis: usize| {
@@ -136,22 +189,17 @@ pub(super) fn near(
     };
     let axis = (0..3).max_by(|&a, &b| spread(a).total_cmp(&spread(b))).unwrap_or(0);
     boxes.sort_by(|(i, a), (j, b)| a[0][axis].total_cmp(&b[0][axis]).then(i.cmp(j)));
-    let mut pairs = Vec::new();
     for (place, (i, [low, high])) in boxes.iter().enumerate() {
         for (j, [other_low, other_high]) in &boxes[place + 1..] {
             if other_low[axis] > high[axis] {
                 break;
             }
-            if low.cmple(*other_high).all() && other_low.cmple(*high).all() {
-                let bodies = [*i.min(j), *i.max(j)];
-                if let Some(law) = law(contacts, bodies, model) {
-                    pairs.push(Pair { bodies, law, free: 0.0 });
-                }
+            let is_near = low.cmple(*other_high).all() && other_low.cmple(*high).all();
+            if is_near && !show([*i.min(j), *i.max(j)]) {
+                return;
             }
         }
     }
-    pairs.sort_by_key(|pair| pair.bodies);
-    pairs
 }
 
 /// Returns the restitution and friction of two bodies. `None` if they pass through each other or if neither can move.

@@ -3,6 +3,7 @@
 
 use glam::{DQuat, DVec3};
 
+use super::super::contact::crowded;
 use super::super::world::steps_of;
 use super::super::{Balance, BodyId, Breakdown, Snapshot, State};
 use super::bounce::Bounce;
@@ -13,6 +14,8 @@ use super::{TimeStepping, bodies, kept_contacts, rotation, set_step};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
 const DEEPEST: f64 = 0.1;
+/// If fewer bodies than this appear at once, their overlaps are found in the first step.
+const CROWD: usize = 64;
 /// Within a step, the physics engine may shorten a rope by this multiple of the length that the rope's rotation adds to it.
 const STRETCH: f64 = 2.0;
 /// A fast body on a joint counts as stopped at a surface if its way is shorter than its velocity times the step by more than this part.
@@ -93,6 +96,7 @@ impl TimeStepping {
     fn make_step(&mut self, begin: f64, end: f64, dt: f64) -> Result<(), Breakdown> {
         self.ledger.close(&self.model, begin, &self.state);
         self.model.place(begin, &mut self.state);
+        self.check_crowd(begin)?;
         self.model.sum(begin, &self.state, &mut self.loads);
         self.driven.begin(&self.model, begin, &self.state, &mut self.loads);
         self.model.bear(&self.state, &mut self.loads);
@@ -119,22 +123,38 @@ impl TimeStepping {
     }
 
     /// Returns an error if a body overlaps another deeply when it appears, at the start of the run or later. Such bodies would shoot apart.
+    /// Fails if very many bodies have appeared in one place. The physics engine would take memory in proportion to their pairs.
+    fn check_crowd(&mut self, time: f64) -> Result<(), Breakdown> {
+        if self.newcomers.len() < CROWD {
+            return Ok(());
+        }
+        let (contacts, bodies) = (&self.mixing.contacts, (&self.model, &self.state));
+        let found = crowded(contacts, &self.newcomers, self.deepest_allowed(), bodies);
+        found.map_or(Ok(()), |found| self.overlapping(found, time))
+    }
+
+    /// Returns the largest overlap that is allowed when bodies appear, m.
+    fn deepest_allowed(&self) -> f64 {
+        DEEPEST * self.engine.integration_parameters.length_unit
+    }
+
+    fn overlapping(&mut self, (bodies, depth): ([usize; 2], f64), time: f64) -> Result<(), Breakdown> {
+        let [one, two] = bodies;
+        let bodies = [one.min(two), one.max(two)].map(BodyId::new);
+        let failure = Breakdown::Overlapping { bodies, time, depth };
+        self.failure = Some(failure);
+        Err(failure)
+    }
+
     fn check_newcomers(&mut self, time: f64) -> Result<(), Breakdown> {
         if self.newcomers.is_empty() {
             return Ok(());
         }
         let mut newcomers = std::mem::take(&mut self.newcomers);
         newcomers.sort_unstable();
-        let allowed = DEEPEST * self.engine.integration_parameters.length_unit;
-        let Some((bodies, depth)) = self.deepest(Some(&newcomers)).filter(|(_, depth)| *depth > allowed)
-        else {
-            return Ok(());
-        };
-        let [one, two] = bodies;
-        let bodies = [one.min(two), one.max(two)].map(BodyId::new);
-        let failure = Breakdown::Overlapping { bodies, time, depth };
-        self.failure = Some(failure);
-        Err(failure)
+        let allowed = self.deepest_allowed();
+        let deepest = self.deepest(Some(&newcomers)).filter(|(_, depth)| *depth > allowed);
+        deepest.map_or(Ok(()), |found| self.overlapping(found, time))
     }
 
     /// Passes the forces on the bodies and their angular velocities to the physics engine, before a step of `dt` that ends at time `end`,

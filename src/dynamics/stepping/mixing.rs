@@ -1,7 +1,5 @@
 //! The rules by which the physics engine combines the friction and the restitution of two surfaces in contact.
 
-use std::collections::BTreeSet;
-
 use rapier3d_f64::prelude::{ActiveHooks, CoefficientCombineRule, ColliderBuilder};
 
 use super::super::contact::{Contacts, Surface};
@@ -13,7 +11,9 @@ use super::super::contact::{Contacts, Surface};
 /// may need a callback at every step, which costs time. So callbacks are avoided where possible.
 pub(super) struct Mixing {
     surfaces: Vec<Surface>,
-    apart: BTreeSet<(usize, usize)>,
+    pub(super) contacts: Contacts,
+    /// For each body, whether it passes through any other one.
+    is_apart: Vec<bool>,
     /// The coefficient of friction of each body that is set in the physics engine.
     known: Vec<f64>,
     /// For each body, whether some of its contact pairs need a callback to compute the friction.
@@ -50,7 +50,11 @@ impl Mixing {
         let is_known = common.is_some() || all_speak;
         let asked = surfaces.iter().map(|surface| !is_known && surface.friction.is_none()).collect();
         let has_restitution = surfaces.iter().any(|surface| surface.restitution.is_some_and(|own| own > 0.0));
-        Mixing { surfaces, apart: contacts.apart.clone(), known, asked, has_restitution }
+        let mut is_apart = vec![false; surfaces.len()];
+        for i in contacts.apart.iter().flat_map(|&(one, two)| [one, two]) {
+            is_apart.get_mut(i).into_iter().for_each(|is_apart| *is_apart = true);
+        }
+        Mixing { surfaces, contacts: contacts.clone(), is_apart, known, asked, has_restitution }
     }
 
     /// Sets the friction, the restitution and the callbacks of a body's collider.
@@ -59,7 +63,7 @@ impl Mixing {
         if self.asked[body] {
             hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
         }
-        if self.apart.iter().any(|&(one, two)| one == body || two == body) {
+        if self.is_apart[body] {
             hooks |= ActiveHooks::FILTER_CONTACT_PAIRS;
         }
         collider
@@ -73,7 +77,7 @@ impl Mixing {
 
     /// Returns whether two bodies touch each other when they meet.
     pub(super) fn touch(&self, one: usize, two: usize) -> bool {
-        !self.apart.contains(&(one.min(two), one.max(two)))
+        !self.contacts.apart.contains(&(one.min(two), one.max(two)))
     }
 
     /// Returns the friction between two bodies if the physics engine cannot compute it.
