@@ -1,6 +1,6 @@
 //! Corrections of errors that an editor or a script can apply.
 
-use super::{Report, SourceId, Span};
+use super::{Report, SourceId, Sources, Span};
 
 /// A suggested correction of an error, given as replacements of text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,10 +12,55 @@ pub struct Fix {
 }
 
 impl Fix {
-    /// Returns true if there are edits, and all of them belong to the same text.
-    pub(super) fn is_in_one_text(&self) -> bool {
-        let first = self.edits.first();
-        first.is_some_and(|first| self.edits.iter().all(|edit| edit.span.source == first.span.source))
+    /// Adds an edit. An insertion at an end of another edit becomes part of it, so that the order of edits does not matter to programs that
+    /// apply them one by one.
+    pub(super) fn add(&mut self, edit: Edit) {
+        let Edit { span, text } = edit;
+        let touches = |known: &&mut Edit| {
+            known.span.source == span.source && (known.span.is_empty() || span.is_empty())
+        };
+        for known in self.edits.iter_mut().filter(touches) {
+            if known.span.end == span.start {
+                known.span.end = span.end;
+                known.text.push_str(&text);
+                return;
+            }
+            if span.end == known.span.start {
+                known.span.start = span.start;
+                known.text.insert_str(0, &text);
+                return;
+            }
+        }
+        self.edits.push(Edit { span, text });
+    }
+
+    /// Returns true if there are edits, all of them belong to the same text, and none of them overlap.
+    pub fn is_applicable(&self, sources: &Sources) -> bool {
+        let Some(first) = self.edits.first() else { return false };
+        let is_apart = |number: usize, edit: &Edit| {
+            self.edits.get(number + 1..).unwrap_or_default().iter().all(|other| !edit.overlaps(other))
+        };
+        self.edits.iter().enumerate().all(|(number, edit)| {
+            edit.span.source == first.span.source && sources.has(edit.span) && is_apart(number, edit)
+        })
+    }
+
+    /// Returns the fix with the edits of another one. `None` if some of their edits overlap without being equal.
+    pub fn with(&self, other: &Fix) -> Option<Fix> {
+        let mut both = self.clone();
+        for edit in other.edits.iter().filter(|edit| !self.edits.contains(edit)) {
+            if self.edits.iter().any(|own| own.overlaps(edit)) {
+                return None;
+            }
+            both.add(edit.clone());
+        }
+        Some(both)
+    }
+
+    /// Returns the whole text after the edits, with the id of the text. `None` if the fix is not [applicable](Fix::is_applicable).
+    pub fn applied(&self, sources: &Sources) -> Option<(SourceId, String)> {
+        let source = self.edits.first().filter(|_| self.is_applicable(sources))?.span.source;
+        Some((source, edited(&sources.get(source).text, self.edits.iter().collect())))
     }
 }
 
@@ -33,18 +78,26 @@ impl Report {
     pub fn fixed(&self, source: SourceId) -> String {
         let mut edits: Vec<&Edit> = Vec::new();
         for fix in self.diagnostics.iter().filter_map(|diagnostic| diagnostic.fix.as_ref()) {
-            let apart = |edit: &Edit| edits.iter().all(|other| !edit.overlaps(other));
-            if fix.edits.iter().all(|edit| edit.span.source == source && apart(edit)) {
-                edits.extend(&fix.edits);
+            // Two fixes may have an edit in common.
+            let apart = |edit: &Edit| edits.iter().all(|other| *other == edit || !edit.overlaps(other));
+            let is_here = fix.edits.iter().all(|edit| edit.span.source == source && apart(edit));
+            if is_here && fix.is_applicable(&self.sources) {
+                let further = fix.edits.iter().filter(|edit| !edits.contains(edit)).collect::<Vec<_>>();
+                edits.extend(further);
             }
         }
-        edits.sort_by_key(|edit| edit.span);
-        let mut text = self.sources.get(source).text.clone();
-        for edit in edits.iter().rev() {
-            text.replace_range(edit.span.start..edit.span.end, &edit.text);
-        }
-        text
+        edited(&self.sources.get(source).text, edits)
     }
+}
+
+/// Returns a text after edits that do not overlap.
+fn edited(text: &str, mut edits: Vec<&Edit>) -> String {
+    edits.sort_by_key(|edit| edit.span);
+    let mut text = text.to_owned();
+    for edit in edits.iter().rev() {
+        text.replace_range(edit.span.start..edit.span.end, &edit.text);
+    }
+    text
 }
 
 impl Edit {

@@ -85,8 +85,8 @@ fn replacement<'a>(edit: &'a Edit, sources: &'a Sources) -> Replacement<'a> {
 }
 
 fn range(span: Span, sources: &Sources) -> Range<'_> {
-    let start = sources.position(span.source, span.start);
-    let end = sources.position(span.source, span.end);
+    let start = sources.start(span);
+    let end = sources.end(span);
     Range {
         file: &sources.get(span.source).name,
         line: start.line,

@@ -85,7 +85,7 @@ impl Diagnostic {
     /// Adds a replacement of a range of text to the suggested correction. Several replacements are applied together.
     #[must_use]
     pub fn fix(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.fix.get_or_insert_default().edits.push(Edit { span, text: text.into() });
+        self.fix.get_or_insert_default().add(Edit { span, text: text.into() });
         self
     }
 

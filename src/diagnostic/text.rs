@@ -17,7 +17,7 @@ pub(super) fn render(report: &Report, color: bool) -> String {
     let mut lines: BTreeMap<(SourceId, usize), usize> = BTreeMap::new();
     for diagnostic in &report.diagnostics {
         if let Some(span) = diagnostic.span() {
-            let line = report.sources.position(span.source, span.start).line;
+            let line = report.sources.start(span).line;
             let shown = lines.entry((span.source, line)).or_default();
             *shown += 1;
             if *shown > MOST_OF_A_LINE {
@@ -55,7 +55,7 @@ fn groups<'a>(diagnostic: &'a Diagnostic, sources: &'a Sources) -> Vec<Group<'a>
         group = group.element(Level::HELP.message(help));
     }
     let mut groups = vec![group];
-    if let Some(fix) = diagnostic.fix.as_ref().filter(|fix| !fix.is_said && fix.is_in_one_text()) {
+    if let Some(fix) = diagnostic.fix.as_ref().filter(|fix| !fix.is_said && fix.is_applicable(sources)) {
         groups.push(
             Group::with_title(Level::HELP.secondary_title("write it so"))
                 .element(patches(&fix.edits, sources)),

@@ -137,7 +137,7 @@ mod tests {
         let report = error.report();
         let [diagnostic] = &report.diagnostics[..] else { panic!("{report}") };
         let span = diagnostic.span().unwrap();
-        let line = report.sources.position(span.source, span.start).line;
+        let line = report.sources.start(span).line;
         assert!([4, 6, 8].contains(&line), "{report}");
         assert!(diagnostic.message.contains("does not hold at the start: "), "{report}");
     }

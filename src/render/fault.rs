@@ -93,7 +93,7 @@ impl Fault {
                     text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
                 let length = text[start..].lines().next().map_or(0, str::len);
                 let id = report.sources.add(self.script.display().to_string(), text);
-                diagnostic.at(Span { source: id, start, end: start + length }, "POV-Ray stopped here")
+                diagnostic.at(Span::new(id, start..start + length), "POV-Ray stopped here")
             }
         });
         report

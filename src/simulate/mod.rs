@@ -143,7 +143,7 @@ impl Undefined {
         let (why, span) = match law.explain(&quantities_at(at, body.start.mass, body.start.charge)) {
             Some((formula, error)) => {
                 let span = formula.span();
-                let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+                let raw = sources.raw(span);
                 let place = in_string(raw, formula.text(), &error.range, span);
                 ((error.code, error.message, error.label), Some(place))
             }

@@ -19,7 +19,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use mutator::{Random, mutate, mutate_text};
+use jabuka::scene::grammar::{Kind, SCENE, TableSpec};
+use mutator::{Random, mutate, mutate_lines, mutate_text};
 use targets::{FILES, PLACES};
 
 /// Runs a target with many inputs, each made from its own seed, and names the seed of an input that fails.
@@ -65,6 +66,73 @@ fn texts_of_scenes() {
         let (seed, other) = (random.choose(&seeds), random.choose(&seeds));
         targets::scene(&mutate_text(random, seed, other));
     });
+}
+
+#[test]
+fn fixes_of_scenes_with_includes_and_settings() {
+    let mut seeds = texts("toml");
+    seeds.retain(|text| text.len() < 3000 && !text.contains("include"));
+    let mut words = Vec::new();
+    words_of(&SCENE, 6, &mut words);
+    let folder = tempfile::tempdir().unwrap();
+    let (mut said, mut fixes) = (0, 0);
+    fuzz("scenes with includes and settings", |random| {
+        let (seed, other) = (random.choose(&seeds), random.choose(&seeds));
+        let text = mutate_lines(random, seed, other, &words);
+        let (text, included) = match random.below(3) {
+            0 => divided(random, &text),
+            _ => (text, String::new()),
+        };
+        let settings: Vec<String> =
+            (0..random.below(3)).map(|_| setting(random, seed, other, &words)).collect();
+        let found = targets::texts_together(folder.path(), &text, &included, &settings);
+        (said, fixes) = (said + found.0, fixes + found.1);
+    });
+    println!("scenes with includes and settings: {said} diagnostics, {fixes} fixes");
+    assert!(said > 0 && fixes > 0);
+}
+
+/// Adds the keys of a table and of the tables in it, with the names that other programs use for them. `depth` bounds the nesting.
+fn words_of(table: &'static TableSpec, depth: usize, words: &mut Vec<&'static str>) {
+    for key in table.keys {
+        words.push(key.name);
+        words.extend(key.also);
+        let inner = match &key.kind {
+            Kind::Named(inner) => Some(*inner),
+            kind => kind.table(),
+        };
+        if let (Some(inner), true) = (inner, depth > 0) {
+            words_of(inner, depth - 1, words);
+        }
+    }
+    words.sort_unstable();
+    words.dedup();
+}
+
+/// Moves some lines of a scene to the file that it then includes.
+fn divided(random: &mut Random, text: &str) -> (String, String) {
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let (from, length) = (random.below(lines.len()), 1 + random.below(6));
+    let to = (from + length).min(lines.len());
+    let included = lines.get(from..to).unwrap_or_default().concat();
+    let rest = [lines.get(..from), lines.get(to..)].map(|lines| lines.unwrap_or_default().concat()).concat();
+    (format!("include = [\"{}\"]\n{rest}", targets::INCLUDED), included)
+}
+
+/// Makes a `--set` argument from a line of one scene, with the name of a table before its key in most cases.
+fn setting(random: &mut Random, seed: &str, other: &str, words: &[&str]) -> String {
+    let text = mutate_lines(random, other, seed, words);
+    let lines: Vec<&str> = text.lines().filter(|line| line.contains('=')).collect();
+    let headers: Vec<&str> =
+        seed.lines().filter_map(|line| line.strip_prefix('[')?.strip_suffix(']')).collect();
+    let line = if lines.is_empty() { "gravity = [0, -1, 0]" } else { *random.choose(&lines) };
+    let (key, value) = line.split_once('=').unwrap_or((line, ""));
+    let (key, value) = (key.trim(), value.trim());
+    match random.below(3) {
+        0 => format!("{key}={value}"),
+        _ if headers.is_empty() => format!("simulation.{key}={value}"),
+        _ => format!("{}.{key}={value}", random.choose(&headers)),
+    }
 }
 
 #[test]

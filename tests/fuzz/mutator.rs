@@ -132,3 +132,63 @@ pub(crate) fn mutate(random: &mut Random, input: &[u8], other: &[u8]) -> Vec<u8>
 pub(crate) fn mutate_text(random: &mut Random, input: &str, other: &str) -> String {
     String::from_utf8_lossy(&mutate(random, input.as_bytes(), other.as_bytes())).into_owned()
 }
+
+/// Values of several types, as a user may write them for any key.
+const VALUES: [&str; 16] = [
+    "1",
+    "-2.5",
+    "0",
+    "true",
+    "\"2 m\"",
+    "\"ball\"",
+    "\"red\"",
+    "[0, 1, 0]",
+    "[1]",
+    "[1, 2]",
+    "{ axis = [0, 1, 0] }",
+    "{}",
+    "\"1 + \"",
+    "\"x\"",
+    "[[0, 0, 0], \"ball\"]",
+    "\"euler\"",
+];
+
+/// Changes one to three lines of a scene: keys, values, headers and the order of lines. Most results are valid TOML, with keys that belong
+/// elsewhere, words of other programs (`words`), values of other types and missing or repeated lines.
+pub(crate) fn mutate_lines(random: &mut Random, text: &str, other: &str, words: &[&str]) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let others: Vec<&str> = other.lines().collect();
+    for _ in 0..=random.below(3) {
+        if lines.is_empty() {
+            lines.push(String::new());
+        }
+        let at = random.below(lines.len());
+        let word = *random.choose(words);
+        match random.below(10) {
+            0 => drop(lines.remove(at)),
+            1 => {
+                let line = lines.remove(at);
+                lines.insert(random.below(lines.len() + 1), line);
+            }
+            2 if !others.is_empty() => lines.insert(at, (*random.choose(&others)).to_owned()),
+            3 => lines.insert(at, format!("{word} = {}", random.choose(&VALUES))),
+            4 | 5 => {
+                let value = *random.choose(&VALUES);
+                lines[at] =
+                    lines[at].split_once('=').map_or(String::new(), |(key, _)| format!("{key}= {value}"));
+            }
+            6 | 7 => {
+                let rest = lines[at].split_once('=').map(|(_, rest)| format!("{word} ={rest}"));
+                lines[at] = rest.unwrap_or_else(|| format!("[{word}]"));
+            }
+            8 => {
+                let parts: Vec<&str> = lines[at].split('.').collect();
+                let gone = random.below(parts.len());
+                let kept = parts.iter().enumerate().filter(|(number, _)| *number != gone);
+                lines[at] = kept.map(|(_, part)| *part).collect::<Vec<_>>().join(".");
+            }
+            _ => lines[at] = lines[at].replace('[', "[[").replace(']', "]]"),
+        }
+    }
+    lines.join("\n") + "\n"
+}

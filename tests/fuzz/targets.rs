@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::Path;
 
-use jabuka::diagnostic::{Report, visible, visible_lines};
+use jabuka::diagnostic::{Code, Diagnostic, Report, Severity, Sources, visible, visible_lines};
 use jabuka::output::{MANIFEST, Manifest};
 use jabuka::render::Record;
+use jabuka::scene::source::parse;
 use jabuka::scene::{Color, Options, Override};
 use jabuka::simulate::Selection;
 use jabuka::{Run, Scene};
@@ -68,6 +69,18 @@ pub fn argument(text: &str) {
     assert!(!visible(text).contains('\u{202e}') && !visible_lines(text).contains('\u{202e}'));
 }
 
+/// Reads a scene with a text that it includes and with `--set` arguments. Returns the number of diagnostics and of fixes.
+pub fn texts_together(folder: &Path, text: &str, included: &str, settings: &[String]) -> (usize, usize) {
+    let path = folder.join("scene.toml");
+    fs::write(&path, text).unwrap();
+    fs::write(folder.join(INCLUDED), included).unwrap();
+    let overrides = settings.iter().map(Override::new).collect();
+    say(&Scene::from_path_with(&path, &Options { overrides, ..Options::default() }))
+}
+
+/// The name of the file that scenes of [`texts_together`] include.
+pub const INCLUDED: &str = "part.toml";
+
 /// Writes a file of one of the kinds of [`FILES`] into a folder for this test, and reads a scene that names it. Returns true if the file
 /// is valid.
 pub fn file(folder: &Path, (ending, scene): (&str, &str), bytes: &[u8]) -> bool {
@@ -116,15 +129,42 @@ pub fn a_record() -> Vec<u8> {
     lines.into_bytes()
 }
 
-/// Formats all diagnostics of a result as text and as JSON, and checks that they are consistent with it.
-fn say(result: &Result<Scene, Report>) {
+/// Formats all diagnostics of a result as text and as JSON, and checks that they are consistent with it and that their fixes can be
+/// applied. Returns the number of diagnostics and of fixes.
+fn say(result: &Result<Scene, Report>) -> (usize, usize) {
     let report = result.as_ref().map_or_else(|report| report, |scene| &scene.warnings);
     assert_eq!(result.is_ok(), report.errors() == 0);
     assert_eq!(report.to_text(true).is_empty(), report.diagnostics.is_empty());
     report.to_json();
+    let mut fixes = 0;
     for diagnostic in &report.diagnostics {
         if let Some(span) = diagnostic.span() {
-            report.fixed(span.source);
+            report.fixed(span.source());
         }
+        fixes += usize::from(diagnostic.fix.is_some());
+        check_fix(diagnostic, &report.sources);
     }
+    (report.diagnostics.len(), fixes)
+}
+
+/// Checks that the fix of a diagnostic can be applied, and that the text can then be parsed. In a text with errors of syntax, the fix adds
+/// none, and the fix of one of them removes at least this one.
+fn check_fix(diagnostic: &Diagnostic, sources: &Sources) {
+    let Some(fix) = &diagnostic.fix else { return };
+    let (source, fixed) = fix.applied(sources).unwrap_or_else(|| panic!("{diagnostic:?}"));
+    let source = sources.get(source);
+    if source.name == "--set" {
+        assert!(Override::new(fixed.as_str()).is_setting(), "{fixed}\n{diagnostic:?}");
+        return;
+    }
+    let errors = |text: &str| {
+        let (mut sources, mut said) = (Sources::default(), Vec::new());
+        parse(text, sources.add("", text), &mut said);
+        said.iter().filter(|it| it.severity == Severity::Error).count()
+    };
+    let is_syntax =
+        matches!(diagnostic.code, Code::TomlSyntax | Code::TomlUnclosed | Code::Toml11 | Code::DuplicateKey);
+    let (before, after) = (errors(&source.text), errors(&fixed));
+    let most = if is_syntax { before.saturating_sub(1) } else { before };
+    assert!(after <= most, "{}\nbecomes\n{fixed}\n{diagnostic:?}", source.text);
 }

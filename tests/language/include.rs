@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use jabuka::Scene;
-use jabuka::diagnostic::{Code, Report};
+use jabuka::diagnostic::{Code, Diagnostic, Report};
+use jabuka::scene::source::parse;
 use jabuka::scene::{Options, Override};
 
 /// Writes files into a folder. Each entry holds a relative path and the text.
@@ -138,4 +139,109 @@ fn a_long_chain_of_files_ends_with_an_error() {
     let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
     let report = read(&files, &[]).unwrap_err();
     assert!(report.diagnostics[0].message.contains("more than 50 deep"), "{report}");
+}
+
+/// Returns the name, line and column of each diagnostic, after it has been shown as text and as JSON. Checks that each fix, applied, gives
+/// a text that can be parsed.
+fn places(report: &Report) -> Vec<(&'static str, String, usize, usize)> {
+    report.to_text(true);
+    report.to_json();
+    let place = |diagnostic: &Diagnostic| {
+        let span = diagnostic.span().unwrap();
+        if let Some(fix) = &diagnostic.fix {
+            let (source, text) = fix.applied(&report.sources).unwrap();
+            let mut said = Vec::new();
+            if report.sources.get(source).name == "--set" {
+                assert!(Override::new(text.as_str()).is_setting(), "{text}");
+            } else {
+                parse(&text, source, &mut said);
+            }
+            assert!(said.is_empty(), "{text}\n{said:?}");
+        }
+        let (at, name) = (report.sources.start(span), &report.sources.get(span.source()).name);
+        let name = Path::new(name).file_name().unwrap().to_string_lossy().into_owned();
+        (diagnostic.code.name(), name, at.line, at.column)
+    };
+    report.diagnostics.iter().map(place).collect()
+}
+
+/// A key at the top that belongs to `[simulation]`, which is in another text.
+#[test]
+fn a_key_of_a_table_in_another_text_is_an_error_in_its_own_text() {
+    let scene = "# A ball.\n[simulation]\nduration = 1\n[body.ball]\nshape.sphere.radius = 0.5\n";
+    let error = |name: &str, line| vec![("unknown-key", name.to_owned(), line, 1)];
+    for key in ["gravity=[0, -1, 0]", "frame_rate=30", "step=0.01", "contacts=\"event-driven\""] {
+        let report = read(&[("scene.toml", scene)], &[key]).unwrap_err();
+        assert_eq!(places(&report), error("--set", 1), "{report}");
+        assert!(report.to_text(false).contains("simulation"), "{report}");
+
+        let part = ("part.toml", &*format!("# Of all scenes.\n{key}\n"));
+        let scene = format!("include = ['part.toml']\n{scene}");
+        let report = read(&[("scene.toml", &scene), part], &[]).unwrap_err();
+        assert_eq!(places(&report), error("part.toml", 2), "{report}");
+        // And the other way round: the table is in the included file.
+        let report = read(
+            &[("scene.toml", &format!("include = ['part.toml']\n{key}\n")), ("part.toml", &scene[23..])],
+            &[],
+        )
+        .unwrap_err();
+        assert_eq!(places(&report), error("scene.toml", 2), "{report}");
+    }
+}
+
+/// Keys of a body whose table is in another text, longer than the text with the key.
+#[test]
+fn a_mistake_about_a_table_of_another_text_is_shown_in_its_own_text() {
+    let comment = "# A long line that moves all places of this file away from those of the others.\n";
+    let ball = format!("{comment}[body.ball]\nshape.sphere.radius = 0.5\n");
+    for key in [
+        "body.ball.radius=1",
+        "body.ball.orientation={ axis = [0, 1, 0] }",
+        "body.ball.gravity=[0, -1, 0]",
+        "body.ball.color=\"red\"",
+        "body.ball.material=[1, 0, 0]",
+        "body.ball.motion=\"a.csv\"",
+        "camera.look_at=\"ball\"",
+        "body.ball.collides=5",
+        "force.g.gravity=true",
+        "body.ball.friction=0.3",
+        "sphere.radius=3",
+    ] {
+        for sets in [true, false] {
+            let scene = if sets { ball.clone() } else { format!("include = ['part.toml']\n{ball}") };
+            let (part, settings) = if sets { ("", vec![key]) } else { (key, Vec::new()) };
+            let Err(report) = read(&[("scene.toml", &scene), ("part.toml", part)], &settings) else {
+                continue;
+            };
+            let text = if sets { "--set" } else { "part.toml" };
+            assert!(places(&report).iter().any(|(_, name, ..)| name == text), "{report}");
+        }
+    }
+}
+
+/// The size of a body is found before its keys are checked, so that copies do not overlap.
+#[test]
+fn an_axis_without_an_angle_is_one_error_also_where_copies_are_kept_apart() {
+    let body = "[body.a]\nshape.sphere.radius = 0.1\n";
+    let turned = "orientation = { axis = [0, 1, 0] }\n";
+    for repeat in [
+        "scatter = { count = 2, within.sphere.radius = 2 }",
+        "ring = { count = 3, radius = 2 }",
+        "scatter = { count = 2, within.box.size = [3, 3, 3] }",
+    ] {
+        let repeat = format!("repeat.{repeat}\n");
+        let one = |name: &str, line| vec![("missing-key", name.to_owned(), line)];
+        let where_it_is = |report: Report| -> Vec<_> {
+            places(&report).into_iter().map(|(code, name, line, _)| (code, name, line)).collect()
+        };
+        let scene = format!("{body}{turned}{repeat}");
+        let report = read(&[("scene.toml", &scene)], &[]).unwrap_err();
+        assert!(report.to_text(false).contains("`angle`"), "{report}");
+        assert_eq!(where_it_is(report), one("scene.toml", 3));
+        let set = "body.a.orientation={ axis = [0, 1, 0] }";
+        let report = read(&[("scene.toml", &format!("{body}{repeat}"))], &[set]).unwrap_err();
+        assert_eq!(where_it_is(report), one("--set", 1));
+        let files = [("scene.toml", "include = ['part.toml']"), ("part.toml", &*scene)];
+        assert_eq!(where_it_is(read(&files, &[]).unwrap_err()), one("part.toml", 3));
+    }
 }

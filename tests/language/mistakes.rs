@@ -21,7 +21,7 @@ fn each_mistake_is_mended_by_what_is_suggested() {
                 Err(report) => report,
             };
             shown.push_str(&report.to_text(false));
-            let source = report.diagnostics.iter().find_map(Diagnostic::span).unwrap().source;
+            let source = report.diagnostics.iter().find_map(Diagnostic::span).unwrap().source();
             let fixed = report.fixed(source);
             assert_ne!(fixed, text, "nothing is suggested for\n{shown}");
             text = fixed;

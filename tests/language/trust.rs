@@ -98,3 +98,32 @@ fn an_error_in_a_file_that_is_included_and_an_asset_is_reported_once() {
 fn compile(folder: &Path) -> Output {
     jabuka().current_dir(folder).args(["compile", "scene.toml", "-o", "out"]).output().unwrap()
 }
+
+/// Files that a scene lists and that cannot be read: each is one error, in the list, and not a second one where SDL names the file.
+#[test]
+fn a_listed_asset_that_is_missing_is_one_error() {
+    for (name, sdl) in [
+        ("textures/wood.png", "[material.m]\nsdl = 'pigment { image_map { png \"NAME\" } }'"),
+        ("./wood.png", "[material.m]\nsdl = 'pigment { image_map { png \"wood.png\" } }'"),
+        ("walls.inc", "povray.sdl = '#include \"NAME\"'"),
+        ("a.ttf", "povray.sdl = 'text { ttf \"NAME\" \"a\" 1, 0 }'"),
+        ("hills.png", "povray.sdl = 'height_field { png \"NAME\" }'"),
+        ("../wood.png", "[material.m]\nsdl = 'pigment { image_map { png \"NAME\" } }'"),
+        (
+            "wood.png",
+            "[material.m]\nsdl = 'pigment { image_map { png \"NAME\" } }'\n[material.n]\nsdl = 'pigment { image_map { png \"NAME\" } }'",
+        ),
+    ] {
+        let sdl = sdl.replace("NAME", name);
+        let scene = format!("# Assets.\npovray.assets = [\"{name}\"]\n{sdl}\n");
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.toml"), &scene).unwrap();
+        let report = jabuka::Scene::from_path(folder.path().join("scene.toml")).unwrap_err();
+        let lines: Vec<usize> = report
+            .diagnostics
+            .iter()
+            .map(|diagnostic| report.sources.start(diagnostic.span().unwrap()).line)
+            .collect();
+        assert_eq!(lines, [2], "{report}");
+    }
+}

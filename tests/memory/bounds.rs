@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use jabuka::Scene;
 use jabuka::diagnostic::Report;
 use jabuka::scene::Options;
+use jabuka::{Run, RunError, Scene};
 
 const BALL: &str = "[body.a]\nshape.sphere.radius = 1\n";
 
@@ -27,7 +27,7 @@ fn said(text: &str) -> Report {
 fn only(report: &Report) -> (&'static str, usize, String) {
     let [diagnostic] = report.diagnostics.as_slice() else { panic!("{report}") };
     let span = diagnostic.span().unwrap();
-    let line = report.sources.position(span.source, span.start).line;
+    let line = report.sources.start(span).line;
     (diagnostic.code.name(), line, diagnostic.labels[0].text.clone())
 }
 
@@ -143,4 +143,29 @@ fn a_heightfield_in_as_many_sizes_as_copies_is_refused() {
     let (code, line, label) = only(&report);
     assert_eq!((code, line), ("bad-mesh", 3), "{report}");
     assert!(label.contains("1000 meshes or 4000000 triangles"), "{label}");
+}
+
+/// Many bodies in one place are an error. The memory until it is found is in proportion to the number of bodies, not of their pairs.
+#[test]
+fn bodies_in_one_place_are_found_in_linear_memory() {
+    let of = |n: usize, law: &str, shape: &str| {
+        let place = "location = ['1e-3*sin(i)', 5, '1e-3*cos(i)']";
+        let scene = format!(
+            "[simulation]\nduration = 0.1\ncontacts = '{law}'\n[body.a]\nshape.{shape}\nrepeat = {n}\n{place}\n"
+        );
+        let scene = Scene::parse(&scene).unwrap();
+        let used = allocation_counter::measure(|| {
+            let Err(RunError::Simulate(error)) = Run::new(&scene) else { panic!("{law}, {shape}") };
+            assert!(error.to_string().contains("overlap by 0."), "{error}");
+        });
+        used.bytes_max
+    };
+    for law in ["event-driven", "time-stepping"] {
+        for shape in
+            ["sphere.radius = 0.1", "box.size = [0.2, 0.2, 0.2]", "cone = { radius = 0.1, height = 0.2 }"]
+        {
+            let [few, many] = [300, 900].map(|n| of(n, law, shape));
+            assert!(many < 4 * few && many < 30_000 * 900, "{law}, {shape}: {few} B, {many} B");
+        }
+    }
 }

@@ -185,6 +185,6 @@ fn what_is_too_far_away_is_an_error_at_its_line() {
     let Err(RunError::Emit(EmitError::Indistinct(report))) = Run::new(&scene) else { panic!("it is drawn") };
     let [error] = report.diagnostics.as_slice() else { panic!("{report}") };
     let span = error.span().unwrap();
-    assert_eq!(report.sources.position(span.source, span.start).line, 7, "{report}");
+    assert_eq!(report.sources.start(span).line, 7, "{report}");
     assert!(error.message.contains("`far`"), "{report}");
 }

@@ -28,11 +28,7 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
         .filter(|diagnostic| is_error(diagnostic) && diagnostic.code != Code::BelowGround)
         .filter_map(Diagnostic::span)
         .collect();
-    let is_wrong = |place: Span| {
-        let is_within =
-            |span: &Span| span.source == place.source && place.start <= span.start && span.end <= place.end;
-        wrong.iter().any(is_within)
-    };
+    let is_wrong = |place: Span| wrong.iter().any(|span| place.contains(*span));
     found.retain(|diagnostic| {
         diagnostic.code != Code::BelowGround || !diagnostic.span().is_some_and(is_wrong)
     });
@@ -51,19 +47,19 @@ pub(super) fn drop(found: &mut Vec<Diagnostic>, unreadable: &[Diagnostic], sourc
     let mut end = None;
     for diagnostic in syntax {
         let Some(span) = diagnostic.span() else { continue };
-        let line = sources.position(span.source, span.start).line;
-        lines.insert((span.source, line));
+        let line = sources.start(span).line;
+        lines.insert((span.source(), line));
         // After an unreadable table header, the parser assigns the following keys to the wrong table.
-        let header = sources.line(span.source, line).trim_start().starts_with(['[', ']', '{', '}']);
+        let header = sources.line(span.source(), line).trim_start().starts_with(['[', ']', '{', '}']);
         if (header && diagnostic.code == Code::TomlSyntax) || diagnostic.code == Code::TomlUnclosed {
             end = end.into_iter().chain([span]).min();
         }
     }
     found.retain(|diagnostic| {
         let readable = diagnostic.span().is_none_or(|span| {
-            let line = sources.position(span.source, span.start).line;
-            let before = end.is_none_or(|end| span.source != end.source || span < end);
-            before && !lines.contains(&(span.source, line))
+            let line = sources.start(span).line;
+            let before = end.is_none_or(|end| span.source() != end.source() || span < end);
+            before && !lines.contains(&(span.source(), line))
         });
         readable && !OF_LACK.contains(&diagnostic.code)
     });

@@ -7,7 +7,7 @@ use super::corrections::{before, is_file};
 use super::read::figure;
 use super::stepping;
 use super::view::View;
-use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
+use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
@@ -149,7 +149,7 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
         let error = Diagnostic::error(Code::NoContacts, message)
             .at(span, label)
             .help("write `contacts = \"event-driven\"` in [simulation]");
-        let fix = said.is_empty().then(|| insertion(root, simulation, span.source, context));
+        let fix = said.is_empty().then(|| insertion(root, simulation, span, context));
         said.push(span);
         context.diagnostics.push(match fix {
             Some((place, text)) => error.fix(place, text),
@@ -159,26 +159,17 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
 }
 
 /// Returns the source span at which the line for `simulation.contacts` is to be inserted, and the text to insert.
-fn insertion(
-    root: &View<'_>,
-    simulation: &View<'_>,
-    source: SourceId,
-    context: &Context<'_>,
-) -> (Span, String) {
+fn insertion(root: &View<'_>, simulation: &View<'_>, at: Span, context: &Context<'_>) -> (Span, String) {
     const LINE: &str = "contacts = \"event-driven\"";
     let keys = ["duration", "frame_rate", "step", "integrator", "gravity"];
     let mut spans = keys.into_iter().filter_map(|key| simulation.key_span(key));
-    if let Some(span) = spans.find(|span| is_file(span.source, context)) {
+    if let Some(span) = spans.find(|span| is_file(span.source(), &context.sources)) {
         return before(span, LINE, context);
     }
-    match root.key_span("simulation").filter(|span| is_file(span.source, context)) {
+    match root.key_span("simulation").filter(|span| is_file(span.source(), &context.sources)) {
         // The `[simulation]` table is empty: insert the line below its header.
-        Some(span) => {
-            let text = &context.sources.get(span.source).text;
-            let end = text[span.end..].find('\n').map_or(text.len(), |newline| span.end + newline);
-            (Span { start: end, end, ..span }, format!("\n{LINE}"))
-        }
-        None => (Span::new(source, 0..0), format!("simulation.{LINE}\n")),
+        Some(span) => (span.place_after(context.sources.line_after(span).len()), format!("\n{LINE}")),
+        None => (at.top_of_text(), format!("simulation.{LINE}\n")),
     }
 }
 

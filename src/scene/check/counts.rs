@@ -171,8 +171,8 @@ fn with_values(
         first.push_str(second);
         edits.truncate(1);
     }
-    let source = edits[0].0.source;
-    if !is_file(source, context) || edits.iter().any(|(span, _)| span.source != source) {
+    let source = edits[0].0.source();
+    if !is_file(source, &context.sources) || edits.iter().any(|(span, _)| span.source() != source) {
         return said;
     }
     edits.into_iter().fold(said, |said, (span, text)| said.fix(span, text))

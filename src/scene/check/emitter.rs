@@ -249,8 +249,8 @@ impl Reader<'_, '_> {
             if !value.is_finite() {
                 let error = formula.explain_non_finite(t, &mut self.random.substream(u64::MAX - number));
                 if let Some(error) = error {
-                    let raw = self.context.sources.get(span.source).text.get(span.start..span.end);
-                    let place = in_string(raw.unwrap_or_default(), formula.text(), &error.range, span);
+                    let raw = self.context.sources.raw(span);
+                    let place = in_string(raw, formula.text(), &error.range, span);
                     let diagnostic = Diagnostic::error(error.code, error.message).at(place, error.label);
                     self.context.diagnostics.push(diagnostic);
                 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::view::View;
 use super::{Context, body, shape};
+use crate::diagnostic::Sources;
 use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::Table;
@@ -17,9 +18,9 @@ pub(super) struct BodyReader<'a> {
 }
 
 impl<'a> BodyReader<'a> {
-    /// Creates a reader for a scene whose files are in `folder`.
-    pub(super) fn new(folder: Option<&'a Path>, trust: bool) -> BodyReader<'a> {
-        BodyReader { context: Context { folder, trust, ..Context::silent() }, last: None }
+    /// Creates a reader for a scene with these texts, whose files are in `folder`.
+    pub(super) fn new(folder: Option<&'a Path>, trust: bool, sources: Sources) -> BodyReader<'a> {
+        BodyReader { context: Context { folder, trust, ..Context::new(sources) }, last: None }
     }
 }
 

@@ -124,9 +124,7 @@ impl Reader<'_, '_, '_> {
 
     /// Returns the source span of a byte range of the label's text.
     fn at(&self, range: &Range<usize>) -> Span {
-        let source = &self.context.sources.get(self.span.source).text;
-        let raw = source.get(self.span.start..self.span.end).unwrap_or_default();
-        place::in_string(raw, self.text, range, self.span)
+        place::in_string(self.context.sources.raw(self.span), self.text, range, self.span)
     }
 
     fn words(&mut self, range: Range<usize>) -> Option<Piece> {
@@ -145,7 +143,7 @@ impl Reader<'_, '_, '_> {
             let at = self.at(&here);
             let warning = warning.at(at, format!("did you mean `{meant}`?"));
             // In an escaped string, the span is the whole string, which the fix must not replace.
-            let is_piece = at.end - at.start == length + 1;
+            let is_piece = at.len() == length + 1;
             self.context.diagnostics.push(if is_piece {
                 warning.fix(at, meant).fix_is_said()
             } else {

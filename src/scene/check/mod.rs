@@ -30,6 +30,7 @@ mod stepping;
 mod suggest;
 mod templates;
 mod trajectory;
+mod usable;
 mod validate;
 
 use std::collections::{HashMap, HashSet};
@@ -117,8 +118,8 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// Returns an empty context for parts of the check whose diagnostics are ignored.
-    fn silent() -> Context<'static> {
+    /// Returns an empty context for the check of a scene with these texts.
+    fn new(sources: Sources) -> Context<'static> {
         Context {
             folder: None,
             trust: false,
@@ -136,7 +137,7 @@ impl Context<'_> {
             assets: sdl::Assets::default(),
             reads: Vec::new(),
             diagnostics: Vec::new(),
-            sources: Sources::default(),
+            sources,
             recordings: trajectory::Recordings::new(),
             tracks: HashMap::new(),
             measured: HashSet::new(),
@@ -256,7 +257,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
     let unreadable = diagnostics.len();
 
     let mut found = Vec::new();
-    let mut geometer = geometry::BodyReader::new(input.folder, options.trust);
+    let mut geometer = geometry::BodyReader::new(input.folder, options.trust, sources.clone());
     let Expansion { groups, of_defaults } = expand::expand(&mut root, &mut geometer, &sources, &mut found);
     let mut context = Context {
         folder: input.folder,
@@ -267,8 +268,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
         comparisons: suggest::MAX_COMPARISONS,
         assets: sdl::Assets::of(&root, input.folder, options.trust),
         diagnostics: found,
-        sources,
-        ..Context::silent()
+        ..Context::new(sources)
     };
     context.bodies_are_wrong = context.has_errors(0);
     validate::validate(&root, &mut context);
@@ -283,6 +283,7 @@ pub(super) fn check(input: &Input<'_>, options: &Options) -> Result<Scene, Repor
 
     let mut report = Report { sources, diagnostics };
     report.sort();
+    usable::drop_other(&mut report);
     if report.diagnostics.iter().any(|d| d.severity == Severity::Error) {
         return Err(report);
     }

@@ -115,7 +115,7 @@ fn finite_while(
                 Some((t, formula.explain_non_finite(t)?))
             });
             if let (Some((t, error)), Some(span)) = (wrong, span) {
-                let raw = context.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+                let raw = context.sources.raw(span);
                 let place = in_string(raw, formula.text(), &error.range, span);
                 let message = format!("{}, at t = {t} s", error.message);
                 let diagnostic = Diagnostic::error(error.code, message).at(place, error.label);

@@ -99,7 +99,7 @@ fn include_text(
 pub(super) fn value_in_sdl(text: &str, span: Span, sources: &Sources) -> Option<Diagnostic> {
     let start = text.find("${")?;
     let end = text[start..].find('}').map_or(text.len(), |length| start + length + 1);
-    let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+    let raw = sources.raw(span);
     let place = in_string(raw, text, &(start..end), span);
     let message = "values are not filled into POV-Ray's own words";
     let help = "only the text of a label has values; for words that change from frame to frame, take a template of your own (`jabuka templates`)";

@@ -4,7 +4,6 @@
 //! a downloaded scene must not run code that accesses files.
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::{Context, asset, braces};
@@ -25,6 +24,8 @@ const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 pub(super) struct Assets {
     /// The path of each file, by the file's name in SDL.
     files: HashMap<String, PathBuf>,
+    /// The names in the list whose files are missing or cannot be used, which is reported where they are listed.
+    wrong: HashSet<String>,
     /// The names of the assets and include files that have been checked as SDL.
     read: HashSet<String>,
 }
@@ -38,8 +39,23 @@ impl Assets {
             Some(Value::Array(items)) => items.as_slice(),
             _ => &[],
         };
-        let assets = items.iter().filter_map(|item| asset::asset(item, folder, trust).ok());
-        Assets { files: assets.map(|asset| (asset.name, asset.path)).collect(), read: HashSet::new() }
+        let mut assets = Assets::default();
+        for item in items {
+            match (asset::asset(item, folder, trust), item.as_str()) {
+                (Ok(asset), _) => drop(assets.files.insert(asset.name, asset.path)),
+                (Err(_), Some(name)) => {
+                    assets.wrong.insert(asset::below(name).unwrap_or_else(|| name.to_owned()));
+                }
+                (Err(_), None) => {}
+            }
+        }
+        assets
+    }
+
+    /// Returns true if the scene lists a file of this name, even if the file is missing.
+    fn is_listed(&self, name: &str) -> bool {
+        let plain = asset::below(name).unwrap_or_else(|| name.to_owned());
+        self.files.contains_key(&plain) || self.wrong.contains(&plain)
     }
 
     fn path(&self, name: &str) -> Option<&Path> {
@@ -57,10 +73,10 @@ pub(super) fn check(node: &Node, place: Where, context: &mut Context<'_>) {
         trusted(text, node.span, context);
         return;
     }
-    let (refused, includes) = refusals(text, place, |name| context.assets.path(name).is_some());
+    let (refused, includes) = refusals(text, place, |name| context.assets.is_listed(name));
     for refusal in &refused {
-        let raw = context.sources.get(node.span.source).text.get(node.span.start..node.span.end);
-        let at = place::in_string(raw.unwrap_or_default(), text, &refusal.range, node.span);
+        let raw = context.sources.raw(node.span);
+        let at = place::in_string(raw, text, &refusal.range, node.span);
         context.diagnostics.push(diagnostic(refusal, at));
     }
     if refused.is_empty() {
@@ -83,12 +99,11 @@ pub(super) fn check_include(name: &str, text: &str, span: Span, context: &mut Co
 
 /// Reports mistakes in the SDL of a file of an untrusted scene. `span` is the source span that names the file in the scene.
 fn check_file(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
-    let (refused, includes) = refusals(text, Where::Top, |name| context.assets.path(name).is_some());
+    let (refused, includes) = refusals(text, Where::Top, |name| context.assets.is_listed(name));
     if !refused.is_empty() {
         let source = context.sources.add(name, text);
         let errors = refused.iter().map(|refusal| {
-            let Range { start, end } = refusal.range;
-            diagnostic(refusal, Span { source, start, end }).at(span, "the file is named here")
+            diagnostic(refusal, Span::new(source, refusal.range.clone())).at(span, "the file is named here")
         });
         context.diagnostics.extend(errors);
     }

@@ -51,7 +51,7 @@ pub(super) fn check(view: &View<'_>, simulation: &SimulationSettings, context: &
     let (wrong, right, value) =
         if method.adaptive { ("step", "tolerance", "1e-9") } else { ("tolerance", "step", "0.001") };
     let Some(span) = view.key_span(wrong) else { return };
-    if view.span("integrator").is_some_and(|span| !is_file(span.source, context)) {
+    if view.span("integrator").is_some_and(|span| !is_file(span.source(), &context.sources)) {
         return;
     }
     let (message, help) = if method.adaptive {

@@ -85,13 +85,11 @@ impl Expander<'_> {
                 .find(|(key, _)| {
                     path.split_once('[').is_some_and(|(way, _)| way.ends_with(&format!(".{key}")))
                 })?;
-        let text = &self.sources.get(span.source).text;
-        let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
-        let begin = text[start..span.start].find(key).map(|at| start + at)?;
-        let is_key =
-            text[start..begin].chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | ' '));
-        let at = Span { start: begin, end: begin + key.len(), ..span };
-        (is_key && text[at.end..span.start].trim_start().starts_with('=')).then_some((at, motion))
+        let line = self.sources.line_before(span);
+        let (before, after) = line.split_once(key)?;
+        let is_key = before.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | ' '));
+        let at = span.place_before(line.len() - before.len()).grown(0, key.len());
+        (is_key && after.trim_start().starts_with('=')).then_some((at, motion))
     }
 
     /// Returns true if a formula uses the location of a body, which is an error. Stores the formula; the error is reported after all bodies

@@ -117,6 +117,6 @@ impl Expander<'_> {
 
     /// Returns the source text of a span, as it is written in the scene.
     pub(super) fn raw(&self, span: Span) -> &str {
-        self.sources.get(span.source).text.get(span.start..span.end).unwrap_or_default()
+        self.sources.raw(span)
     }
 }

@@ -10,10 +10,7 @@ use crate::diagnostic::Span;
 /// If the string has escapes, the offsets in `raw` and `text` differ, and the result is `whole`, the span of the entire string.
 pub(crate) fn in_string(raw: &str, text: &str, range: &Range<usize>, whole: Span) -> Span {
     match offset(raw, text) {
-        Some(offset) if !range.is_empty() => {
-            let start = whole.start + offset;
-            Span { start: start + range.start, end: start + range.end, ..whole }
-        }
+        Some(offset) if !range.is_empty() => whole.part(offset + range.start..offset + range.end),
         _ => whole,
     }
 }

@@ -141,7 +141,12 @@ impl BracketChecker<'_> {
     fn unclosed(&mut self, range: std::ops::Range<usize>, noun: &str, closing: &str) {
         // The parser reports open brackets from the inside out. The error that is kept is the one for the outermost bracket, the first in
         // the text.
-        if self.found.unclosed.as_ref().and_then(Diagnostic::span).is_none_or(|span| range.start < span.start)
+        if self
+            .found
+            .unclosed
+            .as_ref()
+            .and_then(Diagnostic::span)
+            .is_none_or(|span| Span::new(self.source, range.clone()) < span)
         {
             let error = Diagnostic::error(Code::TomlUnclosed, format!("the {noun} is never closed"));
             let label = format!("its `{closing}` is missing");
@@ -190,8 +195,9 @@ mod tests {
     use crate::diagnostic::Sources;
 
     fn places(text: &str) -> (Vec<usize>, Option<usize>) {
-        let found = look(text, Sources::default().add("scene.toml", text));
-        let start = |diagnostic: &Diagnostic| diagnostic.span().unwrap().start;
+        let mut sources = Sources::default();
+        let found = look(text, sources.add("scene.toml", text));
+        let start = |diagnostic: &Diagnostic| sources.before(diagnostic.span().unwrap()).len();
         (found.too_new.iter().map(start).collect(), found.unclosed.as_ref().map(start))
     }
 

@@ -20,6 +20,11 @@ impl Override {
         &self.0
     }
 
+    /// Returns true if the argument is a key and a value, whether or not a scene has this key.
+    pub fn is_setting(&self) -> bool {
+        self.parse(Sources::default().add("--set", "")).is_ok()
+    }
+
     /// Sets the overriding value in the tree of the scene. Errors are added to `diagnostics`.
     pub(crate) fn apply(&self, root: &mut Table, sources: &mut Sources, diagnostics: &mut Vec<Diagnostic>) {
         let source = sources.add("--set", self.0.clone());
@@ -51,7 +56,7 @@ impl Override {
                 let by = key.len() + 1 + (value.len() - value.trim_start().len());
                 // The value of a number that is too large is lost in the tree, so the later check could not report it.
                 if let Some(mut error) = said.into_iter().next() {
-                    error.labels.iter_mut().for_each(|label| label.span = shifted(label.span, by));
+                    error.labels.iter_mut().for_each(|label| label.span = label.span.moved(by));
                     return Err(error);
                 }
                 moved(node, by)
@@ -75,7 +80,7 @@ fn not_toml(error: &Error, argument: &str, key: &str, source: SourceId) -> Diagn
     let unclosed = brackets::look(argument, source).unclosed;
     let mut diagnostic = unclosed.unwrap_or_else(|| {
         let mut diagnostic = syntax::diagnose(error, text, source);
-        diagnostic.labels.iter_mut().for_each(|label| label.span = shifted(label.span, by));
+        diagnostic.labels.iter_mut().for_each(|label| label.span = label.span.moved(by));
         diagnostic
     });
     diagnostic.code = Code::BadSet;
@@ -106,19 +111,14 @@ fn path(table: &Table, mut names: Vec<Name>) -> Option<Vec<Name>> {
     }
 }
 
-fn shifted(span: Span, by: usize) -> Span {
-    Span { start: span.start + by, end: span.end + by, ..span }
-}
-
 /// Moves all source spans in a node by `by` bytes.
 fn moved(mut node: Node, by: usize) -> Node {
-    let shift = |span: Span| shifted(span, by);
-    node.span = shift(node.span);
+    node.span = node.span.moved(by);
     node.value = match node.value {
         Value::Array(items) => Value::Array(items.into_iter().map(|item| moved(item, by)).collect()),
         Value::Table(table) => {
             let entry = |entry: Entry| Entry {
-                name: Name { span: shift(entry.name.span), text: entry.name.text },
+                name: Name { span: entry.name.span.moved(by), text: entry.name.text },
                 node: moved(entry.node, by),
             };
             Value::Table(Table { entries: table.entries.into_iter().map(entry).collect() })
@@ -156,6 +156,7 @@ fn put(table: &mut Table, path: &[Name], value: Node, diagnostics: &mut Vec<Diag
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnostic::Edit;
 
     fn set(text: &str, argument: &str) -> (Table, Vec<Diagnostic>) {
         let (mut sources, mut diagnostics) = (Sources::default(), Vec::new());
@@ -187,7 +188,7 @@ mod tests {
     fn a_value_knows_where_it_stands_in_the_argument() {
         let (root, _) = set("", "s.size= [1, 22]");
         let Value::Array(items) = value(&root, &["s", "size"]) else { panic!("not a list") };
-        assert_eq!((items[1].span.start, items[1].span.end), (12, 14));
+        assert_eq!(items[1].span, Span::new(items[1].span.source(), 12..14));
     }
 
     #[test]
@@ -195,7 +196,7 @@ mod tests {
         let (root, diagnostics) = set("", "s.step= 1e999");
         assert!(root.get("s").is_none());
         let [error] = diagnostics.as_slice() else { panic!("{diagnostics:?}") };
-        assert_eq!(error.span().map(|span| (span.start, span.end)), Some((8, 13)), "{error:?}");
+        assert_eq!(error.span(), error.span().map(|span| Span::new(span.source(), 8..13)), "{error:?}");
     }
 
     #[test]
@@ -219,22 +220,19 @@ mod tests {
             (
                 "a=[.35,.35,0]",
                 "a digit is missing beside the decimal point",
-                Some((2, 13, "[0.35, 0.35, 0]")),
+                Some((2..13, "[0.35, 0.35, 0]")),
             ),
-            ("a= [1 2 3]", "`1 2 3` is not a value", Some((3, 10, "[1, 2, 3]"))),
+            ("a= [1 2 3]", "`1 2 3` is not a value", Some((3..10, "[1, 2, 3]"))),
             ("a=[1, 2", "the list is never closed", None),
         ] {
             let (root, diagnostics) = set("", argument);
             let [error] = diagnostics.as_slice() else { panic!("{diagnostics:?}") };
             assert!(root.get("a").is_none(), "{argument}");
             assert_eq!(error.message, format!("the value is not valid TOML: {cause}"));
-            let edits = error.fix.as_ref().map(|fix| {
-                fix.edits
-                    .iter()
-                    .map(|edit| (edit.span.start, edit.span.end, edit.text.as_str()))
-                    .collect::<Vec<_>>()
-            });
-            assert_eq!(edits, fixed.map(|edit| vec![edit]), "{argument}");
+            let source = error.labels[0].span.source();
+            let edit = |(range, text): (_, &str)| Edit { span: Span::new(source, range), text: text.into() };
+            let edits = error.fix.as_ref().map(|fix| fix.edits.clone());
+            assert_eq!(edits, fixed.map(|fixed| vec![edit(fixed)]), "{argument}");
         }
     }
 }

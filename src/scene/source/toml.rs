@@ -26,9 +26,13 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     };
     let root = Node { span, value: Value::Table(reader.table(document.get_ref())) };
 
-    let end = brackets.unclosed.as_ref().and_then(Diagnostic::span).map_or(text.len() + 1, |span| span.start);
+    // Errors after a bracket that is never closed are consequences of it.
+    let unclosed = brackets.unclosed.as_ref().and_then(Diagnostic::span);
+    let is_before = |range: std::ops::Range<usize>| {
+        unclosed.is_none_or(|unclosed| Span::new(source, range.start..range.start) < unclosed.place_before(0))
+    };
     let mut last_line = None;
-    for error in errors.iter().filter(|error| error.span().is_none_or(|range| range.start < end)) {
+    for error in errors.iter().filter(|error| error.span().is_none_or(is_before)) {
         // A second syntax error in the same line is usually a consequence of the first, so it is dropped.
         let before = |range: std::ops::Range<usize>| text.as_bytes().get(..range.start).unwrap_or_default();
         let line = error.span().map(|range| before(range).iter().rposition(|&byte| byte == b'\n'));
@@ -113,7 +117,7 @@ impl Reader<'_> {
             DeValue::Array(items) => self.list(items),
             DeValue::Table(table) => Value::Table(self.table(table)),
             // For a missing value, the parser inserts a placeholder with an empty span.
-            _ if span.start == span.end || self.is_wrong(span) => Value::Invalid,
+            _ if span.is_empty() || self.is_wrong(value.span()) => Value::Invalid,
             DeValue::String(text) => Value::String(text.as_ref().into()),
             DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
                 Ok(number) => Value::Integer(number),
@@ -146,9 +150,9 @@ impl Reader<'_> {
         Value::Array(items.into())
     }
 
-    fn is_wrong(&self, span: Span) -> bool {
-        let next = self.wrong.partition_point(|&place| place < span.start);
-        self.wrong.get(next).is_some_and(|&place| place <= span.end)
+    fn is_wrong(&self, range: std::ops::Range<usize>) -> bool {
+        let next = self.wrong.partition_point(|&place| place < range.start);
+        self.wrong.get(next).is_some_and(|&place| place <= range.end)
     }
 
     fn too_large(&mut self, span: Span) -> Value {

@@ -115,10 +115,9 @@ pub(super) fn other_section(
     let kind = others.key(&entry.name.text).filter(|key| key.kind.table().is_some())?.name;
     let name = path.strip_prefix(&format!("[{own}."))?.strip_suffix(']')?;
     let label = format!("this is {}: `[{other}.{name}.{kind}]`", others.noun);
-    let text = &context.sources.get(entry.name.span.source).text;
-    let start = text[..entry.name.span.start].rfind('\n').map_or(0, |newline| newline + 1);
-    let is_header = table.entries.len() == 1 && text[start..].starts_with(&format!("[{own}."));
-    let place = Span { start: start + 1, end: start + 1 + own.len(), ..entry.name.span };
+    let line = context.sources.line_before(entry.name.span);
+    let is_header = table.entries.len() == 1 && line.starts_with(&format!("[{own}."));
+    let place = entry.name.span.place_before(line.len().saturating_sub(1)).grown(0, own.len());
     Some((label, is_header.then(|| (place, other.to_owned()))))
 }
 
@@ -147,9 +146,9 @@ pub(super) fn kind_in_header(
         return None;
     }
     let at = at?;
-    let rest = &context.sources.get(at.source).text[at.end..header_end(at, context)?];
-    let place = at.end + rest.find(']').filter(|place| rest[..*place].trim_matches('"').is_empty())?;
-    let header = (Span { start: place, end: place, ..at }, format!(".{kind}"));
-    let line = (removal(whole(word), context)?, String::new());
+    let rest = context.sources.raw(at.place_after(0).to(header_end(at, context)?)?);
+    let place = rest.find(']').filter(|place| rest[..*place].trim_matches('"').is_empty())?;
+    let header = (at.place_after(place), format!(".{kind}"));
+    let line = (removal(whole(word)?, context)?, String::new());
     Some(KindInHeader { edits: [header, line], keys: others.iter().map(|entry| entry.name.span).collect() })
 }

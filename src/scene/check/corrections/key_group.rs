@@ -63,15 +63,17 @@ pub(super) fn joined(
     let names: Vec<&str> = entries.iter().map(|entry| &*entry.name.text).collect();
     let message = format!("unknown key{s} {} in {path}", quoted_and(&names));
     let error = Diagnostic::error(Code::UnknownKey, message).at(first.name.span, label);
-    let mut error = error.fix(whole(first), line);
+    let mut error = error.fix(whole(first)?, line);
     for entry in rest {
         // Remove the line break before the entry rather than the one after it. Otherwise, the edits of adjacent lines would overlap.
-        let gone = match whole_line(whole(entry), context).filter(|line| line.start > 0) {
+        let line =
+            whole_line(whole(entry)?, context).filter(|line| !context.sources.before(*line).is_empty());
+        let gone = match line {
             Some(line) => {
-                let is_last = raw(line, context).ends_with('\n');
-                Span { start: line.start - 1, end: line.end - usize::from(is_last), ..line }
+                let content = raw(line, context).trim_end_matches('\n').len();
+                line.part(0..content).grown(1, 0)
             }
-            None => removal(whole(entry), context)?,
+            None => removal(whole(entry)?, context)?,
         };
         error = error.at(entry.name.span, "").fix(gone, "");
     }

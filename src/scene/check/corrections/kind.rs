@@ -153,9 +153,9 @@ pub(in crate::scene::check) fn correct_word(
         return;
     }
     let example = if meant.has_keys {
-        removal(whole(entry), context).map(|line| (line, String::new()))
+        whole(entry).and_then(|it| removal(it, context)).map(|line| (line, String::new()))
     } else {
-        super::missing::example(&meant.way, meant.spec, context).map(|text| (whole(entry), text))
+        super::missing::example(&meant.way, meant.spec, context).and_then(|text| Some((whole(entry)?, text)))
     };
     let is_of_it = |diagnostic: &&mut Diagnostic| {
         diagnostic.span().is_some_and(|span| span == entry.name.span || span == entry.node.span)

@@ -104,24 +104,20 @@ pub(in crate::scene::check) fn insertion(
     line: &str,
     context: &Context<'_>,
 ) -> Option<(Span, String)> {
-    if !is_file(at.source, context) {
+    if !is_file(at.source(), &context.sources) {
         return None;
     }
-    let text = &context.sources.get(at.source).text;
-    let insert = |place: usize, text: String| Some((Span { start: place, end: place, ..at }, text));
+    let (before, rest) = (context.sources.line_before(at), context.sources.after(at));
     if let Some(end) = header_end(at, context) {
-        return text[at.end..end]
-            .trim_start_matches('"')
-            .starts_with(']')
-            .then(|| insert(end, format!("\n{line}")))?;
+        let is_last = context.sources.line_after(at).trim_start_matches('"').starts_with(']');
+        return is_last.then(|| (end, format!("\n{line}")));
     }
-    let start = text[..at.start].rfind('\n').map_or(0, |newline| newline + 1);
-    let rest = &text[at.end..];
-    if rest.starts_with('.') && !text[start..at.end].contains(['{', '[', '=']) {
-        let end = rest.find('\n').map_or(text.len(), |newline| at.end + newline);
-        return insert(end, format!("\n{}.{line}", &text[start..at.end]));
+    let name = context.sources.raw(at);
+    if rest.starts_with('.') && !before.contains(['{', '[', '=']) && !name.contains(['{', '[', '=']) {
+        let end = at.place_after(context.sources.line_after(at).len());
+        return Some((end, format!("\n{before}{name}.{line}")));
     }
     let brace = rest.trim_start().strip_prefix('=')?.trim_start().strip_prefix('{')?;
     let comma = if brace.trim_start().starts_with('}') { " " } else { "," };
-    insert(text.len() - brace.len(), format!(" {line}{comma}"))
+    Some((at.place_after(rest.len() - brace.len()), format!(" {line}{comma}")))
 }

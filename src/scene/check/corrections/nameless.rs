@@ -89,8 +89,8 @@ pub(super) fn view(entry: &Entry, spec: &TableSpec, context: &Context<'_>) -> Op
         return None;
     }
     let span = entry.name.span;
-    let before = context.sources.get(span.source).text[..span.start].strip_suffix("[camera.")?;
-    let place = Span { start: before.len() + 1, ..span };
+    context.sources.before(span).ends_with("[camera.").then_some(())?;
+    let place = span.grown("camera.".len(), 0);
     let is_main = matches!(&*entry.name.text, "main" | "default" | "primary");
     let text = if is_main { "camera".to_owned() } else { format!("view.{}", as_key(&entry.name.text)) };
     Some(vec![(place, text)])
@@ -101,11 +101,10 @@ fn renamed(entry: &Entry, table: &Table, first: &str, kind: Option<&str>, contex
     let mut edits = Vec::new();
     for inner in &table.entries {
         let span = inner.name.span;
-        let text = &context.sources.get(span.source).text;
-        let before = text[..span.start].strip_suffix('.').unwrap_or_default();
+        let before = context.sources.before(span).strip_suffix('.').unwrap_or_default();
         if before.ends_with(&*entry.name.text) {
-            let word = Span { start: before.len() - entry.name.text.len(), end: before.len(), ..span };
-            edits.push((word, first.to_owned()));
+            let length = entry.name.text.len();
+            edits.push((span.place_before(length + 1).grown(0, length), first.to_owned()));
         }
         edits.extend(kind.map(|kind| (span, format!("{}.{kind}", inner.name.text))));
     }
@@ -182,10 +181,9 @@ pub(in crate::scene::check) fn correct_array(
             None if items.len() == 1 => name_of(word).to_owned(),
             None => format!("{}{}", name_of(word), number + 1),
         };
-        let header =
-            raw(item.span, context).find("]]").map_or(item.span.end, |end| item.span.start + end + 2);
-        edits.push((Span { end: header, ..item.span }, format!("[{word}.{text}]")));
-        edits.extend(name.and_then(|entry| Some((removal(whole(entry), context)?, String::new()))));
+        let header = raw(item.span, context).find("]]").map_or(item.span.len(), |end| end + 2);
+        edits.push((item.span.part(0..header), format!("[{word}.{text}]")));
+        edits.extend(name.and_then(|entry| Some((removal(whole(entry)?, context)?, String::new()))));
     }
     edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text))
 }

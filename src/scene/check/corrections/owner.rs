@@ -47,22 +47,21 @@ impl Owner<'_> {
     /// Returns the edits that move an entry to this table. `None` if the table has this key already, or if the position for the entry is
     /// unclear.
     fn edits(&self, entry: &Entry, key: &KeySpec, context: &Context<'_>) -> Option<[(Span, String); 2]> {
-        if self.table.get(key.name).is_some() || entry.name.span.source != self.at.source {
+        if self.table.get(key.name).is_some() || entry.name.span.source() != self.at.source() {
             return None;
         }
         let line = format!("{} = {}", key.name, raw(entry.node.span, context));
         let place = insertion(self.at, &line, context).or_else(|| self.header_above(&line, context))?;
-        Some([(removal(whole(entry), context)?, String::new()), place])
+        Some([(removal(whole(entry)?, context)?, String::new()), place])
     }
 
     /// Returns an edit that inserts a new header for this table, with `line` below it, above the header of the inner table. `None` if the
     /// table has a header.
     fn header_above(&self, line: &str, context: &Context<'_>) -> Option<(Span, String)> {
-        let text = &context.sources.get(self.at.source).text;
+        let text = &context.sources.get(self.at.source()).text;
         header_end(self.at, context)?;
         let has_header = text.lines().any(|line| line.trim_start().starts_with(self.path));
-        let start = text[..self.at.start].rfind('\n').map_or(0, |newline| newline + 1);
-        let place = Span { start, end: start, ..self.at };
+        let place = self.at.place_before(context.sources.line_before(self.at).len());
         (!has_header).then(|| (place, format!("{}\n{line}\n\n", self.path)))
     }
 }

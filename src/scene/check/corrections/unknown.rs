@@ -6,7 +6,7 @@ use super::nameless::view;
 use super::text::{header_end, raw, removal, whole, whole_line};
 use super::way::{key_in_other_table, way};
 use super::{joint, not_built};
-use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::{Rule, TableSpec, quoted};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::units;
@@ -34,7 +34,7 @@ pub(in crate::scene::check) fn unknown(
             "not built yet".to_owned()
         };
         let error = error.at(entry.name.span, label).help(thing.help);
-        let line = removal(whole(entry), context).filter(|_| thing.is_removable);
+        let line = whole(entry).and_then(|it| removal(it, context)).filter(|_| thing.is_removable);
         return (line.into_iter().fold(error, |error, line| error.fix(line, "")), None);
     }
     if let Some(edits) = view(entry, spec, context) {
@@ -77,12 +77,12 @@ fn corrected(
         Some(_) if way.len() == 1 && header_end(entry.name.span, context).is_none() => error,
         Some(_) if way.len() == 1 => error.fix(entry.name.span, way[0]).fix_is_said(),
         Some(first) => {
-            let line = whole_line(whole(entry), context);
+            let line = whole(entry).and_then(|it| whole_line(it, context));
             match (&first.node.value, header_end(first.name.span, context), line) {
                 // The table `first` has its own header: insert the key below that header.
                 (Value::Table(_), Some(end), Some(line)) => {
                     let text = format!("\n{} = {}", way[1..].join("."), raw(entry.node.span, context));
-                    error.fix(line, "").fix(Span { start: end, end, ..line }, text)
+                    error.fix(line, "").fix(end, text)
                 }
                 // This fix only replaces the key. `correct_word` handles the word that names the shape.
                 (Value::String(_), ..) if way[0] == "shape" => {

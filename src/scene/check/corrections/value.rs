@@ -50,7 +50,8 @@ fn numbers_of_a_color(
 ) -> Option<(Span, String)> {
     let Value::Array(items) = &node.value else { return None };
     let is_material = kind.names(Collection::Material) && items.len() == 3;
-    is_material.then(|| (whole(entry), format!("{}.color = {}", entry.name.text, raw(node.span, context))))
+    is_material
+        .then(|| Some((whole(entry)?, format!("{}.color = {}", entry.name.text, raw(node.span, context)))))?
 }
 
 /// Corrects the name of a body in the camera's `look_at`. Returns the span of the entry, and a line that makes the camera follow this
@@ -58,7 +59,7 @@ fn numbers_of_a_color(
 fn body_to_look_at(node: &Node, entry: &Entry, context: &Context<'_>) -> Option<(Span, String)> {
     let name = node.as_str().filter(|name| context.names.bodies.contains_key(*name))?;
     let is_it = &*entry.name.text == "look_at" && !name.contains(['"', '\\']);
-    is_it.then(|| (whole(entry), format!("follow.body = \"{name}\"")))
+    is_it.then(|| Some((whole(entry)?, format!("follow.body = \"{name}\""))))?
 }
 
 /// Corrects the name of a file where a body's motion is expected. Returns the span of the entry, and a line that reads the trajectory from
@@ -69,7 +70,7 @@ fn file_of_a_motion(node: &Node, entry: &Entry, context: &Context<'_>) -> Option
         [".csv", ".txt", ".dat"].iter().any(|end| name.ends_with(end))
     };
     let is_it = &*entry.name.text == "motion" && node.as_str().is_some_and(is_file);
-    is_it.then(|| (whole(entry), format!("motion.trajectory.file = {}", raw(node.span, context))))
+    is_it.then(|| Some((whole(entry)?, format!("motion.trajectory.file = {}", raw(node.span, context)))))?
 }
 
 /// Reads `count` whole numbers from a text such as `1920x1080`, and returns them as a TOML list.
@@ -89,9 +90,12 @@ pub(in crate::scene::check) fn color_for_material(
 ) -> Diagnostic {
     let Some(entry) = entry.filter(|_| Color::parse(word).is_some()) else { return error };
     let text = format!("{}.color = \"{word}\"", entry.name.text);
-    Diagnostic { labels: Vec::new(), help: None, ..error }
-        .at(node.span, format!("`{word}` is a color, which is one key of a material"))
-        .fix(whole(entry), text)
+    let error = Diagnostic { labels: Vec::new(), help: None, ..error }
+        .at(node.span, format!("`{word}` is a color, which is one key of a material"));
+    match whole(entry) {
+        Some(whole) => error.fix(whole, text),
+        None => error,
+    }
 }
 
 /// Returns the TOML text of a value of the right type that the user probably meant. `None` if there is no good guess.
@@ -129,9 +133,7 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
             numbers_of(text, *min)
         }
         (Kind::Number(_) | Kind::Timed(_), Value::Array(items)) => match items.as_slice() {
-            [only] => {
-                Some(raw.get(only.span.start - node.span.start..only.span.end - node.span.start)?.to_owned())
-            }
+            [only] => Some(super::text::raw(only.span, context).to_owned()),
             _ => None,
         },
         (Kind::Boolean, Value::String(text)) => match text.to_lowercase().as_str() {

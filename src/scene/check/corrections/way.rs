@@ -104,14 +104,14 @@ pub(super) fn key_in_other_table(
     let is_number = entry.node.as_number().is_some();
     key_at(&way, &SCENE).filter(|key| is_number || key.kind.takes(&entry.node.value))?;
     let path = way.join(".");
-    let line = removal(whole(entry), context);
+    let line = whole(entry).and_then(|it| removal(it, context));
     let value = raw(entry.node.span, context);
     let place = match context.tables.get(*table) {
-        Some(at) if at.source == entry.name.span.source => {
+        Some(at) if at.source() == entry.name.span.source() => {
             insertion(*at, &format!("{key} = {value}"), context)
         }
         Some(_) => None,
-        None => Some((Span { start: 0, end: 0, ..entry.name.span }, format!("{path} = {value}\n"))),
+        None => Some((entry.name.span.top_of_text(), format!("{path} = {value}\n"))),
     };
     let fix = line.zip(place).map_or(Vec::new(), |(line, place)| vec![(line, String::new()), place]);
     Some((path, fix))

@@ -67,7 +67,7 @@ impl Reader<'_, '_> {
     fn say_of_formula(&mut self, formula: &BodyFormula, error: ExpressionError, message: String) {
         let span = formula.span();
         let sources = &self.context.sources;
-        let raw = sources.get(span.source).text.get(span.start..span.end).unwrap_or_default();
+        let raw = sources.raw(span);
         let place = in_string(raw, formula.text(), &error.range, span);
         let help = error.help;
         self.report(error.code, span, || {

@@ -210,7 +210,7 @@ impl Reader<'_, '_, '_> {
 
     /// Adds a fix that replaces a word of `length` bytes. In an escaped string, the span is the whole string, and no fix is added.
     pub(super) fn corrected(&self, error: Diagnostic, at: Span, word: &str, length: usize) -> Diagnostic {
-        if at.end - at.start == length { error.fix(at, word).fix_is_said() } else { error }
+        if at.len() == length { error.fix(at, word).fix_is_said() } else { error }
     }
 }
 

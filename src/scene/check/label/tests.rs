@@ -26,7 +26,7 @@ fn a_letter_of_several_bytes_before_a_measure_is_an_error_at_its_place() {
         let [error] = report.diagnostics.as_slice() else { panic!("{text}: {report}") };
         assert_eq!(error.message, format!("`{letter}` is no part of a formula"), "{text}");
         let span = error.span().unwrap();
-        assert_eq!(report.sources.position(span.source, span.start).column, column, "{text}: {report}");
+        assert_eq!(report.sources.start(span).column, column, "{text}: {report}");
     }
 }
 
