@@ -69,6 +69,7 @@ codes! {
     CsvOrder = "csv-order",
     CsvSyntax = "csv-syntax",
     CsvUnit = "csv-unit",
+    CsvVelocity = "csv-velocity",
     CurveWithoutLength = "curve-without-length",
     CyclicInclude = "cyclic-include",
     CyclicVariables = "cyclic-variables",

@@ -289,6 +289,26 @@ fn by_trajectory(
         keys.iter_mut().for_each(|key| key.orientation = orientation);
     }
     let (presence, gaps) = presence::of_rows(&keys, &recording.times, simulation);
+    if interpolation == Interpolation::Cubic
+        && let Some(node) = view.raw("file")
+    {
+        let asset = asset::asset(node, context.folder, context.trust).ok()?;
+        let is_named = recording.rows.contains_key(&Some(wanted.to_owned()));
+        let origin = trajectory::Origin {
+            path: &asset.path,
+            name: node.as_str().unwrap_or_default(),
+            columns: &Columns::read(&view.table("columns")),
+            body: is_named.then_some(wanted),
+            at: span,
+        };
+        let error = trajectory::contradiction(&keys, &gaps, recording.is_turned, &origin, context);
+        if let Some(error) = error {
+            if context.reported.insert((Code::CsvVelocity, span)) {
+                context.diagnostics.push(error);
+            }
+            return None;
+        }
+    }
     let track = Arc::new(Track::with_gaps(keys, &gaps, interpolation, false));
     context.tracks.insert(same, (track.clone(), presence.clone()));
     Some((BodyMotion::Track(track), presence))
@@ -309,6 +329,16 @@ fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<A
     let node = view.raw("file")?;
     // An error in the path has already been reported.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
-    let columns = Columns::read(&view.table("columns"));
+    let table = view.table("columns");
+    for key in ["velocity", "angular_velocity"] {
+        let names = table.list(key).map_or(0, <[_]>::len);
+        if let (1 | 2, Some(at)) = (names, table.span(key)) {
+            let message = format!("`{key}` needs 3 columns, or none");
+            let help = format!("`{key} = []` leaves them out");
+            context.diagnostics.push(Diagnostic::error(Code::CsvColumn, message).at(at, "").help(help));
+            return None;
+        }
+    }
+    let columns = Columns::read(&table);
     trajectory::read(&path, node.as_str().unwrap_or_default(), &columns, span, context)
 }

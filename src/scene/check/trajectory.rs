@@ -3,6 +3,7 @@
 mod columns;
 mod fields;
 mod rows;
+mod velocities;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -10,12 +11,16 @@ use std::sync::Arc;
 
 pub(super) use columns::Columns;
 
+use self::fields::Fields;
 use self::rows::{Reader, Wrong};
+use self::velocities::Contradiction;
 use super::Context;
+use super::read::figure;
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::dynamics::Keyframe;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
+use crate::scene::units;
 
 /// The maximum size of a trajectory file, in bytes: enough for some millions of rows.
 const MOST_BYTES: u64 = 256 << 20;
@@ -75,6 +80,66 @@ pub(super) fn read(
     };
     context.recordings.insert(key, recording.clone());
     recording
+}
+
+/// The file of a motion, for errors: its path, its name in the scene, the names of its columns, and the body's name in it.
+pub(super) struct Origin<'a> {
+    pub(super) path: &'a Path,
+    pub(super) name: &'a str,
+    pub(super) columns: &'a Columns,
+    pub(super) body: Option<&'a str>,
+    /// The place in the scene that names the file.
+    pub(super) at: Span,
+}
+
+/// Returns an error if the velocity columns of a body contradict its places or its orientations. `gaps` holds the index of the row after
+/// each gap, and `is_turned` tells whether the file has orientations.
+pub(super) fn contradiction(
+    keys: &[Keyframe],
+    gaps: &[usize],
+    is_turned: bool,
+    origin: &Origin<'_>,
+    context: &mut Context<'_>,
+) -> Option<Diagnostic> {
+    let columns = origin.columns;
+    let of_orientations = || is_turned.then(|| velocities::of_orientations(keys, gaps)).flatten();
+    let (found, names, key, of, what) = match velocities::of_places(keys, gaps) {
+        Some(found) => (found, &columns.velocity, "velocity", columns::VELOCITY, "the places change"),
+        None => {
+            let what = "the orientations change";
+            (of_orientations()?, &columns.angular_velocity, "angular_velocity", columns::TURNING, what)
+        }
+    };
+    let Contradiction { row, axis, column, rows, factor } = found;
+    let (column, rows) = (figure(rounded(column)), figure(rounded(rows)));
+    let name = names.get(axis)?;
+    let time = figure(rounded(keys.get(row)?.time));
+    let message = format!("the velocities contradict the rows: `{name}` is {column} {of} at t = {time} s");
+    let label = format!("{what} by {rows} {of} here");
+    // The unit that would explain the difference.
+    let is_it = |unit: &&str| {
+        units::factor(unit, of).is_some_and(|known| factor > 0.0 && (0.8..1.25).contains(&(factor * known)))
+    };
+    let unit = units::usual(of).into_iter().find(is_it);
+    let unit = unit.map_or_else(
+        || "its unit in the header".to_owned(),
+        |unit| format!("`{name} [{unit}]` in the header"),
+    );
+    let help = format!(
+        "if the column has another unit, write {unit}; or leave it out: `motion.trajectory.columns.{key} = []`"
+    );
+    let text = file::read_text(origin.path, MOST_BYTES).unwrap_or_default();
+    let field = Fields::new(&text).find(columns, origin.body, row, name);
+    let place = match field {
+        Some(field) => Span::new(context.sources.add(origin.name, text.as_str()), field),
+        None => origin.at,
+    };
+    Some(Diagnostic::error(Code::CsvVelocity, message).at(place, label).help(help))
+}
+
+/// Rounds a number to four digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
 }
 
 /// Returns the error for a recording that has no rows of the given body.

@@ -134,6 +134,8 @@ static TRAJECTORY: TableSpec = TableSpec {
 
 const NAMES: Kind = List { of: &Text, min: 3, max: 3 };
 
+const NAMES_OR_NONE: Kind = List { of: &Text, min: 0, max: 3 };
+
 static COLUMNS: TableSpec = TableSpec {
     noun: "names of columns",
     rule: Rule::Any,
@@ -148,12 +150,16 @@ static COLUMNS: TableSpec = TableSpec {
             "The columns of its orientation, a quaternion",
         )
         .default("[\"qx\", \"qy\", \"qz\", \"qw\"], if present"),
-        KeySpec::new("velocity", NAMES, "The columns of its velocity, for cubic interpolation")
-            .default("[\"vx\", \"vy\", \"vz\"], if present"),
+        KeySpec::new(
+            "velocity",
+            NAMES_OR_NONE,
+            "The columns of its velocity, for cubic interpolation; `[]`: none",
+        )
+        .default("[\"vx\", \"vy\", \"vz\"], if present"),
         KeySpec::new(
             "angular_velocity",
-            NAMES,
-            "The columns of its angular velocity, for cubic interpolation",
+            NAMES_OR_NONE,
+            "The columns of its angular velocity, for cubic interpolation; `[]`: none",
         )
         .default("[\"wx\", \"wy\", \"wz\"], if present"),
     ],

@@ -154,7 +154,7 @@ fn without_names(header: &StringRecord) -> Option<(&'static str, &'static str)> 
 }
 
 /// Splits a header field such as `x [m]` or `x (m)` into the name and the unit. The unit is empty if the field has none.
-fn unit_of(field: &str) -> (&str, &str) {
+pub(super) fn unit_of(field: &str) -> (&str, &str) {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((stem, unit)) = field.strip_suffix(close).and_then(|field| field.rsplit_once(open)) {
             return (stem.trim(), unit.trim());

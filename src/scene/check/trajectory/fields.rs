@@ -2,6 +2,10 @@
 
 use std::ops::Range;
 
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use super::columns::{Columns, unit_of};
+
 /// The text of a CSV file, in which byte ranges of fields can be found.
 pub(super) struct Fields<'a> {
     pub(super) text: &'a str,
@@ -12,6 +16,39 @@ pub(super) struct Fields<'a> {
 impl<'a> Fields<'a> {
     pub(super) fn new(text: &'a str) -> Fields<'a> {
         Fields { text, delimiter: delimiter(text) }
+    }
+
+    /// Returns a reader of the rows.
+    pub(super) fn reader(&self) -> csv::Reader<&'a [u8]> {
+        ReaderBuilder::new()
+            .delimiter(self.delimiter)
+            .comment(Some(b'#'))
+            .trim(Trim::All)
+            .flexible(true)
+            .from_reader(self.text.as_bytes())
+    }
+
+    /// Returns the byte range of the field in the column called `name`, in the row with this index among the rows of a body. `None` if the
+    /// text has no such field.
+    pub(super) fn find(
+        &self,
+        columns: &Columns,
+        body: Option<&str>,
+        row: usize,
+        name: &str,
+    ) -> Option<Range<usize>> {
+        let mut csv = self.reader();
+        let header = csv.headers().ok()?.clone();
+        let called = |name: &str| {
+            let is_it =
+                |field: &str| field.eq_ignore_ascii_case(name) || unit_of(field).0.eq_ignore_ascii_case(name);
+            header.iter().position(is_it)
+        };
+        let (column, of_body) = (called(name)?, called(&columns.body));
+        let is_own = |record: &StringRecord| of_body.and_then(|of_body| record.get(of_body)) == body;
+        let record = csv.into_records().filter_map(Result::ok).filter(is_own).nth(row)?;
+        let start = usize::try_from(record.position()?.byte()).ok()?;
+        Some(self.field(start, column))
     }
 
     /// Returns the byte range of the first line at or after the byte `start` that is neither empty nor a comment.

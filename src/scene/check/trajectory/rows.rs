@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::StringRecord;
 use glam::{DQuat, DVec3};
 
 use super::Recording;
@@ -37,12 +37,7 @@ impl<'a> Reader<'a> {
     /// Reads the rows of the file. Returns `None` and collects errors if the file has mistakes.
     pub(super) fn read(&mut self, columns: &Columns) -> Option<Recording> {
         let text = self.fields.text;
-        let mut csv = ReaderBuilder::new()
-            .delimiter(self.fields.delimiter)
-            .comment(Some(b'#'))
-            .trim(Trim::All)
-            .flexible(true)
-            .from_reader(text.as_bytes());
+        let mut csv = self.fields.reader();
         let header = match csv.headers() {
             Ok(header) => header.clone(),
             Err(error) => {
@@ -58,8 +53,8 @@ impl<'a> Reader<'a> {
         }
         let location = self.columns(&header, start, &columns.location, LENGTH, true);
         let orientation = self.columns(&header, start, &columns.orientation, RATIO, columns.given[1]);
-        let velocity = self.columns(&header, start, &columns.velocity, VELOCITY, columns.given[2]);
-        let turning = self.columns(&header, start, &columns.angular_velocity, TURNING, columns.given[3]);
+        let velocity = self.vector(&header, start, &columns.velocity, VELOCITY, columns.given[2]);
+        let turning = self.vector(&header, start, &columns.angular_velocity, TURNING, columns.given[3]);
         let (Some(time), Some(location)) = (time, location) else { return None };
         if !self.wrong.is_empty() {
             return None;
@@ -126,6 +121,18 @@ impl<'a> Reader<'a> {
         recording.times.sort_unstable_by(f64::total_cmp);
         recording.times.dedup();
         self.wrong.is_empty().then_some(recording)
+    }
+
+    /// Finds the columns of a vector that a file may lack. Without names, it is left out.
+    fn vector(
+        &mut self,
+        header: &StringRecord,
+        start: usize,
+        names: &[String],
+        of: &str,
+        needed: bool,
+    ) -> Option<Vec<Column>> {
+        if names.is_empty() { None } else { self.columns(header, start, names, of, needed) }
     }
 
     fn number(&mut self, record: &StringRecord, start: usize, (column, factor): Column) -> Option<f64> {
