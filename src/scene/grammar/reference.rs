@@ -364,7 +364,8 @@ others, for example by springs, and the work of its drive is booked. Its own kin
 
 A `motion.trajectory` is a CSV file with a row for each time and body. Its columns are `t` (or `time`), `body`, `x`, `y`, `z`, and optionally
 `qx`, `qy`, `qz`, `qw` (a quaternion), `vx`, `vy`, `vz` and `wx`, `wy`, `wz` (in world axes). Units stand in brackets: `x [cm]`. `jabuka export`
-writes the same table. So you can draw a run with other bodies, or draw the run of another program with jabuka.
+writes the same table. So you can draw a run with other bodies, or draw the run of another program with jabuka. If the velocities contradict the
+places, as in another unit, it is an error; `columns.velocity = []` leaves them out.
 ";
 
 /// The documentation section on labels, up to the generated list of quantities.
