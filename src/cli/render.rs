@@ -143,7 +143,10 @@ fn write_scripts(
         if folders.is_empty() {
             terminal::report(&Report { diagnostics: warnings, ..Report::default() });
         }
-        folders.push((folder, drift.map(|(drift, scale)| summary::drift(drift, scale)).unwrap_or_default()));
+        folders.push((
+            folder,
+            drift.map(|(drift, scale)| summary::drift(drift, scale, scene)).unwrap_or_default(),
+        ));
     }
     progress.finish();
     Ok(folders)

@@ -66,7 +66,7 @@ pub(super) fn summary(
             format!("{} s, {} a frame", short(survey.timestep), survey.steps_per_frame)
         },
         method = scene.simulation.method.name,
-        drift = drift(survey.drift, survey.drift_scale),
+        drift = drift(survey.drift, survey.drift_scale, scene),
         contacts = survey
             .contacts
             .zip(scene.simulation.contacts)
@@ -87,8 +87,9 @@ fn particles(scene: &Scene) -> String {
 }
 
 /// Returns the line with the energy error of a run. `drift` is a fraction of the energy that `scale` names.
-pub(super) fn drift(drift: f64, scale: EnergyScale) -> String {
-    format!("drift     {} of the {}\n", percent(drift), scale.name())
+pub(super) fn drift(drift: f64, scale: EnergyScale, scene: &Scene) -> String {
+    let tree = if scene.has_tree() { ", with the potential of the tree" } else { "" };
+    format!("drift     {} of the {}{tree}\n", percent(drift), scale.name())
 }
 
 /// Returns the line that suggests `jabuka report`, with the user's settings. Empty if the energy drift is small.

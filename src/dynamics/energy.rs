@@ -8,13 +8,16 @@ use super::{Accounts, Model, State};
 /// The energies and momenta of all bodies at one moment, and the drift of the energy.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Balance {
-    /// The kinetic energy of translation and rotation, Σ ½ m v² + ½ L·ω, J.
+    /// The kinetic energy of translation and rotation of the bodies that forces move, Σ ½ m v² + ½ L·ω, J.
     pub kinetic: f64,
+    /// The kinetic energy of the bodies with a given motion, J. Their guides do the work for it, so neither the total nor the drift counts
+    /// it.
+    pub given_kinetic: f64,
     /// The potential energy of all forces that have one, J.
     pub potential: f64,
     /// The energy that forces without a potential, impacts and motors have brought in so far, J, one entry for each account.
     pub accounts: Accounts,
-    /// The sum of the kinetic and the potential energy, J.
+    /// The sum of the kinetic energy of the bodies that forces move and the potential energy, J.
     pub total: f64,
     /// The total linear momentum Σ m v, world axes, kg m/s.
     pub linear_momentum: DVec3,
@@ -81,6 +84,7 @@ impl EnergyLedger {
     #[must_use]
     pub fn peek(&self, model: &Model, time: f64, state: &State) -> Balance {
         let kinetic = kinetic(model, state);
+        let given_kinetic = kinetic_of(model, state, model.guided().map(|(body, _)| body));
         let potential = model.potential(time, state);
         let total = kinetic + potential;
         let accounts = state.accounts;
@@ -88,7 +92,31 @@ impl EnergyLedger {
         let error = total - self.brought_in - accounts.total();
         let drift = if largest_kinetic > 0.0 { error / largest_kinetic } else { 0.0 };
         let (linear_momentum, angular_momentum) = momenta(model, state);
-        Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, error, drift }
+        Balance {
+            kinetic,
+            given_kinetic,
+            potential,
+            accounts,
+            total,
+            linear_momentum,
+            angular_momentum,
+            error,
+            drift,
+        }
+    }
+}
+
+impl Balance {
+    /// The kinetic energy of all bodies, those with a given motion included, J.
+    #[must_use]
+    pub fn kinetic_of_all(&self) -> f64 {
+        self.kinetic + self.given_kinetic
+    }
+
+    /// The sum of the kinetic and the potential energy of all bodies, those with a given motion included, J.
+    #[must_use]
+    pub fn total_of_all(&self) -> f64 {
+        self.total + self.given_kinetic
     }
 }
 
@@ -109,8 +137,12 @@ pub(super) fn mechanical(model: &Model, time: f64, state: &State) -> f64 {
 }
 
 fn kinetic(model: &Model, state: &State) -> f64 {
+    kinetic_of(model, state, free(model))
+}
+
+fn kinetic_of(model: &Model, state: &State, bodies: impl Iterator<Item = usize>) -> f64 {
     let mut twice = 0.0;
-    for i in free(model) {
+    for i in bodies {
         let mass = model.mass()[i];
         twice += mass * state.velocity[i].length_squared();
         twice += state.angular_momentum[i].dot(model.angular_velocity(i, state));

@@ -13,6 +13,9 @@ pub struct Snapshot {
     pub bodies: Vec<BodySnapshot>,
     /// The reaction of each constraint, in the order in which the constraints were added.
     pub reactions: Vec<Reaction>,
+    /// The angle of each joint, counted through full turns, rad; 0 for a joint without an angle. Empty if nobody counts them: a single
+    /// snapshot does not show how often a joint has turned.
+    pub angles: Vec<f64>,
     /// The lasting contacts of bodies, in the order of the bodies' ids.
     pub contacts: Vec<ContactSnapshot>,
     /// The largest penetration depth of two bodies, m; 0 if no bodies touch, or if the engine lets no bodies penetrate each other.

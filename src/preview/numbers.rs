@@ -43,13 +43,13 @@ pub(super) fn poses(
 }
 
 /// Appends the energy and momentum balance of a frame: the time; kinetic, potential and total energy; the total energy that influences
-/// without a potential have brought in; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without
+/// without a potential have brought in, with that of given motions; the energy drift; linear momentum; angular momentum; the number of impacts, which is NaN without
 /// contacts.
 pub(super) fn put_balance(bytes: &mut Vec<u8>, time: f64, balance: &Balance, impacts: f64) {
-    let Balance { kinetic, potential, accounts, total, linear_momentum, angular_momentum, drift, .. } =
+    let Balance { given_kinetic, potential, accounts, linear_momentum, angular_momentum, drift, .. } =
         balance;
-    put(bytes, &[time, *kinetic, *potential, *total]);
-    put(bytes, &[accounts.total(), *drift]);
+    put(bytes, &[time, balance.kinetic_of_all(), *potential, balance.total_of_all()]);
+    put(bytes, &[accounts.total() + given_kinetic, *drift]);
     put(bytes, &linear_momentum.to_array());
     put(bytes, &angular_momentum.to_array());
     put(bytes, &[impacts]);

@@ -6,6 +6,7 @@ use super::Stopped;
 use super::lockstep::{ComparedRun, Ended, Watch, together};
 use super::measure::{ComparedBodies, Distance, union};
 use super::neighbours::displaced;
+use super::other_scheme::{Apart, Other};
 use super::setting::Setting;
 use crate::dynamics::{Accounts, Snapshot};
 use crate::scene::Scene;
@@ -55,6 +56,8 @@ pub(super) struct Compared {
     pub(super) drift_at_half: f64,
     /// The largest distance between a point of a body in the run at half the timestep and the same point in the run at a quarter of it, m.
     pub(super) off_at_half: f64,
+    /// The distances between the run and the same run under the other contact law.
+    pub(super) other: Apart,
 }
 
 /// The largest differences of a body between the run and the run at half the timestep, the time of the largest one (s), and the length of
@@ -76,11 +79,12 @@ struct Seen {
 }
 
 /// Simulates four runs side by side, and compares them frame by frame: the scene's run, the run at half and at a quarter of its timestep,
-/// and a run from a slightly different start (its twin).
+/// and a run from a slightly different start (its twin). With contacts, also the runs under the `other` contact law.
 pub(super) fn compare(
     scene: &Scene,
     own: Setting,
     measured: &ComparedBodies,
+    other: Option<&Other>,
     watch: &mut Watch<'_>,
 ) -> Result<Compared, Stopped> {
     let settings = [own, own.finer(2), own.finer(4)];
@@ -91,6 +95,7 @@ pub(super) fn compare(
     let costs = settings.iter().chain([&own]).map(|setting| setting.cost(scene) / frames as f64);
     let mut runs: Vec<ComparedRun<'_>> =
         scenes.iter().zip(costs).map(|(scene, cost)| ComparedRun::new(scene, cost)).collect();
+    runs.extend(other.iter().flat_map(|other| other.runs()));
     let mut found =
         Compared { bodies: vec![Deviation::default(); measured.bodies.len()], ..Compared::default() };
     let mut seen = Seen {
@@ -104,14 +109,16 @@ pub(super) fn compare(
     found.size = seen.boxes.iter().flatten().last().map_or(0.0, size);
     found.drift_at_half = seen.energy_at_half.drift(scene.simulation.contacts);
     found.steps = [0, 1, 2].map(|run| runs[run].steps());
+    found.other.is_long = runs[4..].iter().any(|run| run.is_long);
     let mut ended = runs.into_iter().map(|run| run.ended);
     found.ended = std::array::from_fn(|_| ended.next().flatten());
+    found.other.ended = ended.flatten().next();
     Ok(found)
 }
 
 impl Compared {
     fn see(&mut self, measured: &ComparedBodies, seen: &mut Seen, moments: &[Option<Snapshot>]) {
-        let [run, half, quarter, twin] = moments else { return };
+        let [run, half, quarter, twin, others @ ..] = moments else { return };
         for (kept, moment) in seen.boxes.iter_mut().zip([run, half, quarter]) {
             let here = moment.as_ref().and_then(|moment| measured.around(moment));
             // The box never shrinks. A finer run that breaks down early has only a part of the motion in its box.
@@ -146,6 +153,7 @@ impl Compared {
                 self.off_at_half = self.off_at_half.max(fine.1);
             }
         }
+        self.other.see(measured, run, others);
         moment.apart = twin.as_ref().map(|twin| apart(measured, [run, twin]));
         self.moments.push(moment);
     }

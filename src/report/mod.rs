@@ -7,6 +7,7 @@
 //! | several runs side by side, frame by frame | `lockstep` |
 //! | the distance between two runs at one time | `measure` |
 //! | the run, the run at half and at a quarter of its timestep, and the twin | `compare` |
+//! | the run under the other contact law | `other_scheme` |
 //! | error, order, momenta, the time until which the film is accurate | `verdict` |
 //! | the rate at which neighboring runs separate | `neighbours` |
 //! | the timestep and method that reach an accuracy | `trials` |
@@ -21,6 +22,7 @@ mod influence;
 mod lockstep;
 mod measure;
 mod neighbours;
+mod other_scheme;
 pub mod plot;
 mod setting;
 #[cfg(test)]
@@ -32,6 +34,7 @@ mod verdict;
 use serde::Serialize;
 
 use self::measure::ComparedBodies;
+use self::other_scheme::Other;
 use self::setting::Setting;
 use self::trials::Goal;
 use self::verdict::Verdict;
@@ -39,6 +42,7 @@ use crate::scene::Scene;
 
 pub use lockstep::{Ended, Watch};
 pub use neighbours::Separation;
+pub use other_scheme::{Agreement, OtherScheme};
 pub use trials::{Trial, Untested};
 pub use verdict::{AccurateUntil, BodyError, Conserved, Order};
 
@@ -72,12 +76,15 @@ pub struct Assessment {
     pub accuracy: f64,
     /// The results of the tested methods and timesteps.
     pub trials: Vec<Trial>,
-    /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it.
+    /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it, or
+    /// if the two contact laws give different motions.
     pub recommended: Option<usize>,
     /// The methods that were not tested, or not at timesteps as small as necessary, with the reasons.
     pub untried: Vec<Untested>,
     /// True if the scene has particles. Their errors are not measured.
     pub has_particles: bool,
+    /// True if a force is computed with a tree of bodies. The energy and its drift are then those of the tree's potential.
+    pub has_tree: bool,
 }
 
 /// The phase of an assessment, for progress bars.
@@ -114,16 +121,18 @@ pub fn assess(
         recommended: None,
         untried: Vec::new(),
         has_particles: !scene.emitters.is_empty(),
+        has_tree: scene.has_tree(),
     };
     if measured.bodies.is_empty() || scene.simulation.frames() < 2 {
         return Ok(assessment);
     }
-    let (mut done, all) = (0.0, 8.0 * own.cost(scene));
-    let compared = compare::compare(scene, own, &measured, &mut |cost| {
+    let other = Other::of(scene, &measured);
+    let (mut done, all) = (0.0, 8.0 * own.cost(scene) + other.as_ref().map_or(0.0, Other::cost));
+    let compared = compare::compare(scene, own, &measured, other.as_ref(), &mut |cost| {
         done += cost;
         watch(Phase::Comparing, (done / all).min(1.0))
     })?;
-    let verdict = Verdict::of(scene, own, &measured, &compared, accuracy);
+    let verdict = Verdict::of(scene, own, &measured, (&compared, other.as_ref()), accuracy);
     let size = if verdict.knows_the_size() { verdict.size } else { 0.0 };
     let goal = Goal { scene, measured: &measured, own, accuracy, order: verdict.order, size };
     let (mut done, all) = (0.0, goal.budget());
@@ -131,7 +140,9 @@ pub fn assess(
         done += cost;
         watch(Phase::Trying, (done / all).min(1.0))
     })?;
-    assessment.recommended = trials::cheapest(&trials.tried);
+    let is_contradicted =
+        verdict.other_scheme.as_ref().is_some_and(|other| other.contradicts(accuracy * verdict.size));
+    assessment.recommended = trials::cheapest(&trials.tried).filter(|_| !is_contradicted);
     assessment.verdict = Some(verdict);
     assessment.trials = trials.tried;
     assessment.untried = trials.untried;

@@ -162,9 +162,87 @@ fn a_momentum_that_the_forces_do_not_conserve_drifts() {
                 [body.star]\nrepeat = 60\nshape.sphere.radius = 0.01\nmass = 1\n\
                 location = ['uniform(-1, 1)', 'uniform(-1, 1)', 'uniform(-1, 1)']\n\
                 [force.g.gravitation]\nconstant = 0.01\nsoftening = 0.2\nopening_angle = 1\n";
-    let (_, cluster) = assessed(&scene(text), 1e-3);
+    let (assessment, cluster) = assessed(&scene(text), 1e-3);
+    // The drift does not show errors of the tree, since it is measured with the tree's own potential.
+    assert!(assessment.to_text("s.toml").contains("energy, with the potential of the tree\n"));
     let Conserved::Kept { drift } = cluster.linear_momentum else { panic!("{:?}", cluster.linear_momentum) };
     assert!(drift > 1e-9 && drift < 0.1, "{drift}");
+}
+
+/// A ball hits two others that touch, all equal and elastic. The last one leaves with the whole velocity, and the others rest.
+#[cfg(feature = "time-stepping")]
+fn three_balls(contacts: &str) -> Scene {
+    let ball = "shape.sphere.radius = 0.1\nmass = 1\nrestitution = 1\nlocation";
+    scene(&format!(
+        "simulation = {{ duration = 1, frame_rate = 50, contacts = '{contacts}' }}\nenvironment.ground = false\n\
+         [body.a]\n{ball} = [-0.5, 0, 0]\nvelocity = [1, 0, 0]\n\
+         [body.b]\n{ball} = [0, 0, 0]\n[body.c]\n{ball} = [0.2, 0, 0]\n"
+    ))
+}
+
+/// Time stepping shares the velocity among balls that touch, at every timestep. Only the other scheme shows that this is wrong.
+#[cfg(feature = "time-stepping")]
+#[test]
+fn runs_that_share_a_mistake_converge_but_are_not_called_good() {
+    let last = |time: f64| DVec3::X * (0.2 + (time - 0.3).max(0.0));
+    let stepped = three_balls("time-stepping");
+    let (assessment, verdict) = assessed(&stepped, 1e-2);
+    let true_one = true_error(&stepped, 2, last);
+    assert!(true_one > 10.0 * verdict.error && true_one > 0.1, "{true_one} {}", verdict.error);
+    let Some(OtherScheme::Run { contacts, distance, agreement, .. }) = &verdict.other_scheme else {
+        panic!("{:?}", verdict.other_scheme)
+    };
+    assert_eq!((*contacts, *agreement), ("event-driven", Agreement::Parted));
+    assert!(*distance > true_one - verdict.error, "{distance} {true_one}");
+    let said = assessment.to_text("s.toml");
+    assert!(!said.contains("good") && !said.contains("is off by") && said.contains("is wrong"), "{said}");
+    assert_eq!(assessment.recommended, None);
+
+    let exact = three_balls("event-driven");
+    let (assessment, verdict) = assessed(&exact, 1e-2);
+    assert!(true_error(&exact, 2, last) < 1e-12);
+    let said = assessment.to_text("s.toml");
+    assert!(!said.contains("good") && verdict.other_scheme.unwrap().contradicts(0.1), "{said}");
+}
+
+/// A block slides to rest over v²/2µg. Both schemes find this place, each within its own error.
+#[cfg(feature = "time-stepping")]
+#[test]
+fn what_the_errors_of_both_schemes_explain_is_no_contradiction() {
+    let slides = |contacts: &str| {
+        let integrator = if contacts == "event-driven" { "velocity-verlet" } else { "euler-cromer" };
+        scene(&format!(
+            "simulation = {{ duration = 1, frame_rate = 50, gravity = [0, -9.81, 0], contacts = '{contacts}', \
+             integrator = '{integrator}' }}\n\
+             [body.a]\nshape.box.size = [0.4, 0.2, 0.4]\nmass = 1\nlocation = [0, 0.1, 0]\nvelocity = [2, 0, 0]\n\
+             friction = 0.4\n"
+        ))
+    };
+    let place = |time: f64| {
+        let time = time.min(2.0 / (0.4 * 9.81));
+        DVec3::new(2.0 * time - 0.2 * 9.81 * time * time, 0.1, 0.0)
+    };
+    for (contacts, sure) in [("event-driven", 1e-9), ("time-stepping", 0.02)] {
+        let scene = slides(contacts);
+        let (assessment, verdict) = assessed(&scene, 1e-3);
+        let true_one = true_error(&scene, 0, place);
+        assert!(true_one < sure, "{contacts}: {true_one}");
+        let Some(OtherScheme::Run { agreement, distance, .. }) = verdict.other_scheme else {
+            panic!("{:?}", verdict.other_scheme)
+        };
+        assert!(agreement != Agreement::Parted && distance < 0.02, "{contacts}: {agreement:?} {distance}");
+        assert!(assessment.recommended.is_some(), "{}", assessment.to_text("s.toml"));
+    }
+}
+
+#[test]
+fn where_the_other_scheme_is_not_run_the_reason_is_said() {
+    let text = "simulation = { duration = 0.2, gravity = [0, -9.81, 0], contacts = 'event-driven' }\n\
+                [body.b]\nshape.sphere.radius = 0.1\nlocation = [0, 1, 0]\nrolling_friction = 0.1\n";
+    let (assessment, verdict) = assessed(&scene(text), 1e-3);
+    assert!(matches!(verdict.other_scheme, Some(OtherScheme::NotRun { contacts: "time-stepping", .. })));
+    let said = assessment.to_text("s.toml");
+    assert!(!said.contains("good") && said.contains("`time-stepping` is not compared: "), "{said}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::neighbours::APART;
+use super::other_scheme::{Agreement, OtherScheme};
 use super::verdict::{AccurateUntil, Conserved, Order, Verdict};
 use super::{Assessment, Separation, Trial, Untested};
 use crate::dynamics::Method;
@@ -56,10 +57,11 @@ impl Assessment {
             };
             line(out, "broken", &format!("{}: {}; {kept}", broken.run, broken.why));
         }
+        let tree = if self.has_tree { ", with the potential of the tree" } else { "" };
         line(
             out,
             "energy",
-            &format!("drifts by {} of the {}", percent(verdict.drift), verdict.drift_scale.name()),
+            &format!("drifts by {} of the {}{tree}", percent(verdict.drift), verdict.drift_scale.name()),
         );
         if !verdict.accounts.is_empty() {
             let held = verdict.accounts.iter().map(|(name, held)| format!("{name} {} J", digits(*held, 3)));
@@ -71,23 +73,24 @@ impl Assessment {
         self.say_bodies(out, verdict);
         let order = verdict.order_in_words(self);
         line(out, "order", &order);
+        if let Some(other) = &verdict.other_scheme {
+            line(out, "contacts", &other.in_words(verdict));
+        }
         line(out, "motion", &self.motion_in_words(verdict));
-        self.say_trust(out, verdict);
+        self.say_convergence(out, verdict);
     }
 
     fn say_error(&self, out: &mut String, verdict: &Verdict) {
         let error = digits(verdict.error, 2);
         let part = percent(part(verdict.error, verdict.size));
         let about = match verdict.order {
-            Order::None { .. } => "at least",
-            _ => "at most about",
+            Order::None { .. } => "a point is off by at least",
+            _ if verdict.is_confirmed() => "a point is off by at most about",
+            // The runs under one contact law agree on its mistakes, too.
+            _ => "smaller steps move a point by at most about",
         };
         let size = digits(verdict.size, 3);
-        line(
-            out,
-            "error",
-            &format!("a point is off by {about} {error} m, {part} of the size of the scene ({size} m)"),
-        );
+        line(out, "error", &format!("{about} {error} m, {part} of the size of the scene ({size} m)"));
     }
 
     fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
@@ -146,9 +149,9 @@ impl Assessment {
         }
     }
 
-    fn say_trust(&self, out: &mut String, verdict: &Verdict) {
+    fn say_convergence(&self, out: &mut String, verdict: &Verdict) {
         let wanted = format!("to {} of the size", percent(self.accuracy));
-        line(out, "trust", &format!("{wanted}: {}", until(verdict.trusted)));
+        line(out, "converged", &format!("{wanted}: {}", until(verdict.trusted)));
         let looser = verdict.trusted_to_a_percent;
         if self.accuracy < 0.01 && !verdict.trusted.to_the_end {
             line(out, "", &format!("to 1 % of the size: {}", until(looser)));
@@ -158,7 +161,7 @@ impl Assessment {
     fn say_trials(&self, out: &mut String, verdict: &Verdict) {
         let least = self.accuracy * verdict.size;
         let wanted = percent(self.accuracy);
-        line(out, "tried", &format!("to be right to {wanted} of the size, {} m:", digits(least, 2)));
+        line(out, "tried", &format!("to converge to {wanted} of the size, {} m:", digits(least, 2)));
         let mut rows = vec![
             ["integrator", "step", "steps", "force evaluations", "error", "drift", ""].map(str::to_owned),
         ];
@@ -196,7 +199,11 @@ impl Assessment {
     fn say_advice(&self, out: &mut String, verdict: &Verdict) {
         let own = self.trials.iter().find(|trial| self.is_own(trial));
         let Some(best) = self.recommended.map(|place| &self.trials[place]) else {
+            let is_contradicted = |other: &OtherScheme| other.contradicts(self.accuracy * verdict.size);
             let why = match verdict.neighbours {
+                _ if verdict.other_scheme.as_ref().is_some_and(is_contradicted) => {
+                    "first find out which contacts are right: try both on a simple case with a known result"
+                }
                 Separation::Chaotic { .. } | Separation::Sudden { .. } => {
                     "nothing that was tried reaches this to the end: small differences grow too fast"
                 }
@@ -260,7 +267,8 @@ impl Verdict {
             }
             Order::Unknown => "not measured: the runs part at once, and the error is a guess".to_owned(),
             Order::Nominal { measured } => {
-                format!("{measured:.1} measured, as `{method}` has it: the estimate is good")
+                let is_good = if self.is_confirmed() { ", and the estimate is good" } else { "" };
+                format!("{measured:.1} measured, as `{method}` has it: the runs converge{is_good}")
             }
             Order::Other { measured } if measured > f64::from(nominal) => {
                 format!(
@@ -277,6 +285,47 @@ impl Verdict {
             Order::None { measured } => format!(
                 "{measured:.1} measured: smaller steps do not bring the run nearer to the truth, so its error is not known"
             ),
+        }
+    }
+}
+
+impl OtherScheme {
+    /// Describes what the run under the other contact law says about the run.
+    fn in_words(&self, verdict: &Verdict) -> String {
+        match self {
+            OtherScheme::NotRun { contacts, why } => format!(
+                "`{contacts}` is not compared: {why};\n{INDENT}smaller steps do not show a fault of the contacts themselves"
+            ),
+            OtherScheme::Run { contacts, ended: Some(ended), .. } => format!(
+                "`{contacts}` does not reach the end: it stops at t = {} s, so it confirms nothing",
+                digits(*ended, 4)
+            ),
+            OtherScheme::Run { contacts, body, distance, time, error, agreement, parted, .. } => {
+                let size = percent(part(*distance, verdict.size));
+                let apart = format!("{} m, {size} of the size", digits(*distance, 2));
+                let place = format!("`{body}`, t = {} s", digits(*time, 4));
+                match agreement {
+                    Agreement::Within => {
+                        format!("`{contacts}` agrees: no point is farther away than {apart}")
+                    }
+                    Agreement::Explained => format!(
+                        "`{contacts}` parts by {apart} ({place}), no more than its own error of about {} m explains",
+                        digits(*error, 2)
+                    ),
+                    Agreement::Parted => {
+                        let from = parted.map_or(String::new(), |from| {
+                            format!(", by more than wanted from t = {} s", digits(from, 4))
+                        });
+                        let why = match verdict.neighbours {
+                            Separation::Chaotic { .. } | Separation::Sudden { .. } => {
+                                "at least one of the two is wrong, unless the motion is too sensitive to tell"
+                            }
+                            _ => "at least one of the two is wrong, and smaller steps do not show which",
+                        };
+                        format!("`{contacts}` parts by {apart} ({place}){from}:\n{INDENT}{why}")
+                    }
+                }
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ use super::influence::OutsideInfluence;
 use super::lockstep::Ended;
 use super::measure::ComparedBodies;
 use super::neighbours::{Separation, parting};
+use super::other_scheme::{Other, OtherScheme};
 use super::setting::Setting;
 use super::trials::{Trial, factor};
 use crate::dynamics::{Accounts, Method};
@@ -35,6 +36,8 @@ pub struct Verdict {
     pub bodies: Vec<BodyError>,
     /// The measured order of the method: how fast the error decreases with the timestep.
     pub order: Order,
+    /// The comparison with the same run under the other contact law. `None` without contacts.
+    pub other_scheme: Option<OtherScheme>,
     /// How fast neighboring runs separate, which tells regular motion from chaos.
     pub neighbours: Separation,
     /// MEGNO, the mean exponential growth of the distance between two neighboring runs: 2 for most regular motion, 0 if unknown.
@@ -196,7 +199,7 @@ impl Verdict {
         scene: &Scene,
         own: Setting,
         measured: &ComparedBodies,
-        compared: &Compared,
+        (compared, other): (&Compared, Option<&Other>),
         accuracy: f64,
     ) -> Verdict {
         let order = Order::of(compared, own.method);
@@ -217,6 +220,11 @@ impl Verdict {
                 (factor * off.most.point, error)
             })
             .collect();
+        let error = bodies.iter().map(|(error, _)| *error).fold(0.0, f64::max);
+        let other_scheme = other.map(|other| {
+            let name = |body: usize| scene.bodies[measured.bodies[body]].name.to_string();
+            other.judge(name, &compared.other, [error, accuracy * size, size])
+        });
         bodies.sort_by(|(one, _), (two, _)| two.total_cmp(one));
         let runs = ["the run", "the run at half the step", "the run at a quarter of the step", "the twin"];
         let broken = runs.iter().zip(&compared.ended);
@@ -241,9 +249,10 @@ impl Verdict {
             linear_momentum: conserved(compared, 0, outside.linear),
             angular_momentum: conserved(compared, 1, outside.angular),
             size,
-            error: bodies.first().map_or(0.0, |(error, _)| *error),
+            error,
             bodies: bodies.into_iter().map(|(_, error)| error).collect(),
             order,
+            other_scheme,
             neighbours,
             megno,
             trusted: AccurateUntil::of(compared, factor, accuracy * size, ended),
@@ -251,6 +260,12 @@ impl Verdict {
             broken: broken.collect(),
             curves,
         }
+    }
+
+    /// Returns true if nothing is known that speaks against the estimated error: the scene has no contacts, or its run under the other
+    /// contact law agrees.
+    pub(super) fn is_confirmed(&self) -> bool {
+        self.other_scheme.as_ref().is_none_or(OtherScheme::confirms)
     }
 
     /// Returns true if the run is accurate enough to show the size of the scene.

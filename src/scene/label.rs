@@ -1,9 +1,11 @@
 //! The labels, the scale bar and the grid of a scene, with the quantities that labels can show.
 
+use glam::DVec3;
+
 use super::Color;
 use super::JointKind;
 use super::expression::Program;
-use crate::dynamics::Reaction;
+use crate::dynamics::{BodyId, BodySnapshot, Coordinate, Reaction};
 
 /// A text that is drawn in the picture.
 #[derive(Clone, Debug)]
@@ -255,8 +257,16 @@ pub enum JointMeasure {
     /// A component of the reaction torque on the joint's second end, N·m, in world axes. The number is the axis: 0 for x, 1 for y, 2 for
     /// z.
     Torque(usize),
-    /// The angle of a hinge, degrees.
+    /// The part of the motor: its torque about the axis of a hinge, N·m, or its force along the axis of a slider, N.
+    Motor,
+    /// The component of the force on the joint's second end along the axis of a hinge or slider, N.
+    AxialForce,
+    /// The component of the torque on the joint's second end about the axis of a hinge or slider, N·m.
+    AxialTorque,
+    /// The angle of a hinge, degrees, from -180 to 180.
     Angle,
+    /// The angle of a hinge, degrees, counted through full turns.
+    TotalAngle,
     /// The position of a slider along its axis, m.
     Position,
     /// The rate of change of a hinge's angle, rad/s, or of a slider's position, m/s.
@@ -265,7 +275,7 @@ pub enum JointMeasure {
 
 impl JointMeasure {
     /// All quantities of a joint, each with its name in formulas and its meaning.
-    pub const ALL: [(&'static str, JointMeasure, &'static str); 11] = [
+    pub const ALL: [(&'static str, JointMeasure, &'static str); 15] = [
         ("joint.NAME.force", JointMeasure::ForceMagnitude, "the size of its force on its second end, N"),
         ("joint.NAME.fx", JointMeasure::Force(0), "its force on its second end, N"),
         ("joint.NAME.fy", JointMeasure::Force(1), "its force on its second end, N"),
@@ -273,15 +283,35 @@ impl JointMeasure {
         (
             "joint.NAME.torque",
             JointMeasure::TorqueMagnitude,
-            "the size of its torque on its second end, about that point, N·m",
+            "the size of its whole torque on its second end, about that point, N·m: that of its bearing, its limits and its motor",
         ),
         ("joint.NAME.tx", JointMeasure::Torque(0), "its torque on its second end, N·m"),
         ("joint.NAME.ty", JointMeasure::Torque(1), "its torque on its second end, N·m"),
         ("joint.NAME.tz", JointMeasure::Torque(2), "its torque on its second end, N·m"),
         (
+            "joint.NAME.motor",
+            JointMeasure::Motor,
+            "what its motor gives: the torque of a hinge, N·m, or the force of a slider, N; positive in the direction of the angle or way",
+        ),
+        (
+            "joint.NAME.axial_force",
+            JointMeasure::AxialForce,
+            "the part of its force along the axis of a hinge or slider, N",
+        ),
+        (
+            "joint.NAME.axial_torque",
+            JointMeasure::AxialTorque,
+            "the part of its torque about the axis of a hinge or slider, N·m",
+        ),
+        (
             "joint.NAME.angle",
             JointMeasure::Angle,
             "the angle of a hinge, degrees, from -180 to 180; 0 is at the start",
+        ),
+        (
+            "joint.NAME.total_angle",
+            JointMeasure::TotalAngle,
+            "that angle, degrees, counted through full turns",
         ),
         (
             "joint.NAME.position",
@@ -299,21 +329,33 @@ impl JointMeasure {
     /// Returns whether a joint of the given kind has the quantity.
     pub fn is_of(self, joint: &JointKind) -> bool {
         match self {
-            JointMeasure::Angle => matches!(joint, JointKind::Hinge(_)),
+            JointMeasure::Angle | JointMeasure::TotalAngle => matches!(joint, JointKind::Hinge(_)),
             JointMeasure::Position => matches!(joint, JointKind::Slider(_)),
-            JointMeasure::Speed => joint.coordinate().is_some(),
+            JointMeasure::Speed
+            | JointMeasure::Motor
+            | JointMeasure::AxialForce
+            | JointMeasure::AxialTorque => joint.coordinate().is_some(),
             _ => true,
         }
     }
 
     /// Returns whether the quantity is a reaction force or a reaction torque.
     pub fn is_reaction(self) -> bool {
-        !matches!(self, JointMeasure::Angle | JointMeasure::Position | JointMeasure::Speed)
+        !matches!(
+            self,
+            JointMeasure::Angle | JointMeasure::TotalAngle | JointMeasure::Position | JointMeasure::Speed
+        )
     }
 
-    /// Returns the value of the quantity from the joint's reaction, its coordinate `value` (rad or m), and the rate of the coordinate.
-    pub fn of(self, reaction: &Reaction, [value, rate]: [f64; 2]) -> f64 {
+    /// Returns the value of the quantity.
+    pub fn of(self, joint: &JointState) -> f64 {
+        let JointState { reaction, coordinate: [value, rate], axis, total_angle } = *joint;
         match self {
+            JointMeasure::Motor => reaction.motor,
+            JointMeasure::AxialForce => reaction.force.dot(axis),
+            JointMeasure::AxialTorque => reaction.torque.dot(axis),
+            // The coordinate is NaN while a body of the joint is absent.
+            JointMeasure::TotalAngle => (0.0 * value + total_angle).to_degrees(),
             JointMeasure::Angle => value.to_degrees(),
             JointMeasure::Position => value,
             JointMeasure::Speed => rate,
@@ -321,6 +363,37 @@ impl JointMeasure {
             JointMeasure::Force(axis) => reaction.force[axis],
             JointMeasure::TorqueMagnitude => reaction.torque.length(),
             JointMeasure::Torque(axis) => reaction.torque[axis],
+        }
+    }
+}
+
+/// A joint at one moment, from which its [measures](JointMeasure) follow.
+#[derive(Clone, Copy, Debug)]
+pub struct JointState {
+    /// The force, the torque and the motor of the joint.
+    pub reaction: Reaction,
+    /// The free coordinate (rad or m) and its rate. NaN for a joint without one, and while a body of the joint is absent.
+    pub coordinate: [f64; 2],
+    /// The axis, a unit vector in world axes. NaN for a joint without one, and while a body of the joint is absent.
+    pub axis: DVec3,
+    /// The angle, counted through full turns, rad.
+    pub total_angle: f64,
+}
+
+impl JointState {
+    /// Returns the state of a joint from its reaction, its counted angle (rad), and a closure that returns the snapshots of bodies.
+    pub fn of(
+        coordinate: Option<Coordinate>,
+        (reaction, total_angle): (Reaction, f64),
+        body: impl Fn(BodyId) -> Option<BodySnapshot>,
+    ) -> JointState {
+        let seen = coordinate.and_then(|coordinate| coordinate.seen(&body));
+        let axis = coordinate.and_then(|coordinate| coordinate.axis_seen(&body));
+        JointState {
+            reaction,
+            coordinate: seen.unwrap_or([f64::NAN; 2]),
+            axis: axis.unwrap_or(DVec3::NAN),
+            total_angle,
         }
     }
 }

@@ -43,8 +43,8 @@ pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};
 pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{
-    BodyMeasure, Corner, Format, Grid, GridPlane, JointMeasure, Label, LabelPlace, Measure, Piece,
-    RunMeasure, ScaleBar, Side,
+    BodyMeasure, Corner, Format, Grid, GridPlane, JointMeasure, JointState, Label, LabelPlace, Measure,
+    Piece, RunMeasure, ScaleBar, Side,
 };
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
@@ -165,6 +165,15 @@ impl Scene {
     pub fn ground_that_stops(&self) -> Option<(f64, Surface)> {
         let ground = self.environment.ground.as_ref()?;
         Some((ground.height?, ground.surface?))
+    }
+
+    /// Returns true if a force is computed with a tree of bodies. Its potential, too, is then that of the tree.
+    pub fn has_tree(&self) -> bool {
+        let of_tree = |force: &Force| match &force.kind {
+            ForceKind::Gravitation(gravitation) => gravitation.opening_angle.is_some(),
+            _ => false,
+        };
+        self.forces.iter().any(of_tree)
     }
 
     /// Returns the paths of the scene's own file and of all files that the scene names.

@@ -15,6 +15,8 @@ pub struct Frame {
     pub bodies: Vec<BodySnapshot>,
     /// The constraint force and torque of each joint on its second body, in the order of the scene.
     pub reactions: Vec<Reaction>,
+    /// The angle of each joint, counted through full turns, rad; 0 for a joint without an angle.
+    pub angles: Vec<f64>,
     /// The contacts that persist at this time, with their forces.
     pub contacts: Vec<ContactSnapshot>,
     /// The largest penetration between two bodies, m.
@@ -32,9 +34,21 @@ pub struct Frame {
 impl Frame {
     /// Creates a frame from a snapshot of the dynamics. Its impact counts, particles and past are empty.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
-        let Snapshot { time, bodies, reactions, contacts, penetration, balance } = moment;
+        let Snapshot { time, bodies, reactions, angles, contacts, penetration, balance } = moment;
         let (impacts, past, particles) = (ImpactCounts::default(), Past::default(), Vec::new());
-        Frame { index, time, bodies, reactions, contacts, penetration, balance, impacts, particles, past }
+        Frame {
+            index,
+            time,
+            bodies,
+            reactions,
+            angles,
+            contacts,
+            penetration,
+            balance,
+            impacts,
+            particles,
+            past,
+        }
     }
 
     /// Creates a frame from a moment of a run, with its impact counts. Its particles and its past are empty.

@@ -22,6 +22,7 @@ mod exposure;
 mod frame;
 mod frames;
 mod impacts;
+mod joint_angles;
 mod lag;
 mod loads;
 mod moments;

@@ -1,6 +1,7 @@
 //! Runs the simulation of a scene.
 
 use super::build::dynamics;
+use super::joint_angles::JointAngles;
 use super::{ImpactCounts, Moments, SimulateError};
 use crate::dynamics::{Breakdown, Dynamics, Impact, PairCounter, Snapshot};
 use crate::scene::Scene;
@@ -25,6 +26,7 @@ pub(super) struct Simulation<'a> {
     next: usize,
     intervals: usize,
     counts: ImpactCounts,
+    angles: JointAngles,
     /// The impacts since the last entry, which will be part of the next entry.
     waiting: Vec<Impact>,
 }
@@ -38,8 +40,8 @@ impl<'a> Simulation<'a> {
     /// Creates a simulation of the caller's own dynamics, which must be at time 0.
     pub(super) fn of(scene: &'a Scene, moments: Moments, dynamics: Box<dyn Dynamics>) -> Simulation<'a> {
         let intervals = moments.intervals();
-        let counts = ImpactCounts::new(scene);
-        Simulation { scene, dynamics, moments, next: 0, intervals, counts, waiting: Vec::new() }
+        let (counts, angles) = (ImpactCounts::new(scene), JointAngles::new(scene));
+        Simulation { scene, dynamics, moments, next: 0, intervals, counts, angles, waiting: Vec::new() }
     }
 
     /// Advances to the next frame. After the last frame, advances by one more interval if times in it are requested. Calls `see` with each
@@ -68,7 +70,8 @@ impl<'a> Simulation<'a> {
         let dynamics = self.dynamics.checkpoint()?;
         let numbers = [self.next as u64, self.counts.0.len() as u64];
         let mut bytes: Vec<u8> = numbers.into_iter().flat_map(u64::to_le_bytes).collect();
-        bytes.extend(self.counts.0.iter().flat_map(|count| count.to_le_bytes()));
+        let counts = self.counts.0.iter().copied().chain(self.angles.numbers());
+        bytes.extend(counts.flat_map(f64::to_le_bytes));
         bytes.extend(dynamics);
         Some(bytes)
     }
@@ -76,14 +79,18 @@ impl<'a> Simulation<'a> {
     /// Continues from a checkpoint of the same run. Returns false if the checkpoint is invalid.
     pub(super) fn resume(&mut self, checkpoint: &[u8]) -> bool {
         let (count, (numbers, _)) = (self.counts.0.len(), checkpoint.as_chunks::<8>());
-        let [next, counted, counts @ ..] = numbers else { return false };
+        let [next, counted, rest @ ..] = numbers else { return false };
         let [next, counted] = [next, counted].map(|number| u64::from_le_bytes(*number));
-        if next > self.intervals as u64 || counted != count as u64 || counts.len() < count {
+        let size = count + self.angles.size();
+        if next > self.intervals as u64 || counted != count as u64 || rest.len() < size {
             return false;
         }
+        let rest: Vec<f64> = rest[..size].iter().map(|number| f64::from_le_bytes(*number)).collect();
+        let (counts, angles) = rest.split_at(count);
         self.next = usize::try_from(next).unwrap_or(usize::MAX);
-        self.counts = ImpactCounts(counts[..count].iter().map(|count| f64::from_le_bytes(*count)).collect());
-        self.dynamics.resume(&checkpoint[8 * (2 + count)..])
+        self.counts = ImpactCounts(counts.to_vec());
+        self.angles.resume(angles);
+        self.dynamics.resume(&checkpoint[8 * (2 + size)..])
     }
 
     fn advance_to_next(&mut self, see: &mut dyn FnMut(Entry)) -> Result<(), Breakdown> {
@@ -92,11 +99,12 @@ impl<'a> Simulation<'a> {
             let moments = self.moments.after(before);
             let mut between = Vec::new();
             let counts_impacts = simulation.contacts.is_some();
+            let angles = &mut self.angles;
             let done = self.dynamics.advance(simulation.time(self.next), &moments, &mut |snapshot| {
                 if counts_impacts {
                     between.push(snapshot);
                 } else {
-                    see(of_scene(self.scene, snapshot));
+                    see(of_scene(self.scene, angles, snapshot));
                 }
             });
             self.see_between(between, see);
@@ -105,7 +113,8 @@ impl<'a> Simulation<'a> {
         if self.next < simulation.frames() {
             let snapshot = self.dynamics.snapshot()?;
             let impacts = self.dynamics.impacts();
-            let entry = self.with_impacts(of_scene(self.scene, snapshot), impacts);
+            let entry = of_scene(self.scene, &mut self.angles, snapshot);
+            let entry = self.with_impacts(entry, impacts);
             see(Entry { frame: Some(self.next), ..entry });
         }
         Ok(())
@@ -119,9 +128,8 @@ impl<'a> Simulation<'a> {
         let mut impacts = self.dynamics.impacts();
         for snapshot in between {
             let later = impacts.split_off(impacts.partition_point(|impact| impact.time <= snapshot.time));
-            let entry =
-                self.with_impacts(of_scene(self.scene, snapshot), std::mem::replace(&mut impacts, later));
-            see(entry);
+            let entry = of_scene(self.scene, &mut self.angles, snapshot);
+            see(self.with_impacts(entry, std::mem::replace(&mut impacts, later)));
         }
         self.waiting.append(&mut impacts);
     }
@@ -135,10 +143,12 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// Converts a snapshot of the world into an entry without impacts. Removes the ground, which is a body of the world but not of the scene.
-fn of_scene(scene: &Scene, mut snapshot: Snapshot) -> Entry {
+/// Converts a snapshot of the world into an entry without impacts. Removes the ground, which is a body of the world but not of the scene,
+/// and completes the joints.
+fn of_scene(scene: &Scene, angles: &mut JointAngles, mut snapshot: Snapshot) -> Entry {
     while snapshot.bodies.last().is_some_and(|body| body.id >= scene.bodies.len()) {
         snapshot.bodies.pop();
     }
+    angles.see(scene, &mut snapshot);
     Entry { frame: None, snapshot, impacts: Vec::new(), counts: ImpactCounts::default() }
 }

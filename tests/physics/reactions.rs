@@ -1,6 +1,6 @@
 //! Tests of the constraint forces and torques of joints against closed forms.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
     Anchor, Ball, BodyId, Dynamics, Fixed, Freedom, Hinge, METHODS, Method, Motor, Presence, Reaction, Rod,
     Rope, Slider, UniformGravity, World,
@@ -22,6 +22,59 @@ fn world(method: &'static Method, location: DVec3) -> (World, BodyId) {
 #[allow(clippy::unwrap_used, reason = "only tests call it")]
 fn reaction(world: &mut World) -> Reaction {
     world.snapshot().unwrap().reactions[0]
+}
+
+/// A motor turns a wheel whose axle also bears a weight beside it. The motor's part is its own torque, up to its limit or as its angle
+/// asks for, and the whole torque has the bending moment of the weight, too.
+#[test]
+fn the_part_of_a_motor_is_its_own_torque() {
+    struct Swing;
+    impl std::fmt::Debug for Swing {
+        fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("0.5 sin 2t")
+        }
+    }
+    impl jabuka::dynamics::Target for Swing {
+        fn at(&self, t: f64) -> [f64; 3] {
+            let (sin, cos) = (libm::sin(2.0 * t), libm::cos(2.0 * t));
+            [0.5 * sin, cos, -2.0 * sin]
+        }
+    }
+    let mass = ball().mass;
+    let inertia = ball().inertia.y;
+    for method in methods() {
+        let torque = |motor: Motor, limits: Option<[f64; 2]>, spin: f64| {
+            let (mut world, _) = world(method, DVec3::X * 9.0);
+            let location = DVec3::new(0.0, 0.7, 0.0);
+            let body = world.add(ball().with_location(location).with_angular_velocity(DVec3::Y * spin));
+            let between = [ORIGIN, Anchor::Body { id: body, at: -location }];
+            let hinge = Hinge::new(between, DVec3::Y, DQuat::IDENTITY);
+            world.add_constraint(hinge.with(Freedom { motor: Some(motor), limits }));
+            world.advance_to(0.3);
+            (reaction(&mut world).motor, reaction(&mut world).torque.dot(DVec3::Y))
+        };
+        // A weak motor that never reaches its speed gives all that it has.
+        let weak = torque(Motor::Speed { speed: 1e6, limit: 0.2 }, None, 0.0);
+        assert!((weak.0 - 0.2).abs() < 1e-12 && (weak.1 - 0.2).abs() < 1e-11, "{weak:?}");
+        let back = torque(Motor::Speed { speed: -1e6, limit: 0.2 }, Some([-3.0, 3.0]), 0.0);
+        assert!((back.0 + 0.2).abs() < 1e-12, "{back:?}");
+        // A motor that has reached its speed gives nothing.
+        let idle = torque(Motor::Speed { speed: 2.0, limit: 50.0 }, None, 2.0);
+        assert!(idle.0.abs() < 1e-9, "{idle:?}");
+        // The torque that an angle needs is I φ''.
+        let exact = torque(Motor::Value(std::sync::Arc::new(Swing)), None, 1.0);
+        assert!((exact.0 + 2.0 * inertia * libm::sin(0.6)).abs() < 1e-9, "{exact:?} {mass}");
+    }
+    // A wheel on a horizontal axle 0.4 m beside its bearing: the bending moment m g 0.4 is none of the motor.
+    let (mut world, body) = world(method("rk4"), DVec3::X * 0.4);
+    let between = [ORIGIN, Anchor::Body { id: body, at: DVec3::X * -0.4 }];
+    let hinge = Hinge::new(between, DVec3::X, DQuat::IDENTITY);
+    let motor = Some(Motor::Speed { speed: 1e6, limit: 0.2 });
+    world.add_constraint(hinge.with(Freedom { motor, limits: None }));
+    world.advance_to(0.1);
+    let found = reaction(&mut world);
+    assert!((found.motor - 0.2).abs() < 1e-12 && (found.torque.x - 0.2).abs() < 1e-11, "{found:?}");
+    assert!((found.torque.length() - (0.2_f64.powi(2) + (0.4 * mass * G).powi(2)).sqrt()).abs() < 1e-9);
 }
 
 fn is_near(found: DVec3, x: f64, y: f64, z: f64) -> bool {

@@ -55,6 +55,15 @@ impl Coordinate {
         Some([free.value, Coordinate::rate(&ends, &free)])
     }
 
+    /// Returns the axis of the joint, a unit vector in world axes. The closure `body` returns the snapshot of a body. Returns `None` while
+    /// the body of the first end is absent.
+    pub fn axis_seen(&self, body: impl Fn(BodyId) -> Option<BodySnapshot>) -> Option<DVec3> {
+        Some(match self.between[0].body() {
+            Some(id) => body(id)?.orientation * self.axis,
+            None => self.axis,
+        })
+    }
+
     /// Computes the coordinate and its derivatives from the current state of the two ends.
     pub(super) fn measure(&self, [a, b]: &[End<'_>; 2]) -> Free {
         let axis = a.orientation() * self.axis;

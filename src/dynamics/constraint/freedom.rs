@@ -53,6 +53,11 @@ impl Freedom {
         }
     }
 
+    /// Returns the equation of the motor; `None` without a motor. The limits come first.
+    pub(super) fn motor_row(&self) -> Option<usize> {
+        self.motor.is_some().then_some(2 * usize::from(self.limits.is_some()))
+    }
+
     /// Writes the equations of the limits and the motor, starting at row `first` of the constraint.
     pub(super) fn measure(
         &self,

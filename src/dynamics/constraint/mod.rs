@@ -80,6 +80,11 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
         Law::Equality
     }
 
+    /// Returns the equation of the motor; `None` without a motor.
+    fn motor_row(&self) -> Option<usize> {
+        None
+    }
+
     /// Writes all equations of the constraint at one moment. `members` holds the bodies in the order of [`bodies`](Self::bodies).
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
 }

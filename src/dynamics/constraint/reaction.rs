@@ -15,6 +15,8 @@ pub struct Reaction {
     pub force: DVec3,
     /// The torque of the constraint on its second end, about the point of that end, world axes, N m.
     pub torque: DVec3,
+    /// The part of the motor: the torque along the axis of a hinge, N m, or the force along the axis of a slider, N. 0 without a motor.
+    pub motor: f64,
 }
 
 impl Reaction {
@@ -41,16 +43,22 @@ impl Solver {
             let width = place.bodies.len();
             // The reaction on each body of the constraint, about the body's center of mass.
             let mut on = vec![Reaction::default(); width];
+            let motor_row = model.constraints()[place.constraint].motor_row();
+            let mut motor = 0.0;
             for row in place.row..place.row + place.rows {
                 let multiplier = match (self.laws[row], self.modes[row]) {
                     (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => sign * limit,
                     _ => self.unknown[row],
                 };
+                if motor_row == Some(row - place.row) {
+                    motor = multiplier;
+                }
                 let first = place.direction + (row - place.row) * width;
                 for (on, direction) in on.iter_mut().zip(&self.jacobian[first..first + width]) {
                     on.add(Reaction {
                         force: multiplier * direction.linear,
                         torque: multiplier * direction.angular,
+                        motor: 0.0,
                     });
                 }
             }
@@ -69,9 +77,10 @@ impl Solver {
                     for (body, on) in on.into_iter().enumerate() {
                         sum.add(on.about(member(body).location - point));
                     }
-                    Reaction { force: -sum.force, torque: -sum.torque }
+                    Reaction { force: -sum.force, torque: -sum.torque, motor: 0.0 }
                 }
             };
+            all[place.constraint].motor = motor;
         }
         all
     }

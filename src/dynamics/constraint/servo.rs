@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::super::{Force, Loads, Moment, WorkAccount};
+use super::super::{BodyId, BodySnapshot, Force, Loads, Moment, WorkAccount};
 use super::member::{End, Member};
-use super::{Coordinate, Members, Target, parts};
+use super::{Coordinate, Members, Reaction, Target, parts};
 
 /// A servo motor with compliance: its force or torque is k (q₀(t) − q) + d (q₀'(t) − q'), where q is the joint's coordinate.
 #[derive(Clone, Debug)]
@@ -17,6 +17,29 @@ pub struct Servo {
     pub stiffness: f64,
     /// d: the damping coefficient, N m s/rad or N s/m.
     pub damping: f64,
+}
+
+impl Servo {
+    /// Returns the torque (N m) or the force (N) of the servo at a time (s) from its coordinate and the rate of the coordinate.
+    fn effort(&self, time: f64, [at, rate]: [f64; 2]) -> f64 {
+        let [value, wanted, _] = self.target.at(time);
+        self.stiffness * self.coordinate.difference(value, at) + self.damping * (wanted - rate)
+    }
+
+    /// Adds the servo to the reaction of its joint at a time, s. The closure `body` returns the snapshot of a body. Does nothing while a
+    /// body of the joint is absent.
+    pub fn join(&self, reaction: &mut Reaction, time: f64, body: impl Fn(BodyId) -> Option<BodySnapshot>) {
+        let Some((seen, axis)) = self.coordinate.seen(&body).zip(self.coordinate.axis_seen(&body)) else {
+            return;
+        };
+        let effort = self.effort(time, seen);
+        reaction.motor += effort;
+        if self.coordinate.is_angle() {
+            reaction.torque += effort * axis;
+        } else {
+            reaction.force += effort * axis;
+        }
+    }
 }
 
 impl Force for Servo {
@@ -40,9 +63,7 @@ impl Force for Servo {
         let ends = End::all(&self.coordinate.between, &members);
         let free = self.coordinate.measure(&ends);
         let rate = Coordinate::rate(&ends, &free);
-        let [value, wanted, _] = self.target.at(moment.time);
-        let effort =
-            self.stiffness * self.coordinate.difference(value, free.value) + self.damping * (wanted - rate);
+        let effort = self.effort(moment.time, [free.value, rate]);
         for (body, linear, angular) in Coordinate::directions(&free) {
             if let Some(body) = body {
                 let i = ids[body].index();

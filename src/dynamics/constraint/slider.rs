@@ -40,6 +40,10 @@ impl Constraint for Slider {
         row.checked_sub(5).map_or(Law::Equality, |row| self.freedom.law(row))
     }
 
+    fn motor_row(&self) -> Option<usize> {
+        self.freedom.motor_row().map(|row| 5 + row)
+    }
+
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>) {
         let ends = End::all(&self.between, members);
         parts::same_turn(&ends, self.turned, 0, equations);

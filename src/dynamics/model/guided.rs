@@ -34,7 +34,7 @@ impl Model {
     }
 
     /// Returns the present bodies with a given motion, each with its motion.
-    pub(super) fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
+    pub(in super::super) fn guided(&self) -> impl Iterator<Item = (usize, &dyn Motion)> {
         let present = self.motions.iter().filter(|(i, _)| self.is_present(*i));
         present.map(|(i, motion)| (*i, &**motion))
     }

@@ -253,6 +253,16 @@ impl Shape {
         })
     }
 
+    /// Returns true if the shape is a torus, or a compound with a torus among its parts.
+    #[must_use]
+    pub fn has_torus(&self) -> bool {
+        match self {
+            Shape::Torus { .. } => true,
+            Shape::Compound(compound) => compound.parts().iter().any(|part| part.shape.has_torus()),
+            _ => false,
+        }
+    }
+
     /// Returns half of the smallest thickness of the shape, m; `None` for a plane and for a flat mesh. POV-Ray cannot draw a shape whose
     /// thickness is too small.
     #[must_use]

@@ -21,7 +21,8 @@ impl TimeStepping {
         let bodies = BodySnapshot::of_all(model, state, loads);
         let contacts = if self.shows_contacts { self.contacts() } else { Vec::new() };
         let reactions = vec![Reaction::default(); self.joints.len()];
-        Snapshot { time, bodies, reactions, contacts, penetration: self.penetration(), balance }
+        let penetration = self.penetration();
+        Snapshot { time, bodies, reactions, contacts, penetration, balance, ..Snapshot::default() }
     }
 
     /// Adds the contact forces of the last step to the loads, each averaged over the step.

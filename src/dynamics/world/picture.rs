@@ -23,7 +23,7 @@ pub(super) fn picture(
     contacts.extend(rest.contacts());
     contacts.extend(crowd);
     contacts.sort_by_key(|contact| contact.bodies);
-    Snapshot { time, bodies, reactions, contacts, penetration: 0.0, balance }
+    Snapshot { time, bodies, reactions, contacts, balance, ..Snapshot::default() }
 }
 
 /// Adds the contact forces on bodies in the crowd (the bodies that Moreau's scheme advances) to their loads.

@@ -53,7 +53,7 @@ pub(super) fn collider(
         has_no_effect(&["collision_group"], "it does not collide");
         return None;
     }
-    if simulation.contacts == Some(ContactLaw::EventDriven) && has_torus(shape) {
+    if simulation.contacts == Some(ContactLaw::EventDriven) && shape.has_torus() {
         let message = format!("contacts of `{name}` cannot be computed");
         let error = Diagnostic::error(Code::BadContacts, message);
         let help = "build it as a `compound` of capsules or spheres, or let others pass through it: `collides = false`; \
@@ -66,14 +66,6 @@ pub(super) fn collider(
         });
     }
     Some(Collider { surface: surface(view), group: view.shared_text("collision_group") })
-}
-
-pub(super) fn has_torus(shape: &Shape) -> bool {
-    match shape {
-        Shape::Torus { .. } => true,
-        Shape::Compound(compound) => compound.parts().iter().any(|part| has_torus(&part.shape)),
-        _ => false,
-    }
 }
 
 /// Reads the surface properties of a body or of the ground.

@@ -144,7 +144,7 @@ impl Reader<'_, '_> {
             }
             Some(ContactLaw::TimeStepping) => {
                 for body in self.bodies.iter().filter(|body| body.collider.is_some()) {
-                    if !super::contact::has_torus(&body.shape) {
+                    if !body.shape.has_torus() {
                         continue;
                     }
                     let message = format!("particles of `{}` cannot collide with `{}`", self.name, body.name);

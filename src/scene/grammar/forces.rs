@@ -208,7 +208,8 @@ static GRAVITATION: TableSpec = TableSpec {
             Number(Bound::From(0.0, 1.0)),
             "For thousands of bodies: a Barnes–Hut tree with quadrupoles groups distant bodies if their \
              size is less than this times their distance. At 0.5, forces are off by 4e-4, at 0.3 by 8e-5; \
-             energy and momentum drift less. Particles always feel each body separately",
+             momentum drifts less. The energy and its drift are measured with the potential of the same tree, \
+             so the drift shows errors of the steps, and not of the tree. Particles always feel each body separately",
         )
         .default("0: the direct sum over all pairs")
         .also(&["theta", "angle", "opening", "tree", "barnes_hut"]),

@@ -5,7 +5,7 @@
 //! | what | type |
 //! | --- | --- |
 //! | the number of the frame, or 2³² − 1 between frames | `u32` |
-//! | time; kinetic, potential, total energy; drift; linear momentum; angular momentum; the accounts; the penetration | `f64` each |
+//! | time; kinetic energy, also of given motions, potential, total energy; error, drift; linear momentum; angular momentum; the accounts; the penetration | `f64` each |
 //! | the number of runs, and for each run: a mask, and its number of bodies | `u32`; `u8`, `u32` |
 //! | for each body, the numbers selected by its mask | `f64` each |
 //! | with joints: runs of masks, and numbers, in the same way | |
@@ -14,7 +14,8 @@
 //! | with counted impacts: the number of new impacts, and for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
 //!
 //! A run is a sequence of consecutive bodies (or joints, or counts) with the same mask. A bit of a mask marks a changed column: for a
-//! body, location, orientation, velocity, angular velocity, force; for a joint, force and torque. Each page starts from bodies at rest at
+//! body, location, orientation, velocity, angular velocity, force; for a joint, force, torque, effort of
+//! the motor, and counted angle. Each page starts from bodies at rest at
 //! the origin, joints without load, and impact counts of 0.
 
 mod decoder;
@@ -33,7 +34,7 @@ use crate::dynamics::Accounts;
 use crate::scene::Scene;
 
 /// The number of floating-point values in the header of a moment, before the bodies.
-const HEAD: usize = 13 + Accounts::NAMES.len();
+const HEAD: usize = 14 + Accounts::NAMES.len();
 /// The number of values that describe a body.
 const NUMBERS: usize = 16;
 /// The index of the first value of each column of a body, and the end of the last column.
@@ -50,9 +51,9 @@ const AT_REST: [f64; NUMBERS] = {
 };
 
 /// The index of the first value of each column of a joint, and the end of the last column.
-const JOINT_COLUMNS: [usize; 3] = [0, 3, JOINT_NUMBERS];
-/// The number of values that describe the load of a joint: force and torque.
-const JOINT_NUMBERS: usize = 6;
+const JOINT_COLUMNS: [usize; 5] = [0, 3, 6, 7, JOINT_NUMBERS];
+/// The number of values that describe a joint: force, torque, effort of the motor, angle.
+const JOINT_NUMBERS: usize = 8;
 
 /// The start and the end of the single column of an impact count.
 const COUNT_COLUMNS: [usize; 2] = [0, 1];

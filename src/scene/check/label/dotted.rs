@@ -177,7 +177,10 @@ impl Reader<'_, '_, '_> {
         };
         let its = || JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
         if let Some((_, known)) = its().find(|(known, _)| *known == measure) {
+            // A servo is a force like any other, which time stepping knows.
+            let is_servo = known == JointMeasure::Motor && joint.servo.is_some();
             if known.is_reaction()
+                && !is_servo
                 && self.root.table("simulation").text("contacts") == Some(ContactLaw::TimeStepping.name())
             {
                 let message = format!("time stepping does not know the `{measure}` of a joint");

@@ -63,8 +63,10 @@ impl Decoder {
         let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
             force: DVec3::new(n[0], n[1], n[2]),
             torque: DVec3::new(n[3], n[4], n[5]),
+            motor: n[6],
         };
         let mut entry = head.entry(bodies, self.last.joints.iter().map(reaction).collect());
+        entry.snapshot.angles = self.last.joints.iter().map(|numbers| numbers[7]).collect();
         entry.snapshot.contacts = numbers_in(contacts, contact_of)?;
         entry.impacts = numbers_in(impacts, impact_of)?;
         entry.counts = ImpactCounts(self.last.impacts.clone());
@@ -118,13 +120,14 @@ impl Head {
         let n = &self.numbers;
         let balance = Balance {
             kinetic: n[1],
-            potential: n[2],
-            total: n[3],
-            error: n[4],
-            drift: n[5],
-            linear_momentum: DVec3::new(n[6], n[7], n[8]),
-            angular_momentum: DVec3::new(n[9], n[10], n[11]),
-            accounts: Accounts::from_array(std::array::from_fn(|i| n[12 + i])),
+            given_kinetic: n[2],
+            potential: n[3],
+            total: n[4],
+            error: n[5],
+            drift: n[6],
+            linear_momentum: DVec3::new(n[7], n[8], n[9]),
+            angular_momentum: DVec3::new(n[10], n[11], n[12]),
+            accounts: Accounts::from_array(std::array::from_fn(|i| n[13 + i])),
         };
         Entry {
             frame: self.frame,
@@ -132,6 +135,7 @@ impl Head {
                 time: n[0],
                 bodies,
                 reactions,
+                angles: Vec::new(),
                 contacts: Vec::new(),
                 penetration: n[HEAD - 1],
                 balance,

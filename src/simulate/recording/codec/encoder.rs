@@ -30,9 +30,18 @@ impl Encoder {
         let number = frame.and_then(|frame| u32::try_from(frame).ok()).unwrap_or(NO_FRAME);
         bytes.extend_from_slice(&number.to_le_bytes());
         put(bytes, &[snapshot.time]);
-        let Balance { kinetic, potential, total, error, drift, linear_momentum, angular_momentum, accounts } =
-            snapshot.balance;
-        put(bytes, &[kinetic, potential, total, error, drift]);
+        let Balance {
+            kinetic,
+            given_kinetic,
+            potential,
+            total,
+            error,
+            drift,
+            linear_momentum,
+            angular_momentum,
+            accounts,
+        } = snapshot.balance;
+        put(bytes, &[kinetic, given_kinetic, potential, total, error, drift]);
         put(bytes, &linear_momentum.to_array());
         put(bytes, &angular_momentum.to_array());
         put(bytes, &accounts.to_array());
@@ -62,8 +71,10 @@ impl Encoder {
         let start = bytes.len();
         // A joint without a recorded reaction has no load.
         let reactions = snapshot.reactions.iter().copied().chain(std::iter::repeat(Reaction::default()));
-        for (last, Reaction { force, torque }) in joints.iter_mut().zip(reactions) {
-            let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+        let angles = snapshot.angles.iter().copied().chain(std::iter::repeat(0.0));
+        for ((last, reaction), angle) in joints.iter_mut().zip(reactions).zip(angles) {
+            let Reaction { force, torque, motor } = reaction;
+            let numbers = [force.x, force.y, force.z, torque.x, torque.y, torque.z, motor, angle];
             masks.push(put_changed(bytes, &JOINT_COLUMNS, &numbers, last));
             *last = numbers;
         }

@@ -18,6 +18,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
     };
     let balance = Balance {
         kinetic: 1.0,
+        given_kinetic: 1.5,
         potential: 2.0,
         total: 3.0,
         error: 4.5,
@@ -29,7 +30,11 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
     let frame = (time > 1.5).then_some(7);
     let reactions = vec![
         Reaction::default(),
-        Reaction { force: DVec3::new(0.0, -0.0, 3.0), torque: DVec3::splat((time - 1.5).max(0.0)) },
+        Reaction {
+            force: DVec3::new(0.0, -0.0, 3.0),
+            torque: DVec3::splat((time - 1.5).max(0.0)),
+            motor: -time,
+        },
     ];
     let vector = |n: f64| DVec3::new(n, -0.0, time);
     let (place, normal) = (vector(1.0), vector(2.0));
@@ -42,6 +47,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
             time,
             bodies: bodies.iter().map(body).collect(),
             reactions,
+            angles: vec![0.0, 7.0 * time],
             contacts: vec![contact; usize::from(time > 0.5)],
             penetration: 0.25 * time,
             balance,
@@ -69,11 +75,11 @@ fn moments_are_read_as_they_were_written() {
     let head = 4 + 8 * HEAD + 4;
     let of_counts = 4 + 3 * 5 + 2 * 8;
     let of_contacts = 4 + 8 * CONTACT_NUMBERS + 4;
-    let bodies_and_joints = 3 * 5 + 4 + 5;
+    let bodies_and_joints = 3 * 5 + 4 + 2 * 5 + 2 * 8;
     assert_eq!(
         sizes[1],
         head + bodies_and_joints + of_counts + of_contacts,
-        "present, absent, present; two joints; of five counts, the first and the last; one contact"
+        "present, absent, present; of two joints, the motor and the angle of the second; of five counts, the first and the last; one contact"
     );
     let mut decoder = Decoder::new(COUNTS);
     for entry in &entries {
