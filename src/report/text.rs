@@ -300,7 +300,7 @@ impl OtherScheme {
                 "`{contacts}` does not reach the end: it stops at t = {} s, so it confirms nothing",
                 digits(*ended, 4)
             ),
-            OtherScheme::Run { contacts, body, distance, time, error, agreement, parted, .. } => {
+            OtherScheme::Run { contacts, body, distance, time, agreement, parted, .. } => {
                 let size = percent(part(*distance, verdict.size));
                 let apart = format!("{} m, {size} of the size", digits(*distance, 2));
                 let place = format!("`{body}`, t = {} s", digits(*time, 4));
@@ -309,8 +309,7 @@ impl OtherScheme {
                         format!("`{contacts}` agrees: no point is farther away than {apart}")
                     }
                     Agreement::Explained => format!(
-                        "`{contacts}` parts by {apart} ({place}), no more than its own error of about {} m explains",
-                        digits(*error, 2)
+                        "`{contacts}` parts by {apart} ({place}), which the errors of both explain: it confirms nothing"
                     ),
                     Agreement::Parted => {
                         let from = parted.map_or(String::new(), |from| {
