@@ -40,7 +40,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         Err(near) => near,
     };
-    if let Some(text) = name(word) {
+    // The value of a label, such as `ball.speed`, has the name of a body first.
+    let measure = word.split_once('.').filter(|(first, _)| SCENE.key(first).is_none()).map(|(_, last)| last);
+    if let Some(text) = name(word).or_else(|| name(measure?)) {
         terminal::result(&text);
         return Ok(());
     }

@@ -146,13 +146,14 @@ pub(super) fn unknown(noun: &str, name: &str, near: Option<&str>) -> Failure {
 
 /// Prints the error in the command-line arguments, or the help that the user requested, and returns the exit code.
 pub(super) fn misused(error: &clap::Error) -> u8 {
-    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string);
-    if let Some(scene) = word.filter(|word| word.ends_with(".toml")) {
-        let command = format!("jabuka compile {}", shell::path(Path::new(&scene)));
-        self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&scene)));
+    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string).unwrap_or_default();
+    let with_ending = if word.ends_with(".toml") { word.clone() } else { format!("{word}.toml") };
+    let scene = Path::new(&with_ending);
+    if with_ending == word || !word.is_empty() && scene.is_file() {
+        let command = format!("jabuka compile {}", shell::path(scene));
+        self::error(&format!("error: `{}` is not a command; did you mean `{command}`?\n", visible(&word)));
         return 2;
     }
-    let word = error.get(ContextKind::InvalidSubcommand).map(ToString::to_string).unwrap_or_default();
     if let Some((command, _)) = OTHER_WORDS.iter().find(|(_, words)| words.contains(&&*word)) {
         self::error(&format!("error: there is no command `{word}`; did you mean `jabuka {command}`?\n"));
         return 2;

@@ -271,6 +271,7 @@ fn explain_tells_about_keys_and_names() {
         "studio: A photographer's room: white and seamless, with soft lights\n\
          in `jabuka list environments`: `environment`\n"
     );
+    assert!(stdout(&explain("ball.speed")).starts_with("speed: of a body: "));
     let output = explain("simulation.gravty");
     let said = stderr(&output);
     let begin = "error: there is no code or key `simulation.gravty`; did you mean `simulation.gravity`?\n";
@@ -390,6 +391,10 @@ fn a_scene_in_place_of_a_command_is_told_the_command() {
     assert_eq!(output.status.code(), Some(2));
     let said = "error: `throw.toml` is not a command; did you mean `jabuka compile throw.toml`?\n";
     assert_eq!((stderr(&output).as_str(), stdout(&output).as_str()), (said, ""));
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("throw.toml"), MEETING).unwrap();
+    let output = jabuka().current_dir(folder.path()).arg("throw").output().unwrap();
+    assert_eq!(stderr(&output), said.replace("`throw.toml` is", "`throw` is"));
     let output = jabuka().arg("throw").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("unrecognized subcommand"));

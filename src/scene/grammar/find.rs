@@ -45,14 +45,22 @@ pub fn find_keys(words: &str) -> Result<Vec<FoundKey>, Option<String>> {
     }
     let Some((last, before)) = words.split_last() else { return Err(None) };
     // A key of the named table comes first, and then any key: by a word of another program, or by a similar word.
-    let inside: Vec<FoundKey> = at(before).map(|key| keys_in(&key.path, &key.spec.kind)).unwrap_or_default();
+    let table = at(before);
+    let inside: Vec<FoundKey> =
+        table.as_ref().map(|key| keys_in(&key.path, &key.spec.kind)).unwrap_or_default();
     let also = |keys: &[FoundKey]| keys.iter().find(|key| key.spec.also.contains(last)).cloned();
     let similar = |keys: &[FoundKey]| {
         let name = nearest(last, keys.iter().map(|key| key.spec.name))?;
         keys.iter().find(|key| key.spec.name == name).cloned()
     };
-    let meant = also(&inside).or_else(|| similar(&inside)).or_else(|| also(&all)).or_else(|| similar(&all));
-    Err(meant.map(|key| key.path))
+    match (also(&inside).or_else(|| similar(&inside)), table) {
+        (Some(key), _) => Err(Some(key.path)),
+        // `body.ball` is a body of this name.
+        (None, Some(table)) if !last.is_empty() && matches!(table.spec.kind, Kind::Named(_)) => {
+            Ok(vec![table])
+        }
+        (None, _) => Err(also(&all).or_else(|| similar(&all)).map(|key| key.path)),
+    }
 }
 
 /// Returns all keys of the language, those of the scene's own tables first. Each table appears once, at its shortest path.
@@ -179,6 +187,7 @@ mod tests {
         assert_eq!(paths("body.ball.shape.sphere.radius"), ["body.NAME.shape.sphere.radius"]);
         assert_eq!(paths("body"), ["body"]);
         assert_eq!(paths("body.NAME"), ["body"]);
+        assert_eq!(paths("material.brass"), ["material"]);
     }
 
     #[test]
