@@ -84,8 +84,6 @@ pub mod picture;
 pub mod preview;
 pub mod random;
 #[cfg(feature = "render")]
-mod regular_file;
-#[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 mod run;
@@ -95,6 +93,7 @@ pub mod scene;
 pub mod simulate;
 pub mod starter;
 pub mod surface;
+pub mod system;
 mod threads;
 
 pub use run::{Run, RunError};

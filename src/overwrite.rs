@@ -12,7 +12,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::emit::ASSETS;
-use crate::output::{self, MANIFEST};
+use crate::output;
 use crate::render;
 use crate::scene::Scene;
 use crate::scene::sdl::FileKind;
@@ -161,7 +161,7 @@ impl ProtectedFiles {
     /// Returns true if a folder contains, or will contain, scripts or images of jabuka.
     fn is_ours(&self, folder: &Path) -> bool {
         self.folders.iter().any(|known| known == folder)
-            || output::read_manifest(&folder.join(MANIFEST)).is_some()
+            || output::read_manifest(folder).is_some()
             || render::is_folder_of_images(folder)
     }
 }

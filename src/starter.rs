@@ -1,8 +1,9 @@
 //! The scenes that `jabuka new` writes: a first scene, and copies of the examples in `scenes/`.
 
-use std::fs::{self, File};
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+
+use crate::system::Dir;
 
 // `SCENES`, and `FILES`, which the scenes read: made by `build.rs` from the folder `scenes/`.
 include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
@@ -64,39 +65,31 @@ fn write_all(
         scene.as_mut_os_string().push(".toml");
     }
     let failed = |error| (path.to_owned(), error);
-    let mut file = File::create_new(&scene).map_err(failed)?;
-    let written =
-        files.into_iter().try_for_each(|(name, bytes)| write_beside(&scene.with_file_name(name), bytes));
+    let (folder, name) = Dir::of_file(&scene, false).map_err(|error| failed(error.into()))?;
+    let mut file = folder.create_new(&name).map_err(|error| failed(error.into()))?;
+    let written = files.into_iter().try_for_each(|(name, bytes)| {
+        write_beside(&folder, name, bytes).map_err(|error| (scene.with_file_name(name), error))
+    });
     written.and_then(|()| file.write_all(text.as_bytes()).map_err(failed)).inspect_err(|_| {
         // Remove the incomplete file. If removing fails, too, the error of writing is reported anyway.
-        let _ = fs::remove_file(&scene);
+        let _ = folder.remove_file(&name);
     })?;
     Ok(scene)
 }
 
 /// Writes a file that a scene reads. A file that is there already is kept; it must have the same bytes.
-fn write_beside(path: &Path, bytes: &[u8]) -> Result<(), (PathBuf, io::Error)> {
-    let failed = |error| (path.to_owned(), error);
-    path.parent().map_or(Ok(()), fs::create_dir_all).map_err(failed)?;
-    match File::create_new(path) {
-        Ok(mut file) => file.write_all(bytes).map_err(|error| {
-            let _ = fs::remove_file(path);
-            failed(error)
+fn write_beside(folder: &Dir, name: &str, bytes: &[u8]) -> io::Result<()> {
+    if let Some((subfolder, _)) = name.rsplit_once('/') {
+        folder.make_folder(subfolder)?;
+    }
+    match folder.create_new(name).map_err(io::Error::from) {
+        Ok(mut file) => file.write_all(bytes).inspect_err(|_| {
+            let _ = folder.remove_file(name);
         }),
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            if has_bytes(path, bytes).map_err(failed)? { Ok(()) } else { Err(failed(error)) }
+            let is_same = folder.read(name).is_ok_and(|found| found == bytes);
+            if is_same { Ok(()) } else { Err(error) }
         }
-        Err(error) => Err(failed(error)),
+        Err(error) => Err(error),
     }
-}
-
-/// Returns true if a regular file has exactly these bytes.
-fn has_bytes(path: &Path, bytes: &[u8]) -> io::Result<bool> {
-    // A pipe would block.
-    if !fs::metadata(path)?.is_file() {
-        return Ok(false);
-    }
-    let mut found = Vec::new();
-    File::open(path)?.take(bytes.len() as u64 + 1).read_to_end(&mut found)?;
-    Ok(found == bytes)
 }

@@ -12,7 +12,7 @@
 //! | the state of the simulation | |
 //! | the digest of all bytes before | 32 |
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -22,8 +22,8 @@ use sha2::{Digest, Sha256};
 use super::digest::CacheKey;
 use super::file::{At, ENTRY, damaged};
 use super::{PART, SAVING, STOPPED, files};
-use crate::regular_file;
 use crate::simulate::Checkpoint;
+use crate::system;
 
 const FORMAT: &[u8; 8] = b"jabuka c";
 /// The number of bytes before the table of pages.
@@ -46,7 +46,7 @@ pub(super) fn write(part: &Path, key: CacheKey, pages: &[At], checkpoint: &Check
     let digest: [u8; 32] = Sha256::digest(&bytes).into();
     bytes.extend(digest);
     let temporary = part.with_extension(SAVING);
-    let written = regular_file::create(&temporary).and_then(|mut file| file.write_all(&bytes));
+    let written = system::create(&temporary).and_then(|mut file| file.write_all(&bytes));
     written.and_then(|()| fs::rename(&temporary, beside(part))).inspect_err(|_| {
         // If the file cannot be removed, the next process removes it.
         let _: io::Result<()> = fs::remove_file(&temporary);
@@ -55,7 +55,7 @@ pub(super) fn write(part: &Path, key: CacheKey, pages: &[At], checkpoint: &Check
 
 /// Reads a checkpoint. Returns the positions of the pages up to the checkpoint, and the state of the simulation.
 fn read(part: &Path, key: CacheKey) -> io::Result<(Vec<At>, Checkpoint)> {
-    let bytes = regular_file::read(&beside(part))?;
+    let bytes = system::read(&beside(part))?;
     let (covered, digest) = bytes.split_last_chunk::<32>().ok_or_else(damaged)?;
     let found: [u8; 32] = Sha256::digest(covered).into();
     let (head, rest) = covered.split_first_chunk::<HEAD>().ok_or_else(damaged)?;
@@ -108,7 +108,7 @@ pub(super) fn find(folder: &Path, key: CacheKey) -> Option<Stopped> {
 
 /// Opens and locks the file of pages of an interrupted run. `None` if another process has locked the file, or if it has disappeared.
 pub(super) fn lock(part: &Path) -> Option<File> {
-    let file = regular_file::open(part, OpenOptions::new().read(true).write(true)).ok()?;
+    let file = system::open_to_write(part, false).ok()?;
     file.try_lock().ok()?;
     // The previous owner of the lock may have removed or renamed the file after it was opened.
     let is_same = fs::symlink_metadata(part).ok()?.ino() == file.metadata().ok()?.ino();

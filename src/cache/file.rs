@@ -19,8 +19,8 @@ use sha2::{Digest, Sha256};
 
 use super::KEPT;
 use super::digest::CacheKey;
-use crate::regular_file;
 use crate::simulate::{Counts, Recording, Store};
+use crate::system;
 
 const FORMAT: &[u8; 8] = b"jabuka 1";
 /// The size of a page's entry in the table of pages, bytes.
@@ -86,7 +86,7 @@ pub(super) fn end(pages: &[At], index: &[u8], offset: u64) -> Vec<u8> {
 
 /// Opens the cached run with this key, and sets the file's modification time, which counts as the time of its last use.
 pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Recording> {
-    let file = regular_file::open_to_read(path)?;
+    let file = system::open(path)?;
     let length = file.metadata()?.len();
     let mut head = [0; 40];
     file.read_exact_at(&mut head, 0)?;

@@ -21,9 +21,9 @@ use std::time::{Duration, Instant, SystemTime};
 use std::{env, fs, io};
 
 use crate::dynamics::PairCounter;
-use crate::regular_file;
 use crate::scene::Scene;
 use crate::simulate::{Counts, Frame, Moments, Recorded, Recorder, Recording, SimulateError};
+use crate::system;
 
 pub use spill::Spill;
 
@@ -368,7 +368,7 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
 /// Removes the files of killed processes from which no run can be continued. No process has locked these files.
 fn sweep(folder: &Path) -> io::Result<()> {
     for part in files(folder, PART)? {
-        let is_left = regular_file::open_to_read(&part.path).is_ok_and(|file| file.try_lock().is_ok());
+        let is_left = system::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());
         if is_left && !checkpoint::beside(&part.path).exists() {
             remove(&part.path)?;
         }

@@ -1,6 +1,6 @@
 //! Stores the recorded pages of a run while it is simulated: a few in memory, and more in a file.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io;
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ use super::checkpoint::{self, Stopped};
 use super::digest::CacheKey;
 use super::file::{self, At};
 use super::{PART, SAVING};
-use crate::regular_file;
 use crate::simulate::{Checkpoint, Store};
+use crate::system;
 
 /// The size up to which the recorded pages of a run stay in memory, bytes.
 const IN_MEMORY: usize = 1 << 20;
@@ -185,8 +185,7 @@ impl Part {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let path =
             folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
-        let options = &mut OpenOptions::new();
-        let file = regular_file::open(&path, options.read(true).write(true).create(true).truncate(false))?;
+        let file = system::open_to_write(&path, true)?;
         file.try_lock().map_err(io::Error::from)?;
         // A killed process may have left a checkpoint, which does not belong to this new run.
         let _: io::Result<()> = fs::remove_file(checkpoint::beside(&path));

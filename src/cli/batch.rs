@@ -189,7 +189,11 @@ fn make(
     write: impl FnOnce(&JobFolder) -> Result<([u32; 2], bool), OutputError>,
 ) -> Result<String, OutputError> {
     let job = JobFolder::open(folder)?;
-    let (size, transparent) = write(&job)?;
+    let (size, transparent) = write(&job).inspect_err(|error| {
+        if let OutputError::Run(_) = error {
+            job.discard();
+        }
+    })?;
     let options = arguments.picture.options(size, transparent).join(" ");
     let settings = batch::settings(&folder.join(SCRIPTS), frames, options, arguments.film.video_rate)?;
     let cpus = arguments.cpus.map(|cpus| cpus as usize);

@@ -1,7 +1,7 @@
 //! The command `jabuka export`: writes the motion of a scene as tables and models for other programs.
 
-use std::fs::{self, OpenOptions};
-use std::io::{self, BufWriter};
+use std::fs::File;
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
@@ -13,6 +13,7 @@ use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::scene::ContactLaw;
 use jabuka::simulate::{Moments, Recorded, Selection};
+use jabuka::system::Dir;
 
 use super::progress::Progress;
 use super::run_arguments;
@@ -228,17 +229,8 @@ fn report(error: ExportError, path: &Path) -> Report {
 /// Writes a file under a temporary name and renames it at the end, so that an error leaves no partial file.
 pub(super) fn whole<T>(
     path: &Path,
-    write: impl FnOnce(BufWriter<fs::File>) -> Result<T, ExportError>,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-    // A run that was killed may have left its temporary file.
-    let _ = fs::remove_file(&temporary);
-    let done = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(ExportError::from);
-    let done = done.and_then(|file| write(BufWriter::new(file)));
-    let done = done.and_then(|what| fs::rename(&temporary, path).map(|()| what).map_err(ExportError::from));
-    done.inspect_err(|_| {
-        // Removing fails harmlessly if the temporary file was never created.
-        let _: io::Result<()> = fs::remove_file(&temporary);
-    })
+    let (folder, name) = Dir::of_file(path, false)?;
+    folder.write_whole(&name, write)
 }

@@ -43,7 +43,7 @@ impl PovRayArguments {
 
     /// Finds the POV-Ray program to render into a folder of images. Prints a warning if the system cannot confine it fully.
     pub(super) fn find(&self, images: &Images, confinement: Confinement) -> Result<PovRay, RenderError> {
-        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), confinement)?;
+        let povray = PovRay::find(self.povray.as_deref(), images, confinement)?;
         if let Some(warning) = povray.warning() {
             terminal::error(&format!("warning: {warning}\n"));
         }

@@ -12,6 +12,7 @@ use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::{Event, Images, Job, Outcome, RenderError, Sequence};
 use jabuka::scene::View;
 use jabuka::simulate::Selection;
+use jabuka::system::Dir;
 
 use super::picture_arguments::PictureArguments;
 use super::povray_arguments::PovRayArguments;
@@ -63,6 +64,14 @@ impl Arguments {
         self.every.unwrap_or(1) as usize
     }
 
+    /// Opens the folder for the images of the scripts in the folder `scripts`.
+    fn open_images(&self, scripts: &Dir) -> Result<Images, RenderError> {
+        match &self.output {
+            Some(images) => Images::open(images),
+            None => Images::among(scripts),
+        }
+    }
+
     /// Returns the folder for the images of the scripts in the folder `scripts`.
     fn images(&self, scripts: &Path) -> PathBuf {
         self.output.clone().unwrap_or_else(|| scripts.join("images"))
@@ -98,7 +107,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // The folders stay locked until all images are finished, so that no other process changes the scripts during rendering.
     let mut result = Ok(());
     for (folder, drift) in &folders {
-        match render_scripts(arguments, &products, folder.path(), Some(&selection), drift, stop) {
+        match render_scripts(arguments, &products, folder.dir(), Some(&selection), drift, stop) {
             Err(Failure::Interrupted) => return Err(Failure::Interrupted),
             other => result = result.and(other),
         }
@@ -121,7 +130,7 @@ fn write_scripts(
     for (view, path) in cameras {
         let folder = Folder::open(path).map_err(|error| progress.failed(&error))?;
         let (warnings, drift);
-        if let Some(manifest) = output::up_to_date(scene, *view, selection, path) {
+        if let Some(manifest) = output::up_to_date(scene, *view, selection, &folder) {
             let head = &manifest.head;
             (warnings, drift) = (manifest.warnings(), head.drift.map(|drift| (drift, head.drift_scale)));
         } else {
@@ -178,7 +187,12 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         (None, Some(_)) => Some(Selection::first(usize::MAX)),
     };
     let selection = selection.map(|selection| selection.every(arguments.every()));
-    render_scripts(arguments, products, &arguments.source, selection.as_ref(), "", stop)
+    let dir = match arguments.output {
+        Some(_) => Dir::of_path(&arguments.source),
+        None => Dir::open(&arguments.source),
+    };
+    let dir = dir.map_err(|error| failed(&error.into()))?;
+    render_scripts(arguments, products, &dir, selection.as_ref(), "", stop)
 }
 
 /// Renders the selected scripts of a folder, then makes the film and contact sheet. `known` is text about the run that is added to the
@@ -186,17 +200,17 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
 fn render_scripts(
     arguments: &Arguments,
     products: &Products,
-    folder: &Path,
+    folder: &Dir,
     selection: Option<&Selection>,
     known: &str,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let start = Instant::now();
-    let sequence = Sequence::open(folder, selection).map_err(|error| failed(&error))?;
+    let sequence = Sequence::open(folder.path(), selection).map_err(|error| failed(&error))?;
     products.check(arguments.picture.size_or(sequence.size), sequence.video_rate)?;
-    let images = Images::open(&arguments.images(folder)).map_err(|error| failed(&error))?;
+    let images = arguments.open_images(folder).map_err(|error| failed(&error))?;
     let scene = (!arguments.source.is_dir()).then_some(arguments.source.as_path());
-    let confinement = arguments.scene.confinement(scene, &[folder, images.folder()]);
+    let confinement = arguments.scene.confinement(scene, &[folder.path(), images.folder()]);
     let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;
     let job = Job {
         jobs: arguments.jobs.map(usize::from),

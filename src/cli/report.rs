@@ -138,7 +138,7 @@ fn draw(
         terminal::error("nothing is integrated, so there is no plot\n");
         return Err(Failure::Errors);
     };
-    let written = whole(path, |mut file| {
+    let written = whole(path, |file| {
         match plot {
             Plot::Svg => file.write_all(svg(&picture).as_bytes())?,
             Plot::Png => file.write_all(&png(&picture).map_err(std::io::Error::from)?)?,

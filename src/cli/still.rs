@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (folder, breakdown) = write_script(arguments, &scene, view, &folder)?;
     let mut sequence = Sequence::open(folder.path(), None).map_err(|error| failed(&error))?;
     sequence.moment = Some(arguments.time);
-    let images = Images::open(&folder.path().join("images")).map_err(|error| failed(&error))?;
+    let images = Images::among(folder.dir()).map_err(|error| failed(&error))?;
     let confinement = arguments.of_scene.confinement(Some(&arguments.scene), &[folder.path()]);
     let povray = arguments.povray.find(&images, confinement).map_err(|error| failed(&error))?;
     let job = Job {

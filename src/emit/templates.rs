@@ -1,6 +1,5 @@
 //! Renders scripts from templates, and formats the values that templates insert.
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -10,6 +9,7 @@ use minijinja::{Environment, Error, ErrorKind, Output, UndefinedBehavior};
 
 use super::{EmitError, number, text};
 use crate::scene::OwnTemplate;
+use crate::system::Dir;
 
 /// The built-in templates: file name and text.
 pub const TEMPLATES: &[(&str, &str)] = &[
@@ -44,16 +44,19 @@ const README: &str = include_str!("../../templates/README.md");
 /// If a file cannot be written, or a file of the same name exists. In the latter case, nothing is written.
 pub fn write_templates(folder: &Path) -> io::Result<usize> {
     let files = || TEMPLATES.iter().copied().chain([("README.md", README)]);
-    if let Some((name, _)) = files().find(|(name, _)| fs::symlink_metadata(folder.join(name)).is_ok()) {
-        return Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("`{name}` is there already")));
+    let folder = Dir::make(folder)?;
+    for (name, _) in files() {
+        if folder.about(name)?.is_some() {
+            return Err(io::Error::new(io::ErrorKind::AlreadyExists, format!("`{name}` is there already")));
+        }
     }
     for (name, text) in files() {
-        let path = folder.join(name);
-        path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let mut file = fs::File::create_new(&path)?;
-        io::Write::write_all(&mut file, text.as_bytes()).inspect_err(|_| {
+        if let Some((subfolder, _)) = name.rsplit_once('/') {
+            folder.make_folder(subfolder)?;
+        }
+        io::Write::write_all(&mut folder.create_new(name)?, text.as_bytes()).inspect_err(|_| {
             // The file is removed, since a partly written template is useless.
-            let _ = fs::remove_file(&path);
+            let _ = folder.remove_file(name);
         })?;
     }
     Ok(TEMPLATES.len())

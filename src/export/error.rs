@@ -3,6 +3,7 @@
 use std::{fmt, io};
 
 use crate::simulate::SimulateError;
+use crate::system::FolderError;
 
 /// The reason why a run cannot be exported.
 #[derive(Debug)]
@@ -31,6 +32,12 @@ impl ExportError {
             }
             _ => None,
         }
+    }
+}
+
+impl From<FolderError> for ExportError {
+    fn from(error: FolderError) -> ExportError {
+        ExportError::Io(error.into())
     }
 }
 

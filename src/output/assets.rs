@@ -1,8 +1,7 @@
 //! Copies the files that scripts read (assets: images, height fields, fonts) into an output folder.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
 
 use super::manifest::Entry;
 use super::{DigestWriter, Folder, OutputError};
@@ -17,7 +16,9 @@ use crate::scene::Asset;
 pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, OutputError> {
     let copy = |asset: &Asset| {
         let name = format!("{ASSETS}/{}", asset.name);
-        make_folders(folder.path(), Path::new(&name))?;
+        if let Some((subfolder, _)) = name.rsplit_once('/') {
+            folder.dir().make_folder(subfolder)?;
+        }
         let original = |error| OutputError::Io(asset.path.clone(), error);
         let mut file = File::open(&asset.path).map_err(original)?;
         let mut writer = DigestWriter::default();
@@ -38,19 +39,4 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
         Ok(writer.entry(None, name))
     };
     assets.iter().map(copy).collect()
-}
-
-/// Creates the missing subfolders on the path of a file below `folder`. Refuses symbolic links.
-fn make_folders(folder: &Path, file: &Path) -> Result<(), OutputError> {
-    let mut path: PathBuf = folder.to_owned();
-    for part in file.parent().into_iter().flat_map(Path::components) {
-        path.push(part);
-        match fs::symlink_metadata(&path) {
-            Ok(metadata) if metadata.is_symlink() => return Err(OutputError::Link(path)),
-            Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path)),
-            Ok(_) => {}
-            Err(_) => fs::create_dir(&path).map_err(|error| OutputError::Io(path.clone(), error))?,
-        }
-    }
-    Ok(())
 }

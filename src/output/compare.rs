@@ -1,7 +1,6 @@
 //! Compares the scripts that a scene gives now with the scripts in a folder, as a snapshot test that every user can run.
 
 use std::collections::HashSet;
-use std::fs;
 use std::io;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -13,6 +12,7 @@ use super::{OutputError, folder};
 use crate::Run;
 use crate::emit::{frame_name, shutter_name};
 use crate::simulate::{Exposure, Selection};
+use crate::system;
 
 /// A difference between a script that the scene gives now and the script in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ pub fn compare(
 }
 
 fn difference(path: &Path, new: &str) -> Result<Option<Kind>, OutputError> {
-    let old = match fs::read(path) {
+    let old = match system::read(path) {
         Ok(old) => old,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Some(Kind::Missing)),
         Err(error) => return Err(OutputError::Io(path.to_owned(), error)),

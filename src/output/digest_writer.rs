@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io;
-use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
@@ -22,10 +21,10 @@ impl DigestWriter {
         self.bytes += piece.len() as u64;
     }
 
-    /// Reads the file at a path to its end.
-    pub(super) fn of_file(path: &Path) -> io::Result<DigestWriter> {
+    /// Reads a file to its end.
+    pub(super) fn of_file(mut file: File) -> io::Result<DigestWriter> {
         let mut writer = DigestWriter::default();
-        io::copy(&mut File::open(path)?, &mut writer)?;
+        io::copy(&mut file, &mut writer)?;
         Ok(writer)
     }
 

@@ -1,15 +1,12 @@
 //! Renames files that a user has edited since jabuka wrote them, before jabuka writes these files anew.
 
-use std::fs;
-use std::io;
-use std::path::Path;
-
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::manifest::Entry;
 use super::{DigestWriter, Folder, OutputError};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::ASSETS;
+use crate::system::{Dir, FolderError, Kind};
 
 /// An edited file that was renamed, so that jabuka can write the file anew.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,16 +22,19 @@ impl Folder {
     /// entry in the manifest.
     ///
     /// # Errors
-    /// If a file cannot be read or renamed.
+    /// If a file cannot be read or renamed; if the folder was not made here, so that its manifest proves nothing, and a file differs.
     pub(crate) fn set_aside<'a>(&self, files: impl Iterator<Item = &'a Entry>) -> Result<(), OutputError> {
         let files: Vec<&Entry> = files.collect();
-        let is_edited = |entry: &&Entry| {
-            let path = self.path().join(&entry.name);
-            is_edited(&path, entry).map_err(|error| OutputError::Io(path, error))
-        };
+        let is_edited = |entry: &&Entry| is_edited(self.dir(), entry);
         let edited: Vec<bool> = files.par_iter().map(is_edited).collect::<Result<_, _>>()?;
-        for (entry, _) in files.into_iter().zip(edited).filter(|(_, edited)| *edited) {
-            let file = move_aside(self.path(), &entry.name)?;
+        let edited: Vec<&Entry> =
+            files.into_iter().zip(edited).filter_map(|(entry, edited)| edited.then_some(entry)).collect();
+        if !self.is_made_here() && !edited.is_empty() {
+            let names = edited.iter().map(|entry| entry.name.clone()).collect();
+            return Err(OutputError::FromElsewhere(self.path().to_owned(), names));
+        }
+        for entry in edited {
+            let file = move_aside(self.dir(), &entry.name)?;
             self.lock_set_aside().push(file);
         }
         Ok(())
@@ -48,16 +48,14 @@ impl Folder {
     pub(crate) fn settle(&self, same_scene: bool) -> Result<(), OutputError> {
         let mut set_aside = self.lock_set_aside();
         for file in std::mem::take(&mut *set_aside) {
-            let now = self.path().join(&file.now);
-            let same = || Ok::<_, io::Error>(fs::read(&now)? == fs::read(self.path().join(&file.name))?);
-            let path = self.path().join(&file.name);
-            if same_scene && fs::symlink_metadata(&path).is_err() {
-                fs::rename(&now, &path).map_err(|error| OutputError::Io(path, error))?;
+            if same_scene && self.dir().about(&file.name)?.is_none() {
+                self.dir().rename(&file.now, self.dir(), &file.name)?;
                 continue;
             }
+            let same = || Ok::<_, FolderError>(self.dir().read(&file.now)? == self.dir().read(&file.name)?);
             // A file that cannot be compared stays under its new name.
             if same().unwrap_or(false) {
-                fs::remove_file(&now).map_err(|error| OutputError::Io(now, error))?;
+                self.dir().remove_file(&file.now)?;
             } else {
                 set_aside.push(file);
             }
@@ -89,32 +87,33 @@ impl Folder {
 }
 
 /// Returns true if a regular file exists and differs from its entry in the manifest.
-fn is_edited(path: &Path, entry: &Entry) -> io::Result<bool> {
-    match fs::symlink_metadata(path) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
+fn is_edited(dir: &Dir, entry: &Entry) -> Result<bool, FolderError> {
+    match dir.about(&entry.name)? {
+        None => Ok(false),
         // A symbolic link is replaced, which leaves its target unchanged.
-        Ok(metadata) if !metadata.is_file() => Ok(false),
-        Ok(metadata) if metadata.len() != entry.bytes => Ok(true),
-        Ok(_) => Ok(DigestWriter::of_file(path)?.entry(entry.frame, entry.name.clone()) != *entry),
+        Some(found) if found.kind != Kind::File => Ok(false),
+        Some(found) if found.bytes != entry.bytes => Ok(true),
+        Some(_) => {
+            let read = DigestWriter::of_file(dir.open_file(&entry.name)?);
+            let read = read.map_err(|error| FolderError::Io(dir.path().join(&entry.name), error))?;
+            Ok(read.entry(entry.frame, entry.name.clone()) != *entry)
+        }
     }
 }
 
 /// Renames an edited file of a folder: `frame_0002.pov` becomes `frame_0002.edited.pov`, with a number if that name is taken.
-fn move_aside(folder: &Path, name: &str) -> Result<SetAside, OutputError> {
+fn move_aside(dir: &Dir, name: &str) -> Result<SetAside, FolderError> {
     // Scripts can read every file in the folder of assets, so edited assets go to a folder beside it.
     let in_assets = name.strip_prefix(ASSETS).and_then(|name| name.strip_prefix('/'));
     let now = match in_assets {
         Some(name) => format!("{ASSETS}.edited/{name}"),
         None => between(name, ".edited"),
     };
-    let now = free_name(folder, &now);
-    let (from, to) = (folder.join(name), folder.join(&now));
-    let rename = || {
-        to.parent().map_or(Ok(()), fs::create_dir_all)?;
-        fs::rename(&from, &to)
-    };
-    rename().map_err(|error| OutputError::Io(from.clone(), error))?;
+    if let Some((folder, _)) = now.rsplit_once('/') {
+        dir.make_folder(folder)?;
+    }
+    let now = free_name(dir, &now)?;
+    dir.rename(name, dir, &now)?;
     Ok(SetAside { name: name.to_owned(), now })
 }
 
@@ -127,14 +126,20 @@ fn between(name: &str, inserted: &str) -> String {
 }
 
 /// Returns a name that no file in the folder has: the given name, or that name with a number, as in `submit-2.old`.
-pub(crate) fn free_name(folder: &Path, name: &str) -> String {
-    let is_free = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
-    let numbered = (2_u64..).map(|number| between(name, &format!("-{number}")));
-    std::iter::once(name.to_owned()).chain(numbered).find(is_free).unwrap_or_else(|| name.to_owned())
+pub(crate) fn free_name(dir: &Dir, name: &str) -> Result<String, FolderError> {
+    let mut free = name.to_owned();
+    let mut number = 2_u64;
+    while dir.about(&free)?.is_some() {
+        free = between(name, &format!("-{number}"));
+        number += 1;
+    }
+    Ok(free)
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn entry(name: &str, bytes: &[u8]) -> Entry {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use crate::RunError;
 use crate::diagnostic::{Code, Diagnostic, Report};
+use crate::system::FolderError;
 
 /// An error of writing or comparing scripts. The path is that of the file or folder concerned.
 #[derive(Debug)]
@@ -22,6 +23,11 @@ pub enum OutputError {
     Incomplete(PathBuf),
     /// A file or folder that jabuka writes to is a symbolic link, whose target may be anywhere.
     Link(PathBuf),
+    /// The folder was not made here, and files in it were not written as its manifest says: their names. Only the user can know whether they
+    /// are of any use.
+    FromElsewhere(PathBuf, Vec<String>),
+    /// The job folder was not made here, and holds files that its scripts or an engine would use: their names.
+    JobFromElsewhere(PathBuf, Vec<String>),
     /// Another jabuka process writes into the same folder.
     Locked(PathBuf),
     /// A file could not be read, written or removed.
@@ -34,7 +40,9 @@ impl OutputError {
     /// Returns the diagnostic code of this error.
     pub fn code(&self) -> Code {
         match self {
-            OutputError::NotOurs(_) => Code::FolderNotOurs,
+            OutputError::NotOurs(_) | OutputError::FromElsewhere(..) | OutputError::JobFromElsewhere(..) => {
+                Code::FolderNotOurs
+            }
             OutputError::NotAFolder(_) | OutputError::NoFolder(_) => Code::NoFolder,
             OutputError::NoScripts(_) => Code::NoScripts,
             OutputError::Incomplete(_) => Code::IncompleteScripts,
@@ -64,7 +72,13 @@ impl OutputError {
         match self {
             OutputError::Run(error) => error.help(),
             OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
-            OutputError::Link(_) => Some("remove the link"),
+            OutputError::FromElsewhere(..) => {
+                Some("look at them, and remove or rename them; or name another folder with `-o`")
+            }
+            OutputError::JobFromElsewhere(..) => Some(
+                "look at them: they name programs that run; then remove them, or keep them with `--trust`",
+            ),
+            OutputError::Link(_) => Some("remove the link, or name the folder that it leads to"),
             OutputError::Locked(_) => {
                 Some("wait until the other run has ended, or name another folder with `-o`")
             }
@@ -86,6 +100,16 @@ fn is_full(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
 }
 
+/// Lists the first of some names of files.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    match names.len().saturating_sub(SHOWN) {
+        0 => shown.join(", "),
+        others => format!("{}, and {others} more", shown.join(", ")),
+    }
+}
+
 impl fmt::Display for OutputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -100,6 +124,17 @@ impl fmt::Display for OutputError {
             OutputError::Incomplete(path) => {
                 write!(f, "not all scripts are in `{}`: what writes them was interrupted", path.display())
             }
+            OutputError::FromElsewhere(path, names) => {
+                let (names, path) = (listed(names), path.display());
+                write!(f, "the folder `{path}` comes from elsewhere, and jabuka did not write its {names}")
+            }
+            OutputError::JobFromElsewhere(path, names) => {
+                let (names, path) = (listed(names), path.display());
+                write!(
+                    f,
+                    "the job folder `{path}` comes from elsewhere, and its {names} would be used as you edited it here"
+                )
+            }
             OutputError::Link(path) => write!(f, "`{}` is a link, which is not followed", path.display()),
             OutputError::Locked(path) => {
                 write!(f, "another jabuka writes to the folder `{}`", path.display())
@@ -112,6 +147,16 @@ impl fmt::Display for OutputError {
 }
 
 impl std::error::Error for OutputError {}
+
+impl From<FolderError> for OutputError {
+    fn from(error: FolderError) -> OutputError {
+        match error {
+            FolderError::Link(path) => OutputError::Link(path),
+            FolderError::NotAFolder(path) => OutputError::NotAFolder(path),
+            FolderError::Io(path, error) => OutputError::Io(path, error),
+        }
+    }
+}
 
 impl<E: Into<RunError>> From<E> for OutputError {
     fn from(error: E) -> OutputError {

@@ -1,8 +1,8 @@
 //! An output folder: checks that jabuka made it, locks it, and writes files into it.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -10,6 +10,7 @@ use super::OutputError;
 use super::edited::SetAside;
 use super::manifest::{self, MANIFEST};
 use crate::emit::{COMMON, INI, MASTER, is_trail_file};
+use crate::system::{Dir, FolderError, Kind, Made, made_here};
 
 /// The name of the lock file. It stays in the folder, since removing it would race with another process that has just opened it. The lock
 /// belongs to the open file, so it ends with the process, however the process ends.
@@ -17,8 +18,14 @@ const LOCK: &str = ".jabuka-lock";
 
 /// An output folder that is locked, so that only this process writes to it.
 pub struct Folder {
-    path: PathBuf,
+    dir: Dir,
     _lock: File,
+    /// True if jabuka made this folder on this machine, so that the user has made all later changes in it.
+    made_here: bool,
+    /// The folders that were made to open this one.
+    made: Made,
+    /// True if the folder was empty when it was opened.
+    is_new: bool,
     /// The edited files that were renamed since the folder was opened.
     set_aside: Mutex<Vec<SetAside>>,
 }
@@ -30,28 +37,54 @@ impl Folder {
     /// # Errors
     /// If jabuka did not make the folder, another process writes to it, or it cannot be created or read.
     pub fn open(path: &Path) -> Result<Folder, OutputError> {
-        Folder::open_marked(path, &|path| manifest::read(&path.join(MANIFEST)).is_some())
+        let (dir, made) = Dir::make_noting(path)?;
+        Folder::of(dir, made, &|dir| manifest::read(dir).is_some())
     }
 
-    /// Opens a folder as [`Folder::open`] does, but `marked` decides whether jabuka made it.
-    pub(crate) fn open_marked(path: &Path, marked: &dyn Fn(&Path) -> bool) -> Result<Folder, OutputError> {
-        let io_error = |error| OutputError::Io(path.to_owned(), error);
-        match fs::metadata(path) {
-            Ok(metadata) if !metadata.is_dir() => return Err(OutputError::NotAFolder(path.to_owned())),
-            Ok(_) => {}
-            Err(_) => fs::create_dir_all(path).map_err(io_error)?,
+    /// Opens a subfolder for writing, as [`Folder::open`] does.
+    pub(crate) fn within(above: &Dir, name: &str) -> Result<Folder, OutputError> {
+        let (dir, made) = above.make_folder_noting(name)?;
+        Folder::of(dir, made, &|dir| manifest::read(dir).is_some())
+    }
+
+    /// Locks an open folder as [`Folder::open`] does, but `marked` decides whether jabuka made it. `made` are the folders that were made to open
+    /// it.
+    pub(crate) fn of(dir: Dir, made: Made, marked: &dyn Fn(&Dir) -> bool) -> Result<Folder, OutputError> {
+        let is_empty = is_empty(&dir)?;
+        if !is_empty && !marked(&dir) {
+            return Err(OutputError::NotOurs(dir.path().to_owned()));
         }
-        if !is_ours(path, marked).map_err(io_error)? {
-            return Err(OutputError::NotOurs(path.to_owned()));
+        let lock = lock(&dir)?;
+        if is_empty {
+            made_here::note(&dir);
         }
-        let folder = Folder { path: path.to_owned(), _lock: lock(path)?, set_aside: Mutex::default() };
-        folder.sweep().map_err(io_error)?;
+        let made_here = is_empty || made_here::is_noted(&dir);
+        let folder =
+            Folder { dir, _lock: lock, made, is_new: is_empty, made_here, set_aside: Mutex::default() };
+        folder.sweep()?;
         Ok(folder)
     }
 
     /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.dir.path()
+    }
+
+    /// Returns the open folder.
+    pub fn dir(&self) -> &Dir {
+        &self.dir
+    }
+
+    /// Returns true if jabuka made this folder on this machine. Another folder may hold anything.
+    pub(crate) fn is_made_here(&self) -> bool {
+        self.made_here
+    }
+
+    /// Notes that all files of jabuka's in this folder were written here.
+    pub(crate) fn note_made_here(&self) {
+        if !self.made_here {
+            made_here::note(&self.dir);
+        }
     }
 
     pub(super) fn lock_set_aside(&self) -> MutexGuard<'_, Vec<SetAside>> {
@@ -72,7 +105,7 @@ impl Folder {
         name: &str,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        let path = self.path.join(name);
+        let path = self.path().join(name);
         self.try_write_with(name, |file| fill(file).map_err(|error| OutputError::Io(path, error)))
     }
 
@@ -82,32 +115,29 @@ impl Folder {
         name: &str,
         fill: impl FnOnce(&mut BufWriter<File>) -> Result<(), OutputError>,
     ) -> Result<(), OutputError> {
-        let path = self.path.join(name);
-        let io_error = |error| OutputError::Io(path.clone(), error);
         // Temporary files for subfolders are in the main folder, too, since the next process looks for leftovers in the main folder only.
-        let temporary = self.path.join(format!(".jabuka-{}.tmp", name.replace('/', "-")));
-        let fill_and_rename = || {
-            // `create_new` does not follow symbolic links.
-            let file = OpenOptions::new().write(true).create_new(true).open(&temporary).map_err(io_error)?;
-            let mut file = BufWriter::new(file);
-            fill(&mut file)?;
-            file.into_inner().map_err(io::IntoInnerError::into_error).map_err(io_error)?;
-            fs::rename(&temporary, &path).map_err(io_error)
-        };
-        fill_and_rename().inspect_err(|_| {
-            // If the file cannot be removed, the next process that opens the folder removes it.
-            let _ = fs::remove_file(&temporary);
-        })
+        let temporary = format!(".jabuka-{}.tmp", name.replace('/', "-"));
+        self.dir.write_as(Path::new(&temporary), Path::new(name), fill)
+    }
+
+    /// Removes everything that was written, if the folder was empty when it was opened. The lock is removed with this value.
+    pub(crate) fn discard(&self) {
+        if self.is_new {
+            for name in self.dir.names().unwrap_or_default().iter().filter(|name| *name != LOCK) {
+                // What cannot be removed stays, and the manifest says that it is incomplete.
+                let _: Result<(), FolderError> = self.dir.remove_all(name);
+            }
+        }
     }
 
     /// Returns the frame numbers and names of the scripts in the folder, sorted by frame. `of` selects the frames.
     pub(super) fn scripts(&self, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
-        scripts_of(&self.path, of)
+        scripts_of(&self.dir, of)
     }
 
     /// Returns the sorted names of the include files in the folder that hold parts of trails.
     pub(super) fn trail_files(&self) -> Result<Vec<String>, OutputError> {
-        trail_files(&self.path).map_err(|error| OutputError::Io(self.path.clone(), error))
+        Ok(trail_files(&self.dir)?)
     }
 
     /// Removes all scripts, and the include files that jabuka wrote with them. Returns the numbers of the frames that had a script.
@@ -118,40 +148,41 @@ impl Folder {
         let names = scripts.into_iter().map(|(_, name)| name);
         let names = names.chain([MASTER, INI, COMMON].map(str::to_owned)).chain(self.trail_files()?);
         for name in names {
-            let path = self.path.join(name);
-            match fs::remove_file(&path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(OutputError::Io(path, error));
-                }
-                _ => {}
-            }
+            self.dir.remove_file(name)?;
         }
         Ok(numbers)
     }
 
-    fn sweep(&self) -> io::Result<()> {
-        for entry in fs::read_dir(&self.path)? {
-            let entry = entry?;
-            if entry.file_name().to_str().is_some_and(is_temporary) && !entry.file_type()?.is_dir() {
-                fs::remove_file(entry.path())?;
+    fn sweep(&self) -> Result<(), FolderError> {
+        for name in self.dir.names()?.iter().filter(|name| name.to_str().is_some_and(is_temporary)) {
+            if self.dir.about(name)?.is_some_and(|found| found.kind != Kind::Folder) {
+                self.dir.remove_file(name)?;
             }
         }
         Ok(())
     }
 }
 
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // A folder that was made for nothing is removed, with its lock.
+        let is_for_nothing = self.is_new && !self.made.is_empty() && is_empty(&self.dir).unwrap_or(false);
+        if is_for_nothing && self.dir.remove_file(LOCK).is_ok() {
+            self.made.remove();
+        }
+    }
+}
+
 /// Returns the frame numbers and names of the scripts in a folder, sorted by frame. Each frame's sharp script comes before its script with
 /// motion blur.
 pub(crate) fn scripts(path: &Path) -> Result<Vec<(usize, String)>, OutputError> {
-    scripts_of(path, |_| true)
+    scripts_of(&Dir::of_path(path)?, |_| true)
 }
 
-fn scripts_of(path: &Path, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
-    let io_error = |error| OutputError::Io(path.to_owned(), error);
+fn scripts_of(dir: &Dir, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, String)>, OutputError> {
     let mut scripts = Vec::new();
-    for entry in fs::read_dir(path).map_err(io_error)? {
-        let entry = entry.map_err(io_error)?;
-        if let Some((number, name)) = entry.file_name().to_str().and_then(|n| Some((script_number(n)?, n)))
+    for name in dir.names()? {
+        if let Some((number, name)) = name.to_str().and_then(|name| Some((script_number(name)?, name)))
             && of(number)
         {
             scripts.push((number, name.to_owned()));
@@ -162,13 +193,9 @@ fn scripts_of(path: &Path, of: impl Fn(usize) -> bool) -> Result<Vec<(usize, Str
 }
 
 /// Returns the sorted names of the include files in a folder that hold parts of trails.
-pub(crate) fn trail_files(path: &Path) -> io::Result<Vec<String>> {
-    let mut names = Vec::new();
-    for entry in fs::read_dir(path)? {
-        names.extend(entry?.file_name().into_string().ok().filter(|name| is_trail_file(name)));
-    }
-    names.sort_unstable();
-    Ok(names)
+pub(crate) fn trail_files(dir: &Dir) -> Result<Vec<String>, FolderError> {
+    let names = dir.names()?.into_iter().filter_map(|name| name.into_string().ok());
+    Ok(names.filter(|name| is_trail_file(name)).collect())
 }
 
 /// Returns the frame number in the name of a script. `None` for every other file name.
@@ -188,38 +215,30 @@ fn is_temporary(name: &str) -> bool {
     name.starts_with(".jabuka-") && name.ends_with(".tmp")
 }
 
-/// Returns true if `marked` recognizes a folder as jabuka's, or if it contains only a lock and leftovers of a killed process.
-fn is_ours(path: &Path, marked: &dyn Fn(&Path) -> bool) -> io::Result<bool> {
-    for entry in fs::read_dir(path)? {
-        let name = entry?.file_name();
-        if name.to_str().is_none_or(|name| name != LOCK && !is_temporary(name)) {
-            return Ok(marked(path));
-        }
-    }
-    Ok(true)
+/// Returns true if a folder is empty but for a lock and leftovers of a killed process.
+fn is_empty(dir: &Dir) -> Result<bool, FolderError> {
+    let is_left = |name: &str| name == LOCK || is_temporary(name);
+    Ok(dir.names()?.iter().all(|name| name.to_str().is_some_and(is_left)))
 }
 
-fn lock(folder: &Path) -> Result<File, OutputError> {
-    let path = folder.join(LOCK);
-    if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_symlink()) {
-        return Err(OutputError::Link(path));
-    }
-    let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
-    let file = file.map_err(|error| OutputError::Io(path.clone(), error))?;
+fn lock(dir: &Dir) -> Result<File, OutputError> {
+    let file = dir.open_or_create(LOCK)?;
     // A new child process briefly has copies of all open files, until it executes its program. A lock that was just released can therefore
     // still be held by such a copy, so locking is tried for 0.2 s.
     for _ in 0..20 {
         match file.try_lock() {
             Ok(()) => return Ok(file),
             Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(10)),
-            Err(TryLockError::Error(error)) => return Err(OutputError::Io(path, error)),
+            Err(TryLockError::Error(error)) => return Err(OutputError::Io(dir.path().join(LOCK), error)),
         }
     }
-    Err(OutputError::Locked(folder.to_owned()))
+    Err(OutputError::Locked(dir.path().to_owned()))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

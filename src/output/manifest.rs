@@ -1,6 +1,5 @@
 //! The manifest: a JSON file that lists the files of an output folder, with data about their scene.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Component, Path};
 
@@ -13,6 +12,7 @@ use crate::diagnostic::Diagnostic;
 use crate::run::RUN_WARNINGS;
 use crate::scene::{Scene, Shutter, is_possible_number_of_frames};
 use crate::simulate::{EnergyScale, Survey};
+use crate::system::Dir;
 
 /// The file name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
@@ -39,6 +39,11 @@ impl Manifest {
     /// Reads the manifest of a folder. `None` if it is missing, is a symbolic link, comes from another program, or lists files outside of
     /// the folder.
     pub fn read(folder: &Path) -> Option<Manifest> {
+        Manifest::of_dir(&Dir::of_path(folder).ok()?)
+    }
+
+    /// Reads the manifest of an open folder, as [`Manifest::read`] does.
+    pub(crate) fn of_dir(folder: &Dir) -> Option<Manifest> {
         #[derive(Deserialize)]
         struct File {
             #[serde(flatten)]
@@ -46,7 +51,7 @@ impl Manifest {
             #[serde(default)]
             files: Vec<Entry>,
         }
-        let file: File = serde_json::from_reader(open(&folder.join(MANIFEST))?).ok()?;
+        let file: File = serde_json::from_reader(open(folder)?).ok()?;
         let ours = file.head.is_ours() && file.files.iter().all(Entry::is_inside);
         ours.then_some(Manifest { head: file.head, files: file.files })
     }
@@ -275,17 +280,22 @@ impl Header {
     }
 }
 
-/// Reads the header of the manifest at a path. `None` if the file is missing, is a symbolic link, or comes from another program.
-pub(crate) fn read(path: &Path) -> Option<Header> {
-    let head: Header = serde_json::from_reader(open(path)?).ok()?;
+/// Reads the header of a folder's manifest. `None` if the file is missing, is a symbolic link, or comes from another program.
+pub(crate) fn read(folder: &Dir) -> Option<Header> {
+    let head: Header = serde_json::from_reader(open(folder)?).ok()?;
     head.is_ours().then_some(head)
 }
 
+/// Reads the header of the manifest of the folder at a path, as [`read`] does.
+pub(crate) fn header_of(folder: &Path) -> Option<Header> {
+    read(&Dir::of_path(folder).ok()?)
+}
+
 /// Opens a manifest. `None` unless it is a regular file of a plausible size.
-fn open(path: &Path) -> Option<impl io::Read> {
-    let metadata = fs::symlink_metadata(path).ok()?;
-    let sensible = metadata.is_file() && metadata.len() <= MAX_BYTES;
-    sensible.then(|| fs::File::open(path).ok().map(io::BufReader::new))?
+fn open(folder: &Dir) -> Option<impl io::Read> {
+    let file = folder.open_file(MANIFEST).ok()?;
+    let is_sensible = file.metadata().ok()?.len() <= MAX_BYTES;
+    is_sensible.then(|| io::BufReader::new(file))
 }
 
 /// Writes a manifest as JSON, with one line for each file.
@@ -316,6 +326,8 @@ pub(super) fn write_each(
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::Scene;
 

@@ -1,8 +1,8 @@
 //! Writes the script of a single moment of a run.
 
-use super::manifest::{self, Entry, Header, MANIFEST, Manifest, State};
+use super::manifest::{self, Entry, Header, MANIFEST, State};
 use super::trails::TrailFiles;
-use super::write::put_blurred;
+use super::write::{put_blurred, replaced};
 use super::{Folder, OutputError, assets};
 use crate::Run;
 use crate::emit::frame_name;
@@ -11,8 +11,17 @@ use crate::emit::frame_name;
 /// the number of the frame at or before that time, which is part of the script's name.
 ///
 /// # Errors
-/// If a file cannot be written, a value of the run becomes non-finite before that time, or the script cannot be made.
+/// If a file cannot be written, a value of the run becomes non-finite before that time, or the script cannot be made. If the script cannot be
+/// made, a folder that was empty before is left as it was.
 pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
+    let written = write_all(run, folder, time);
+    if let Err(OutputError::Run(_)) = written {
+        folder.discard();
+    }
+    written
+}
+
+fn write_all(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputError> {
     let scene = run.scene();
     // The script is made before any file is changed, so that existing files stay if this fails.
     let exposure = run.at(time)?;
@@ -20,8 +29,7 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     let script = run.script(frame)?;
 
     let head = Header::new(run);
-    let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
-    folder.set_aside(old.iter())?;
+    folder.set_aside(replaced(folder, &scene.povray.assets).iter())?;
     let begun = Header { state: State::Clearing, ..head.clone() };
     folder.write_with(MANIFEST, |file| manifest::write(file, &begun, &[]))?;
     folder.remove_scripts()?;
@@ -45,6 +53,7 @@ pub fn write_moment(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, 
     entries.extend(assets::copy(folder, &scene.povray.assets)?);
     entries.sort_by(|a, b| (a.frame, &a.name).cmp(&(b.frame, &b.name)));
     folder.settle(false)?;
+    folder.note_made_here();
     folder.write_with(MANIFEST, |file| manifest::write(file, &head, &entries))?;
     Ok(frame.index)
 }

@@ -1,12 +1,12 @@
 //! Checks whether a folder already contains exactly the files that a scene gives.
 
 use std::collections::HashSet;
-use std::path::Path;
+use std::fs::File;
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-use super::DigestWriter;
 use super::manifest::{Entry, Header, Manifest};
+use super::{DigestWriter, Folder};
 use crate::emit::{ASSETS, frame_name, shutter_name};
 use crate::scene::{Scene, View};
 use crate::simulate::Selection;
@@ -17,9 +17,11 @@ pub fn up_to_date(
     scene: &Scene,
     view: Option<&View>,
     selection: &Selection,
-    folder: &Path,
+    folder: &Folder,
 ) -> Option<Manifest> {
-    let manifest = Manifest::read(folder).filter(Manifest::is_complete)?;
+    // A manifest from elsewhere may fit scripts that the scene does not give.
+    let manifest =
+        Manifest::of_dir(folder.dir()).filter(|manifest| folder.is_made_here() && manifest.is_complete())?;
     let shutter = view.map_or(&scene.camera, |view| &view.camera).shutter;
     let head = Header::of(scene, view.map(|view| view.name.as_str()), shutter);
     if !manifest.head.is_of(&head) {
@@ -32,7 +34,7 @@ pub fn up_to_date(
             && (shutter.is_none() || listed.contains(&*shutter_name(frame, frames)))
     };
     let all = (0..frames).filter(|frame| selection.contains(*frame)).all(is_listed);
-    let as_written = |entry: &Entry| is_of(&folder.join(&entry.name), entry);
+    let as_written = |entry: &Entry| folder.dir().open_file(&entry.name).is_ok_and(|file| is_of(file, entry));
     let unchanged = all && manifest.files.par_iter().all(as_written) && same_assets(scene, &manifest);
     unchanged.then_some(manifest)
 }
@@ -42,13 +44,16 @@ pub fn up_to_date(
 fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
     scene.povray.assets.iter().all(|asset| {
         let name = format!("{ASSETS}/{}", asset.name);
-        manifest.files.iter().any(|entry| entry.name == name && is_of(&asset.path, entry))
+        manifest
+            .files
+            .iter()
+            .any(|entry| entry.name == name && File::open(&asset.path).is_ok_and(|file| is_of(file, entry)))
     })
 }
 
 /// Returns true if a file has the length and the digest of a manifest entry.
-fn is_of(path: &Path, entry: &Entry) -> bool {
-    let length = path.metadata().map(|metadata| metadata.len());
-    let writer = || DigestWriter::of_file(path).map(|writer| writer.entry(entry.frame, entry.name.clone()));
+fn is_of(file: File, entry: &Entry) -> bool {
+    let length = file.metadata().map(|metadata| metadata.len());
+    let writer = || DigestWriter::of_file(file).map(|writer| writer.entry(entry.frame, entry.name.clone()));
     length.is_ok_and(|length| length == entry.bytes) && writer().is_ok_and(|found| found == *entry)
 }

@@ -1,7 +1,6 @@
 //! Writes all selected scripts of a run into a folder.
 
 use std::collections::{HashMap, HashSet};
-use std::fs;
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
@@ -10,10 +9,10 @@ use rayon::iter::{ParallelBridge, ParallelIterator};
 use super::ledger::Ledger;
 use super::manifest::{self, Entry, Header, MANIFEST, Manifest, State};
 use super::trails::TrailFiles;
-use super::{DigestWriter, Folder, OutputError, assets};
+use super::{DigestWriter, Folder, OutputError, assets, is_own_name};
 use crate::Run;
-use crate::emit::{frame_name, shutter_name};
-use crate::scene::Shutter;
+use crate::emit::{ASSETS, frame_name, shutter_name};
+use crate::scene::{Asset, Shutter};
 use crate::simulate::{Exposure, Selection};
 
 /// A summary of the files that [`write()`] has written.
@@ -34,20 +33,40 @@ pub struct Written {
 /// The manifest is written first, and again when all files are there. In between, it marks the folder as incomplete, also after a crash.
 ///
 /// # Errors
-/// If a file cannot be written, a value of the run becomes non-finite, or a script cannot be made.
+/// If a file cannot be written, a value of the run becomes non-finite, or a script cannot be made. If a script cannot be made, a folder that
+/// was empty before is left as it was.
 pub fn write(
     run: &Run<'_>,
     folder: &Folder,
     selection: &Selection,
     done: &(dyn Fn() + Sync),
 ) -> Result<Written, OutputError> {
+    let written = write_all(run, folder, selection, done);
+    if let Err(OutputError::Run(_)) = written {
+        folder.discard();
+    }
+    written
+}
+
+fn write_all(
+    run: &Run<'_>,
+    folder: &Folder,
+    selection: &Selection,
+    done: &(dyn Fn() + Sync),
+) -> Result<Written, OutputError> {
+    // Most mistakes in a template concern every script. They are found before any file is changed.
+    if let Some(first) = run.recorded().exposures(selection).next() {
+        run.script(&first?.frame)?;
+    }
     let head = Header::new(run);
     let put_head = |state: State, untouched: &[Entry]| {
         let head = Header { state, planned: Some(selection.to_string()), ..head.clone() };
         folder.write_with(MANIFEST, |file| manifest::write(file, &head, untouched))
     };
-    let unchanged = manifest::read(&folder.path().join(MANIFEST)).is_some_and(|old| old.is_of(&head));
-    let old = Manifest::read(folder.path()).map(|manifest| manifest.files).unwrap_or_default();
+    // What the manifest of another machine says is not relied upon, so all scripts are written again.
+    let is_same = |old: Header| folder.is_made_here() && old.is_of(&head);
+    let unchanged = manifest::read(folder.dir()).is_some_and(is_same);
+    let old = replaced(folder, &run.scene().povray.assets);
     // The manifest goes on listing the scripts of unselected frames, so that later commands still recognize edits of them.
     let is_untouched =
         |entry: &Entry| unchanged && entry.frame.is_some_and(|frame| !selection.contains(frame));
@@ -77,6 +96,7 @@ pub fn write(
     }
     entries.extend(assets::copy(folder, &run.scene().povray.assets)?);
     folder.settle(unchanged)?;
+    folder.note_made_here();
     let kept_trails = kept_trails(folder, &trails, &known)?;
     entries.extend(trails);
     removed.retain(|frame| !selection.contains(*frame));
@@ -88,6 +108,18 @@ pub fn write(
     let all = scripts.merged(entries, selection);
     folder.write_with(MANIFEST, |file| manifest::write_each(file, &head, all))?;
     Ok(written)
+}
+
+/// Returns the entries of a folder's manifest whose files a command may replace or remove: scripts, their include files, and these assets.
+/// Other files are none of jabuka's, whatever the manifest says.
+pub(super) fn replaced(folder: &Folder, assets: &[Asset]) -> Vec<Entry> {
+    let mut files = Manifest::of_dir(folder.dir()).map(|manifest| manifest.files).unwrap_or_default();
+    let is_asset = |name: &str| {
+        let name = name.strip_prefix(ASSETS).and_then(|name| name.strip_prefix('/'));
+        name.is_some_and(|name| assets.iter().any(|asset| asset.name == name))
+    };
+    files.retain(|entry| entry.name != MANIFEST && (is_own_name(&entry.name) || is_asset(&entry.name)));
+    files
 }
 
 /// Counts the frames that have one of these scripts. The scripts of one frame must be adjacent.
@@ -241,7 +273,6 @@ fn kept_entry(
     if let Some(entry) = known.get(&name) {
         return Ok(entry.clone());
     }
-    let path = folder.path().join(&name);
-    let bytes = fs::read(&path).map_err(|error| OutputError::Io(path, error))?;
+    let bytes = folder.dir().read(&name)?;
     Ok(Entry::of(frame, name, &bytes))
 }

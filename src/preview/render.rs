@@ -1,6 +1,5 @@
 //! Renders a frame with POV-Ray, as `jabuka still` does.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -114,8 +113,8 @@ impl Renderer {
     fn image(&self, folder: &Folder, time: f64, fine: bool, stop: &AtomicBool) -> Result<Vec<u8>, Failed> {
         let mut sequence = Sequence::open(folder.path(), None)?;
         sequence.moment = Some(time);
-        let images = Images::open(&folder.path().join("images"))?;
-        let povray = PovRay::find(self.povray.as_deref(), &images.povray_memory(), self.confinement.clone())?;
+        let images = Images::among(folder.dir())?;
+        let povray = PovRay::find(self.povray.as_deref(), &images, self.confinement.clone())?;
         let quality = if fine { Quality::Final } else { Quality::Draft };
         let job = Job {
             sequence: &sequence,
@@ -136,6 +135,6 @@ impl Renderer {
         let Some(script) = sequence.scripts().first().filter(|_| !outcome.stopped) else {
             return Err(Failed::Gone);
         };
-        Ok(fs::read(images.image(&script.name))?)
+        Ok(images.read(&script.name)?)
     }
 }

@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::diagnostic::{Code, Diagnostic, Report};
+use crate::system::FolderError;
 
 /// An error that stops the rendering of all frames. If only a single frame fails, that is a [`Fault`](super::Fault), and the rendering
 /// continues.
@@ -76,7 +77,7 @@ impl RenderError {
             }
             RenderError::Incomplete(_) => Some("run `jabuka compile` again"),
             RenderError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
-            RenderError::Link(_) => Some("remove the link"),
+            RenderError::Link(_) => Some("remove the link, or name the folder that it leads to"),
             RenderError::Locked(_) => {
                 Some("wait until the other run has ended, or name another folder with `-o`")
             }
@@ -94,6 +95,16 @@ impl RenderError {
         |error| match error.kind() {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => RenderError::DiskFull(path),
             _ => RenderError::Io(path, error),
+        }
+    }
+}
+
+impl From<FolderError> for RenderError {
+    fn from(error: FolderError) -> RenderError {
+        match error {
+            FolderError::Link(path) => RenderError::Link(path),
+            FolderError::NotAFolder(path) => RenderError::Io(path, io::ErrorKind::NotADirectory.into()),
+            FolderError::Io(path, error) => RenderError::io(path)(error),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! The failure of a single frame, as found in POV-Ray's messages.
 
 use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::PovRay;
 use crate::diagnostic::{Code, Diagnostic, Report, Span};
+use crate::system;
 
 /// The failure of one frame: POV-Ray's message, with the line and body that it is about. Other frames may still succeed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,8 +45,9 @@ impl Fault {
         }
         let text = if message.is_empty() { said.trim().to_owned() } else { message.join(" ") };
         let text = text.strip_prefix("Parse Error: ").unwrap_or(&text).to_owned();
-        let source =
-            fs::read(&script).map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
+        let source = system::read(&script)
+            .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+            .unwrap_or_default();
         let (line, message) = match place {
             Some((file, line)) if file == name => (Some(line), text),
             // POV-Ray notices an unclosed block only after the end of the script, in the script `run.pov` that includes it.
@@ -84,7 +85,7 @@ impl Fault {
             ),
             false => diagnostic,
         };
-        let place = self.line.and_then(|line| Some((line, fs::read(&self.script).ok()?)));
+        let place = self.line.and_then(|line| Some((line, system::read(&self.script).ok()?)));
         report.diagnostics.push(match place {
             None => diagnostic,
             Some((line, bytes)) => {
@@ -153,6 +154,8 @@ fn body_at(script: &str, line: usize) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     const SCRIPT: &str = "// frame 60\n#version 3.7;\n// the bodies\n\

@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::emit::COMMON;
+use crate::system::{Dir, FolderError, Kind};
 
 /// The name of the folder of assets (images, height fields, fonts) beside the scripts.
 pub const ASSETS: &str = "assets";
@@ -14,32 +15,35 @@ pub const ASSETS: &str = "assets";
 /// # Errors
 /// If a folder cannot be read.
 pub fn of_scripts(scripts: &Path) -> io::Result<Vec<String>> {
+    Ok(in_folder(&Dir::of_path(scripts)?)?)
+}
+
+/// Lists the files that the scripts of an open folder read, as [`of_scripts`] does.
+pub(super) fn in_folder(dir: &Dir) -> Result<Vec<String>, FolderError> {
     let mut files = Vec::new();
-    if scripts.join(COMMON).is_file() {
+    if dir.about(COMMON)?.is_some_and(|found| found.kind == Kind::File) {
         files.push(COMMON.to_owned());
     }
     let mut assets = Vec::new();
-    if scripts.join(ASSETS).is_dir() {
-        below(scripts, ASSETS, &mut assets)?;
+    if dir.about(ASSETS)?.is_some() {
+        below(&dir.folder(ASSETS)?, ASSETS, &mut assets)?;
     }
     assets.sort_unstable();
     files.extend(assets);
     Ok(files)
 }
 
-/// Appends all files below a folder, except hidden ones, as paths relative to `root`.
-fn below(root: &Path, folder: &str, found: &mut Vec<String>) -> io::Result<()> {
-    for entry in std::fs::read_dir(root.join(folder))? {
-        let entry = entry?;
-        let Ok(name) = entry.file_name().into_string() else { continue };
-        if name.starts_with('.') {
-            continue;
-        }
-        let name = format!("{folder}/{name}");
-        if entry.file_type()?.is_dir() {
-            below(root, &name, found)?;
-        } else {
-            found.push(name);
+/// Appends all files below a folder, except hidden ones. `name` is the path of the folder relative to that of the scripts. A link is an error:
+/// it may lead to any file of the user, and the files of the list are copied for other machines.
+fn below(folder: &Dir, name: &str, found: &mut Vec<String>) -> Result<(), FolderError> {
+    for file in folder.names()? {
+        let Some(file) = file.to_str().filter(|file| !file.starts_with('.')) else { continue };
+        let inner = format!("{name}/{file}");
+        match folder.about(file)?.map(|about| about.kind) {
+            Some(Kind::Folder) => below(&folder.folder(file)?, &inner, found)?,
+            Some(Kind::Link) => return Err(FolderError::Link(folder.path().join(file))),
+            Some(_) => found.push(inner),
+            None => {}
         }
     }
     Ok(())

@@ -1,19 +1,34 @@
 //! The folder of the images: checks that jabuka made it, locks it, and adds finished images.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::RenderError;
-use super::record::{HIDDEN, Record, Verdict};
+use super::record::{Compare, HIDDEN, Record, State, Verdict};
 use super::undated::undated;
 use crate::output::Manifest;
-use crate::regular_file;
+use crate::system::{Dir, FolderError, Kind};
 
 /// A folder of images that is locked, so that only this process renders into it.
 pub struct Images {
-    folder: PathBuf,
+    folder: Dir,
+    /// The folder `.jabuka` among the images.
+    hidden: Dir,
     _lock: File,
+}
+
+/// A folder for unfinished images. Dropping it removes it.
+pub(super) struct WorkFolder {
+    hidden: Dir,
+    name: String,
+    pub(super) dir: Dir,
+}
+
+/// A finished image in a work folder.
+pub(super) struct Finished {
+    pub(super) folder: Dir,
+    pub(super) name: String,
 }
 
 impl Images {
@@ -22,85 +37,113 @@ impl Images {
     /// # Errors
     /// If jabuka did not make the folder, another process renders into it, or it cannot be created or read.
     pub fn open(folder: &Path) -> Result<Images, RenderError> {
-        fs::create_dir_all(folder).map_err(RenderError::io(folder))?;
-        let hidden = folder.join(HIDDEN);
-        match fs::symlink_metadata(&hidden) {
-            Ok(metadata) if metadata.is_dir() => {}
-            Ok(_) => return Err(RenderError::Link(hidden)),
-            Err(_) => {
-                let is_empty = fs::read_dir(folder).map_err(RenderError::io(folder))?.next().is_none();
-                if !is_empty && Manifest::read(folder).is_none() {
-                    return Err(RenderError::NotOurs(folder.to_owned()));
+        Images::of(Dir::make(folder)?)
+    }
+
+    /// Opens the folder `images` in a folder of scripts, as [`Images::open`] does.
+    ///
+    /// # Errors
+    /// If jabuka did not make the folder, another process renders into it, or it cannot be created or read.
+    pub fn among(scripts: &Dir) -> Result<Images, RenderError> {
+        Images::of(scripts.make_folder("images")?)
+    }
+
+    fn of(folder: Dir) -> Result<Images, RenderError> {
+        match folder.about(HIDDEN)?.map(|found| found.kind) {
+            Some(Kind::Folder) => {}
+            Some(_) => return Err(RenderError::Link(folder.path().join(HIDDEN))),
+            None => {
+                if !folder.names()?.is_empty() && Manifest::of_dir(&folder).is_none() {
+                    return Err(RenderError::NotOurs(folder.path().to_owned()));
                 }
-                fs::create_dir(&hidden).map_err(RenderError::io(&hidden))?;
+                folder.new_folder(HIDDEN)?;
             }
         }
-        let images = Images { _lock: lock(folder, &hidden.join("lock"))?, folder: folder.to_owned() };
-        images.sweep().map_err(RenderError::io(&hidden))?;
+        let hidden = folder.folder(HIDDEN)?;
+        let images = Images { _lock: lock(&folder, &hidden)?, folder, hidden };
+        images.sweep()?;
         Ok(images)
     }
 
     /// Returns the path of the folder of images.
     pub fn folder(&self) -> &Path {
-        &self.folder
+        self.folder.path()
     }
 
     /// Returns the path of an image. `name` has no extension: `frame_0007`.
     pub fn image(&self, name: &str) -> PathBuf {
-        self.folder.join(format!("{name}.png"))
+        self.folder().join(format!("{name}.png"))
     }
 
-    /// Returns the path of the file that caches the version of POV-Ray.
-    pub fn povray_memory(&self) -> PathBuf {
-        self.hidden().join("povray")
+    /// Reads an image.
+    ///
+    /// # Errors
+    /// If the image cannot be read.
+    pub fn read(&self, name: &str) -> Result<Vec<u8>, RenderError> {
+        Ok(self.folder.read(file_name(name))?)
     }
 
-    fn hidden(&self) -> PathBuf {
-        self.folder.join(HIDDEN)
+    /// Returns the hidden folder among the images. POV-Ray's version is cached there.
+    pub(super) fn hidden(&self) -> &Dir {
+        &self.hidden
     }
 
     /// Creates a work folder for one POV-Ray process, on the same disk as the images.
-    pub(super) fn work_folder(&self, number: usize) -> Result<PathBuf, RenderError> {
-        let path = self.hidden().join(format!("work-{}-{number}", std::process::id()));
-        fs::create_dir(&path).map_err(RenderError::io(&path))?;
-        Ok(path)
+    pub(super) fn work_folder(&self, number: usize) -> Result<WorkFolder, RenderError> {
+        self.new_folder(format!("work-{}-{number}", std::process::id()))
     }
 
     /// Creates a folder for the images of the moments of one frame.
-    pub(super) fn exposure_folder(&self, index: usize) -> Result<PathBuf, RenderError> {
-        let path = self.hidden().join(format!("work-{}-frame-{index}", std::process::id()));
-        fs::create_dir(&path).map_err(RenderError::io(&path))?;
-        Ok(path)
+    pub(super) fn exposure_folder(&self, index: usize) -> Result<WorkFolder, RenderError> {
+        self.new_folder(format!("work-{}-frame-{index}", std::process::id()))
+    }
+
+    fn new_folder(&self, name: String) -> Result<WorkFolder, RenderError> {
+        let dir = self.hidden.new_folder(&name)?;
+        Ok(WorkFolder { hidden: self.hidden.clone(), name, dir })
     }
 
     /// Moves a finished image into the folder, without its date, and then writes its record. If the process is killed between the two
     /// steps, the image has no valid record and is rendered again.
-    pub(super) fn adopt(&self, finished: &Path, name: &str, record: &Record) -> Result<(), RenderError> {
-        let path = self.image(name);
-        let bytes = regular_file::read(finished).map_err(RenderError::io(finished))?;
-        if let Some(bytes) = undated(&bytes) {
-            let mut file = regular_file::create(finished).map_err(RenderError::io(finished))?;
-            file.write_all(&bytes).map_err(RenderError::io(finished))?;
+    pub(super) fn adopt(&self, finished: &Finished, name: &str, record: &Record) -> Result<(), RenderError> {
+        let Finished { folder, name: image } = finished;
+        let mut bytes = folder.read(image)?;
+        if let Some(undated) = undated(&bytes) {
+            let written = folder.create(image)?.write_all(&undated);
+            written.map_err(RenderError::io(folder.path().join(image)))?;
+            bytes = undated;
         }
-        let record = record.clone().of_image(finished).map_err(RenderError::io(finished))?;
-        fs::rename(finished, &path).map_err(RenderError::io(&path))?;
-        record.write(&self.folder, name).map_err(RenderError::io(Record::path(&self.folder, name)))?;
+        folder.rename(image, &self.folder, file_name(name))?;
+        record.clone().of_bytes(&bytes).write_in(&self.hidden, name)?;
         self.forget_failure(name)
+    }
+
+    /// Returns the state of an image, compared with the record that it would get if it were rendered now.
+    pub(super) fn state(&self, name: &str, expected: &Record) -> State {
+        let about = self.folder.about(file_name(name)).ok().flatten();
+        let image = about.map(|about| (about.kind == Kind::File, about.bytes));
+        expected.state_of(image, self.record(name).as_ref(), Compare::All)
+    }
+
+    fn record(&self, name: &str) -> Option<Record> {
+        Record::read_in(&self.hidden, name)
     }
 
     /// Checks an image against the digest in its record. An unreadable image counts as changed.
     pub(super) fn verify(&self, name: &str) -> Verdict {
-        let Some(record) = Record::read(&self.folder, name) else { return Verdict::Unverified };
-        record.verify(&self.image(name)).unwrap_or(Verdict::Changed)
+        let Some(record) = self.record(name) else { return Verdict::Unverified };
+        let image = self.folder.open_file(file_name(name)).map_err(io::Error::from);
+        image.and_then(|image| record.verify_file(image)).unwrap_or(Verdict::Changed)
     }
 
     /// Adds a copy of an existing image under another name, with its own record.
     pub(super) fn copy(&self, from: &str, name: &str, record: &Record) -> Result<(), RenderError> {
-        let temporary = self.hidden().join(format!("work-{}-copy.png", std::process::id()));
-        let bytes = regular_file::read(&self.image(from)).map_err(RenderError::io(self.image(from)))?;
-        let copied = regular_file::create(&temporary).and_then(|mut file| file.write_all(&bytes));
+        let bytes = self.read(from)?;
+        let copy =
+            Finished { folder: self.hidden.clone(), name: format!("work-{}-copy.png", std::process::id()) };
+        let copied = copy.folder.create(&copy.name)?.write_all(&bytes);
         copied.map_err(RenderError::io(self.image(name)))?;
-        self.adopt(&temporary, name, record)
+        self.adopt(&copy, name, record)
     }
 
     /// Copies an image to a path outside of the folder. The copy is written under a temporary name and renamed when it is complete.
@@ -108,38 +151,23 @@ impl Images {
     /// # Errors
     /// If the image cannot be read, or the copy cannot be written.
     pub fn copy_out(&self, name: &str, target: &Path) -> Result<(), RenderError> {
-        let file = target.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = target.with_file_name(format!(".jabuka-{file}.tmp"));
-        // A killed process may have left a temporary file of this name.
-        let _ = fs::remove_file(&temporary);
-        let copy = || {
-            let mut image = File::open(self.image(name))?;
-            // `create_new` does not follow symbolic links.
-            let mut copy = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
-            io::copy(&mut image, &mut copy)?;
-            fs::rename(&temporary, target)
-        };
-        copy().map_err(|error| {
-            // The temporary file may not exist, so an error of removing it is ignored.
-            let _ = fs::remove_file(&temporary);
-            RenderError::io(target)(error)
-        })
+        let (folder, file) = Dir::of_file(target, false)?;
+        let mut image = self.folder.open_file(file_name(name))?;
+        folder
+            .write_whole(&file, |copy| io::copy(&mut image, copy).map(drop).map_err(RenderError::io(target)))
     }
 
     /// Saves the reason why an image could not be rendered, for `jabuka status`.
     pub(super) fn note_failure(&self, name: &str, why: &str) -> Result<(), RenderError> {
-        let folder = self.hidden().join("failed");
-        fs::create_dir_all(&folder).map_err(RenderError::io(&folder))?;
-        let path = folder.join(format!("{name}.txt"));
-        let written =
-            regular_file::create(&path).and_then(|mut file| file.write_all(format!("{why}\n").as_bytes()));
-        written.map_err(RenderError::io(&path))
+        let folder = self.hidden.make_folder("failed")?;
+        let file = format!("{name}.txt");
+        let written = folder.create(&file)?.write_all(format!("{why}\n").as_bytes());
+        written.map_err(RenderError::io(folder.path().join(file)))
     }
 
     fn forget_failure(&self, name: &str) -> Result<(), RenderError> {
-        let path = self.hidden().join("failed").join(format!("{name}.txt"));
-        match fs::remove_file(&path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(RenderError::io(&path)(error)),
+        match self.hidden.remove_file(format!("failed/{name}.txt")) {
+            Err(error) if !error.is_not_found() => Err(error.into()),
             _ => Ok(()),
         }
     }
@@ -147,45 +175,48 @@ impl Images {
     /// Removes the images of frames that no longer exist, and returns their number. Images whose length has changed since jabuka rendered
     /// them stay.
     pub(super) fn remove_others(&self, is_frame: impl Fn(&str) -> bool) -> Result<usize, RenderError> {
-        let hidden = self.hidden();
         let mut removed = 0;
-        for entry in fs::read_dir(&hidden).map_err(RenderError::io(&hidden))? {
-            let name = entry.map_err(RenderError::io(&hidden))?.file_name();
-            let Some(name) = name.to_str().and_then(|name| name.strip_suffix(".txt")) else { continue };
-            let Some(record) = Record::read(&self.folder, name).filter(|_| !is_frame(name)) else { continue };
-            let path = self.image(name);
-            if fs::symlink_metadata(&path).is_ok_and(|image| image.is_file() && image.len() == record.bytes) {
-                fs::remove_file(&path).map_err(RenderError::io(&path))?;
+        for file in self.hidden.names()? {
+            let Some(name) = file.to_str().and_then(|name| name.strip_suffix(".txt")) else { continue };
+            // A record may come from elsewhere, so only images with a name that jabuka gives are removed.
+            if is_frame(name) || !crate::output::is_own_name(&format!("{name}.pov")) {
+                continue;
+            }
+            let Some(record) = self.record(name) else { continue };
+            let image = self.folder.about(file_name(name))?;
+            if image.is_some_and(|image| image.kind == Kind::File && image.bytes == record.bytes) {
+                self.folder.remove_file(file_name(name))?;
                 removed += 1;
             }
-            let path = Record::path(&self.folder, name);
-            fs::remove_file(&path).map_err(RenderError::io(&path))?;
+            self.hidden.remove_file(&file)?;
         }
         Ok(removed)
     }
 
     /// Removes the leftovers of killed processes: work folders with unfinished images and POV-Ray's `.pov-state`, and temporary files.
-    fn sweep(&self) -> io::Result<()> {
-        for entry in fs::read_dir(self.hidden())? {
-            let entry = entry?;
-            // Names that begin with a dot and end in `.tmp` are unfinished records.
-            let is_left =
-                |name: &str| name.starts_with("work-") || (name.starts_with('.') && name.ends_with(".tmp"));
-            if !entry.file_name().to_str().is_some_and(is_left) {
+    fn sweep(&self) -> Result<(), FolderError> {
+        // Names that begin with a dot and end in `.tmp` are unfinished records.
+        let is_left =
+            |name: &str| name.starts_with("work-") || (name.starts_with('.') && name.ends_with(".tmp"));
+        for name in self.hidden.names()? {
+            if !name.to_str().is_some_and(is_left) {
                 continue;
             }
             // A POV-Ray process that outlives the jabuka process that started it may still write into the folder, so a failed removal is
             // tried once more.
-            let remove = || match entry.file_type() {
-                Ok(kind) if kind.is_dir() => fs::remove_dir_all(entry.path()),
-                _ => fs::remove_file(entry.path()),
-            };
-            match remove().or_else(|_| remove()) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            match self.hidden.remove_all(&name).or_else(|_| self.hidden.remove_all(&name)) {
+                Err(error) if !error.is_not_found() => return Err(error),
                 _ => {}
             }
         }
         Ok(())
+    }
+}
+
+impl Drop for WorkFolder {
+    fn drop(&mut self) {
+        // If the folder cannot be removed, the next process removes it.
+        let _: Result<(), FolderError> = self.hidden.remove_all(&self.name);
     }
 }
 
@@ -194,15 +225,15 @@ pub(crate) fn is_folder_of_images(folder: &Path) -> bool {
     folder.join(HIDDEN).is_dir()
 }
 
-fn lock(folder: &Path, path: &Path) -> Result<File, RenderError> {
-    if fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink()) {
-        return Err(RenderError::Link(path.to_owned()));
-    }
-    let file = regular_file::open(path, OpenOptions::new().write(true).create(true).truncate(false));
-    let file = file.map_err(RenderError::io(path))?;
+fn file_name(name: &str) -> String {
+    format!("{name}.png")
+}
+
+fn lock(folder: &Dir, hidden: &Dir) -> Result<File, RenderError> {
+    let file = hidden.open_or_create("lock")?;
     match file.try_lock() {
         Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(RenderError::Locked(folder.to_owned())),
-        Err(TryLockError::Error(error)) => Err(RenderError::io(path)(error)),
+        Err(TryLockError::WouldBlock) => Err(RenderError::Locked(folder.path().to_owned())),
+        Err(TryLockError::Error(error)) => Err(RenderError::io(hidden.path().join("lock"))(error)),
     }
 }

@@ -1,16 +1,17 @@
 //! Finds the inputs of a script: the files that the script and its include files name, and the assets of its scene.
 
 use std::collections::{HashMap, HashSet};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::files::ASSETS;
-use super::record::{Files, Record};
+use super::record::{Files, Record, read_input};
 use super::{RenderError, Script, Sequence};
 use crate::emit::{COMMON, is_trail_file};
 use crate::scene::sdl::{FileKind, files};
+use crate::system;
 
 /// Returns the record that the image of each script would get if it were rendered now. Length and digest of the image are missing.
 ///
@@ -45,7 +46,7 @@ pub(super) fn records(sequence: &Sequence, options: &str, version: &str) -> Resu
 fn files_of(sequence: &Sequence, script: &Script) -> Result<Vec<PathBuf>, RenderError> {
     let folder = sequence.absolute();
     let path = folder.join(&script.file);
-    let bytes = fs::read(&path).map_err(RenderError::io(&path))?;
+    let bytes = system::read(&path).map_err(RenderError::io(&path))?;
     let mut read = Vec::new();
     add_read(folder, &bytes, &mut read);
     close(folder, &mut read).map_err(|(path, error)| RenderError::io(path)(error))?;
@@ -67,7 +68,7 @@ fn close(folder: &Path, read: &mut Vec<(FileKind, PathBuf)>) -> Result<(), (Path
     while let Some((kind, path)) = read.get(next).cloned() {
         next += 1;
         if kind == FileKind::Include {
-            let bytes = fs::read(&path).map_err(|error| (path, error))?;
+            let bytes = read_input(&path).map_err(|error| (path, error))?;
             add_read(folder, &bytes, read);
         }
     }
@@ -126,6 +127,8 @@ fn candidates(name: &str, kind: FileKind) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -9,7 +9,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use super::order::coarse_to_fine;
 use super::pool::Pool;
 use super::process::{RenderTask, Setup};
-use super::record::{Compare, Record, State, Verdict};
+use super::record::{Record, State, Verdict};
 use super::result_collector::ResultCollector;
 use super::{Fault, Images, PovRay, RenderError, Sequence, inputs};
 
@@ -115,8 +115,7 @@ impl Job<'_> {
     /// up-to-date image, this image is copied at once instead.
     fn groups(&self, records: &[Record], outcome: &mut Outcome) -> Result<Vec<Group>, RenderError> {
         let scripts = self.sequence.scripts();
-        let folder = self.images.folder();
-        let state = |index: usize| records[index].state(folder, &scripts[index].name, Compare::All);
+        let state = |index: usize| self.images.state(&scripts[index].name, &records[index]);
         let (there, mut missing): (Vec<usize>, Vec<usize>) =
             (0..scripts.len()).partition(|&index| state(index) == State::UpToDate);
         let looks_missing: HashSet<String> = missing.iter().map(|&index| records[index].to_text()).collect();

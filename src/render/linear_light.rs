@@ -6,12 +6,13 @@
 //! weighted by its alpha.
 
 use std::fmt;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, BufWriter, Write};
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Info, SrgbRenderingIntent};
+
+use crate::system::{self, Dir, FolderError};
 
 /// An sRGB image with 8 bits per channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,7 +65,7 @@ struct Sum {
 
 /// Adds the light of an image to the sum. The first image starts the sum.
 fn add(path: &Path, sum: &mut Option<Sum>) -> Result<(), ImageError> {
-    let file = File::open(path).map_err(|error| ImageError::Io(path.to_owned(), error))?;
+    let file = system::open(path).map_err(|error| ImageError::Io(path.to_owned(), error))?;
     let damaged = |error: png::DecodingError| match error {
         png::DecodingError::IoError(error) => ImageError::Io(path.to_owned(), error),
         error => ImageError::Format(path.to_owned(), error.to_string()),
@@ -221,22 +222,13 @@ impl Image {
     /// # Errors
     /// If the file cannot be written. An existing file of that name then stays unchanged.
     pub fn write(&self, path: &Path) -> Result<(), ImageError> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = path.with_file_name(format!(".jabuka-{name}.tmp"));
-        // A killed process may have left a temporary file of this name.
-        let _ = fs::remove_file(&temporary);
         let write = || {
-            // `create_new` does not follow symbolic links.
-            let file = OpenOptions::new().write(true).create_new(true).open(&temporary)?;
-            let mut file = BufWriter::new(file);
-            self.encode(&mut file)?;
-            file.into_inner().map_err(io::IntoInnerError::into_error)?;
-            fs::rename(&temporary, path)
+            let (folder, name) = Dir::of_file(path, false)?;
+            folder.write_whole(&name, |file| {
+                self.encode(file).map_err(|error| FolderError::Io(path.to_owned(), error))
+            })
         };
-        write().map_err(|error| {
-            let _ = fs::remove_file(&temporary);
-            ImageError::Io(path.to_owned(), error)
-        })
+        write().map_err(|error: FolderError| ImageError::Io(path.to_owned(), error.into()))
     }
 
     fn encode(&self, out: &mut impl Write) -> io::Result<()> {

@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 use png::{Decoder, Reader, Transformations};
 
 use super::FilmError;
+use crate::system;
 
 /// An image in memory with four bytes per pixel: red, green, blue in sRGB, and alpha. The colors are not premultiplied by alpha.
 pub(super) struct Picture {
@@ -78,7 +79,7 @@ pub(super) fn common_size<'a>(mut paths: impl Iterator<Item = &'a PathBuf>) -> R
 }
 
 fn open(path: &Path) -> Result<Reader<BufReader<File>>, FilmError> {
-    let file = File::open(path).map_err(|error| FilmError::Image(path.to_owned(), error.to_string()))?;
+    let file = system::open(path).map_err(|error| FilmError::Image(path.to_owned(), error.to_string()))?;
     let mut decoder = Decoder::new(BufReader::new(file));
     decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16 | Transformations::ALPHA);
     decoder.read_info().map_err(|error| bad(path, &error))

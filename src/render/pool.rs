@@ -4,12 +4,12 @@
 //! processors. The number of processes follows from these waiting times and the measured rendering time of the images.
 
 use std::collections::{HashMap, VecDeque};
-use std::fs;
-use std::path::PathBuf;
+use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::images::Finished;
 use super::process::{Process, RenderTask, Setup, Step};
 use super::{Images, RenderError, cpu};
 
@@ -25,8 +25,8 @@ const TICK: Duration = Duration::from_millis(8);
 
 /// The result of rendering one picture (a [`RenderTask`]).
 pub(super) enum TaskResult {
-    /// The image was rendered: its path, and its rendering time in s. The file exists until this result has been handled.
-    Image(PathBuf, f64),
+    /// The image was rendered: the file, and its rendering time in s. It exists until this result has been handled.
+    Image(Finished, f64),
     /// POV-Ray has reported this error in the script.
     Broken(String),
     /// POV-Ray has crashed for this reason, and all retries are used up.
@@ -171,8 +171,8 @@ impl<'a> Pool<'a> {
         }
         let folder = self.images.work_folder(self.started)?;
         let low_priority = !is_first && self.measured.0 == 0 && self.jobs.is_none();
-        let process = Process::start(&self.setup, folder.clone(), tasks, low_priority);
-        self.running.push(process.map_err(RenderError::io(folder))?);
+        let process = Process::start(&self.setup, folder, tasks, low_priority);
+        self.running.push(process?);
         self.started += 1;
         Ok(())
     }
@@ -186,10 +186,10 @@ impl<'a> Pool<'a> {
     ) -> Result<bool, RenderError> {
         match step {
             Step::Working => return Ok(true),
-            Step::Image { task, path, seconds } => {
+            Step::Image { task, image, seconds } => {
                 let (images, cost, slowest) = self.measured;
                 self.measured = (images + 1, cost + seconds, slowest.max(seconds));
-                done(task, TaskResult::Image(path, seconds))?;
+                done(task, TaskResult::Image(image, seconds))?;
                 return Ok(true);
             }
             Step::Done => {}
@@ -246,11 +246,11 @@ impl<'a> Pool<'a> {
     /// Checks for free disk space by writing a test file, since POV-Ray does not report a full disk.
     fn probe(&self, index: usize) -> Result<(), RenderError> {
         let folder = self.running[index].folder();
-        let path = folder.join("probe");
         let bytes = vec![0x5a; 1 << 20];
-        let result = fs::write(&path, &bytes);
-        let removed = fs::remove_file(&path);
-        result.and(removed).map_err(RenderError::io(self.images.folder()))
+        let written =
+            folder.create("probe").map_err(io::Error::from).and_then(|mut file| file.write_all(&bytes));
+        let removed = folder.remove_file("probe").map(drop).map_err(io::Error::from);
+        written.and(removed).map_err(RenderError::io(self.images.folder()))
     }
 
     /// Kills processes that hang or exceed the time limit.

@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, UNIX_EPOCH};
 
-use super::RenderError;
 use super::started::Started;
-use crate::regular_file;
+use super::{Images, RenderError};
 use crate::sandbox::{Confinement, Needs};
 
 /// An installed POV-Ray of a known version.
@@ -22,12 +21,15 @@ pub struct PovRay {
     unlimited: Option<String>,
 }
 
+/// The name of the file that caches the version of POV-Ray, in the hidden folder among the images.
+const MEMORY: &str = "povray";
+
 /// The longest time to wait for POV-Ray's answer about its version.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 impl PovRay {
     /// Finds POV-Ray: at the path `given`, or else as `povray` in the `PATH`. Asking it for its version takes 0.2 s, so the answer is
-    /// cached in the file `memory`. The cache is valid as long as the program has the same path, size and modification time.
+    /// cached among the images. The cache is valid as long as the program has the same path, size and modification time.
     ///
     /// The confinement applies to every run of POV-Ray. A POV-Ray with libraries in an unusual folder cannot start with limited read
     /// access. It may then read all files, and [`PovRay::warning`] says so.
@@ -36,12 +38,12 @@ impl PovRay {
     /// If POV-Ray is not found, or its version is unknown.
     pub fn find(
         given: Option<&Path>,
-        memory: &Path,
+        images: &Images,
         confinement: Confinement,
     ) -> Result<PovRay, RenderError> {
         let path = PovRay::locate(given)?;
         let mark = mark(&path, &confinement).map_err(RenderError::io(&path))?;
-        let remembered = regular_file::read_to_string(memory).ok();
+        let remembered = images.hidden().read_to_string(MEMORY).ok();
         let remembered = remembered.as_deref().and_then(|text| text.split_once('\n'));
         if let Some((_, version)) = remembered.filter(|(of, _)| *of == mark) {
             let version = version.trim_end().to_owned();
@@ -50,8 +52,10 @@ impl PovRay {
         let said = ask(&path, &confinement)?;
         if let Some(version) = version(&said) {
             // If the answer cannot be cached, the next command asks POV-Ray again.
-            let _ = regular_file::create(memory)
-                .and_then(|mut file| file.write_all(format!("{mark}\n{version}\n").as_bytes()));
+            let _ = images
+                .hidden()
+                .create(MEMORY)
+                .map(|mut file| file.write_all(format!("{mark}\n{version}\n").as_bytes()));
             let version = version.to_owned();
             return Ok(PovRay { path, version, confinement, unlimited: None });
         }

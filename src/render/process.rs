@@ -4,16 +4,17 @@
 //! includes another script for each frame number.
 
 use std::fmt::Write as _;
-use std::fs::{self, File};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom, Write as _};
 use std::os::unix::process::ExitStatusExt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use super::images::{Finished, WorkFolder};
 use super::started::Started;
-use super::{PovRay, cpu};
+use super::{PovRay, RenderError, cpu};
 use crate::sandbox::Needs;
+use crate::system::Dir;
 
 /// A picture for POV-Ray to render: a frame, or one moment of a frame with motion blur.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -48,7 +49,7 @@ pub(super) struct Setup<'a> {
 /// A running POV-Ray process.
 pub(super) struct Process {
     child: Started,
-    folder: PathBuf,
+    folder: WorkFolder,
     tasks: Vec<RenderTask>,
     names: Names,
     done: usize,
@@ -65,7 +66,7 @@ pub(super) enum Step {
     /// The process is running, without a new image.
     Working,
     /// The image of a picture is complete.
-    Image { task: RenderTask, path: PathBuf, seconds: f64 },
+    Image { task: RenderTask, image: Finished, seconds: f64 },
     /// The process has rendered its last image, and has ended or was killed.
     Done,
     /// The process has ended early, with an error message about the script of the first remaining picture.
@@ -86,14 +87,16 @@ impl Process {
     /// Starts a POV-Ray process that renders some pictures. With `low_priority`, the process has a low priority.
     pub(super) fn start(
         setup: &Setup<'_>,
-        folder: PathBuf,
+        folder: WorkFolder,
         tasks: Vec<RenderTask>,
         low_priority: bool,
-    ) -> io::Result<Process> {
+    ) -> Result<Process, RenderError> {
+        let dir = &folder.dir;
         // A symbolic link with a plain name stands for the folder of the scripts, since the folder's name may contain characters that are
         // not allowed in POV-Ray's command line and strings.
-        std::os::unix::fs::symlink(setup.scripts, folder.join("scripts"))?;
-        fs::write(folder.join("run.pov"), master(&tasks))?;
+        dir.link(setup.scripts, "scripts")?;
+        let written = dir.create_new("run.pov")?.write_all(master(&tasks).as_bytes());
+        written.map_err(RenderError::io(dir.path()))?;
         let (last, [begin, end]) = (setup.last, setup.clock);
         let (names, range) = match tasks.as_slice() {
             [task] if task.asks_clock => {
@@ -105,10 +108,10 @@ impl Process {
             }
             _ => (Names::Plain, format!("+KFI0 +KFF99999 +SF0 +EF{}", tasks.len() - 1)),
         };
-        let needs = Needs { read: &[setup.scripts], write: &[&folder], low_priority };
+        let needs = Needs { read: &[setup.scripts], write: &[Path::new(".")], low_priority };
         let mut command = setup.povray.command(needs);
         command
-            .current_dir(&folder)
+            .current_dir(dir.path_for_child())
             .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
             .args(["+Lscripts", "+Lscripts/assets"])
             .arg(format!("+WT{}", setup.threads))
@@ -118,8 +121,8 @@ impl Process {
             .args(["+Irun.pov", "+Oimage.png"])
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(File::create(folder.join("console.txt"))?);
-        let child = Started::new(&mut command)?;
+            .stderr(dir.create_new("console.txt")?);
+        let child = Started::new(&mut command).map_err(RenderError::io(dir.path()))?;
         let now = Instant::now();
         Ok(Process { child, folder, tasks, names, done: 0, since: now, cpu_before: 0.0, alive: (0.0, now) })
     }
@@ -132,8 +135,8 @@ impl Process {
             Err(error) => return self.died(format!("it cannot be watched: {error}")),
         };
         if let Some(task) = self.tasks.get(self.done) {
-            let path = self.folder.join(self.names.of(self.done));
-            if is_whole(&path) {
+            let name = self.names.of(self.done);
+            if is_whole(&self.folder.dir, &name) {
                 let task = task.clone();
                 let cpu = cpu::seconds(self.child.id());
                 let seconds = match cpu {
@@ -143,7 +146,8 @@ impl Process {
                 self.cpu_before = cpu.unwrap_or(0.0);
                 self.since = Instant::now();
                 self.done += 1;
-                return Step::Image { task, path, seconds };
+                let image = Finished { folder: self.folder.dir.clone(), name };
+                return Step::Image { task, image, seconds };
             }
         } else {
             // All images are complete. Waiting for POV-Ray's own end would take a third of a second.
@@ -180,22 +184,22 @@ impl Process {
 
     /// Returns the warnings that the process has printed.
     pub(super) fn warnings(&self) -> String {
-        said(&self.folder.join("warnings.txt"))
+        said(&self.folder.dir, "warnings.txt")
     }
 
     /// Returns the work folder of the process.
-    pub(super) fn folder(&self) -> &Path {
-        &self.folder
+    pub(super) fn folder(&self) -> &Dir {
+        &self.folder.dir
     }
 
     /// Finds out why the process ended before all its images were complete.
     fn fate(&mut self, exit: ExitStatus) -> Step {
-        let message = said(&self.folder.join("errors.txt"));
+        let message = said(&self.folder.dir, "errors.txt");
         if exit.code() == Some(1) && !message.is_empty() {
             self.child.end();
             return Step::Broken { message, left: self.tasks.split_off(self.done) };
         }
-        let console = fs::read(self.folder.join("console.txt")).unwrap_or_default();
+        let console = self.folder.dir.read("console.txt").unwrap_or_default();
         let console = String::from_utf8_lossy(&console);
         // For missing images, fonts and the like, POV-Ray prints this error instead of a parse error.
         if let Some(message) = console.lines().find_map(|line| line.strip_prefix("Fatal error in parser: ")) {
@@ -222,9 +226,8 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
+        // The process ends before its folder is removed.
         self.child.end();
-        // If the folder cannot be removed, the next command removes it.
-        let _ = fs::remove_dir_all(&self.folder);
     }
 }
 
@@ -253,11 +256,11 @@ fn master(tasks: &[RenderTask]) -> String {
 }
 
 /// Returns true if a PNG file is complete: it ends with the last chunk of a PNG.
-pub(super) fn is_whole(path: &Path) -> bool {
+fn is_whole(folder: &Dir, name: &str) -> bool {
     /// The last chunk of every PNG: a length of 0, `IEND`, and the checksum.
     const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
     let ends = || -> io::Result<bool> {
-        let mut file = File::open(path)?;
+        let mut file = folder.open_file(name)?;
         file.seek(SeekFrom::End(-12))?;
         let mut last = [0; 12];
         file.read_exact(&mut last)?;
@@ -267,8 +270,8 @@ pub(super) fn is_whole(path: &Path) -> bool {
 }
 
 /// Reads a file of POV-Ray's messages, and removes the banners between frames.
-fn said(path: &Path) -> String {
-    let bytes = fs::read(path).unwrap_or_default();
+fn said(folder: &Dir, name: &str) -> String {
+    let bytes = folder.read(name).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);
     let lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('='));
     lines.map(|line| format!("{line}\n")).collect()

@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sha2::{Digest, Sha256};
 
-use crate::regular_file;
+use crate::system::{self, Dir, FolderError};
 
 /// The hidden folder beside the images. It contains the records, and other data about the images.
 pub const HIDDEN: &str = ".jabuka";
@@ -107,7 +107,7 @@ impl Files {
         let mut hasher = Sha256::new();
         let mut numbered = false;
         for path in files {
-            let bytes = fs::read(path).map_err(|error| (path.clone(), error))?;
+            let bytes = read_input(path).map_err(|error| (path.clone(), error))?;
             hasher.update(&bytes);
             numbered |= path.extension().is_some_and(|end| end == "inc") && mentions_number(&bytes);
         }
@@ -128,7 +128,7 @@ impl Record {
         options: &str,
         povray: &str,
     ) -> io::Result<Record> {
-        let mut reader = BufReader::new(File::open(script)?);
+        let mut reader = BufReader::new(system::open(script)?);
         reader.skip_until(b'\n')?;
         let mut text = Vec::new();
         reader.read_to_end(&mut text)?;
@@ -145,12 +145,17 @@ impl Record {
         })
     }
 
+    /// Adds the length and the digest of the finished image with these bytes to the record.
+    pub(super) fn of_bytes(self, image: &[u8]) -> Record {
+        Record { bytes: image.len() as u64, image: Some(hex(&Sha256::digest(image))), ..self }
+    }
+
     /// Adds the length and the digest of the finished image to the record.
     ///
     /// # Errors
     /// If the image cannot be read.
     pub fn of_image(self, image: &Path) -> io::Result<Record> {
-        let (image, bytes) = digest_of_file(image)?;
+        let (image, bytes) = digest_of_file(system::open(image)?)?;
         Ok(Record { bytes, image: Some(image), ..self })
     }
 
@@ -159,6 +164,10 @@ impl Record {
     /// # Errors
     /// If the image cannot be read.
     pub fn verify(&self, image: &Path) -> io::Result<Verdict> {
+        self.verify_file(system::open(image)?)
+    }
+
+    pub(super) fn verify_file(&self, image: File) -> io::Result<Verdict> {
         let Some(digest) = &self.image else { return Ok(Verdict::Unverified) };
         let is = digest_of_file(image)?.0;
         Ok(if is == *digest { Verdict::Intact } else { Verdict::Changed })
@@ -171,10 +180,18 @@ impl Record {
 
     /// Reads the record of an image. `None` if the file does not exist, or is not a record.
     pub fn read(images: &Path, name: &str) -> Option<Record> {
+        Record::of_file(system::open(&Record::path(images, name)).ok()?)
+    }
+
+    /// Reads the record of an image in the folder [`HIDDEN`].
+    pub(super) fn read_in(hidden: &Dir, name: &str) -> Option<Record> {
+        Record::of_file(hidden.open_file(format!("{name}.txt")).ok()?)
+    }
+
+    fn of_file(file: File) -> Option<Record> {
         /// The largest number of bytes that are read: far more than any record needs.
         const MAX_BYTES: u64 = 64 << 10;
         let mut text = String::new();
-        let file = regular_file::open_to_read(&Record::path(images, name)).ok()?;
         file.take(MAX_BYTES).read_to_string(&mut text).ok()?;
         Record::parse(&text)
     }
@@ -185,28 +202,42 @@ impl Record {
     /// # Errors
     /// If the record cannot be written.
     pub fn write(&self, images: &Path, name: &str) -> io::Result<()> {
+        Ok(self.write_in(&Dir::open(&images.join(HIDDEN))?, name)?)
+    }
+
+    /// Writes the record into the folder [`HIDDEN`], as [`Record::write`] does.
+    pub(super) fn write_in(&self, hidden: &Dir, name: &str) -> Result<(), FolderError> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let unique = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let temporary = images.join(HIDDEN).join(format!(".{name}.{}-{}.tmp", unique.0, unique.1));
-        let write = || {
-            let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&temporary)?;
-            file.write_all(self.to_text().as_bytes())?;
-            fs::rename(&temporary, Record::path(images, name))
-        };
-        write().inspect_err(|_| {
-            // If the file cannot be removed, the leftover does no harm: it is hidden, and does not have the name of a record.
-            let _ = fs::remove_file(&temporary);
+        // A leftover does no harm: it is hidden, and does not have the name of a record.
+        let temporary = format!(".{name}.{}-{}.tmp", unique.0, unique.1);
+        let path = format!("{name}.txt");
+        hidden.write_as(Path::new(&temporary), Path::new(&path), |file| {
+            let written = file.write_all(self.to_text().as_bytes());
+            written.map_err(|error| FolderError::Io(hidden.path().join(&path), error))
         })
     }
 
     /// Returns the state of an existing or missing image. The image is up to date if its own record agrees with this one in the parts that
     /// `compare` selects.
     pub fn state(&self, images: &Path, name: &str, compare: Compare) -> State {
-        let Ok(metadata) = fs::metadata(images.join(format!("{name}.png"))) else { return State::Missing };
-        let is = |record: Record| record.bytes == metadata.len() && record.is_of(self, compare);
-        match Record::read(images, name).is_some_and(is) {
-            true => State::UpToDate,
-            false => State::Outdated,
+        let about = fs::symlink_metadata(images.join(format!("{name}.png"))).ok();
+        let image = about.map(|about| (about.is_file(), about.len()));
+        self.state_of(image, Record::read(images, name).as_ref(), compare)
+    }
+
+    /// Returns the state of an image. `image` tells whether it is a regular file, and its length; `record` is its own record.
+    pub(super) fn state_of(
+        &self,
+        image: Option<(bool, u64)>,
+        record: Option<&Record>,
+        compare: Compare,
+    ) -> State {
+        let is = |record: &Record| image == Some((true, record.bytes)) && record.is_of(self, compare);
+        match image {
+            None => State::Missing,
+            Some(_) if record.is_some_and(is) => State::UpToDate,
+            Some(_) => State::Outdated,
         }
     }
 
@@ -252,6 +283,14 @@ impl Record {
     }
 }
 
+/// Reads a file that a script reads. A link is followed, since POV-Ray follows it, too. A pipe would block, and is an error.
+pub(super) fn read_input(path: &Path) -> io::Result<Vec<u8>> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, "it is not a regular file"));
+    }
+    fs::read(path)
+}
+
 /// Returns true if a text contains a word that makes the image depend on the number of its frame.
 fn mentions_number(text: &[u8]) -> bool {
     let is_word = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
@@ -264,8 +303,8 @@ fn mentions_number(text: &[u8]) -> bool {
 }
 
 /// Returns the SHA-256 of a file in hexadecimal digits, and its length in bytes.
-fn digest_of_file(path: &Path) -> io::Result<(String, u64)> {
-    let mut reader = BufReader::with_capacity(1 << 16, File::open(path)?);
+fn digest_of_file(file: File) -> io::Result<(String, u64)> {
+    let mut reader = BufReader::with_capacity(1 << 16, file);
     let (mut hasher, mut bytes) = (Sha256::new(), 0);
     loop {
         let part = reader.fill_buf()?;

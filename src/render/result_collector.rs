@@ -2,9 +2,10 @@
 
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::exposure::Exposure;
+use super::images::Finished;
 use super::job::{Event, Group, Job, Outcome};
 use super::pool::TaskResult;
 use super::process::RenderTask;
@@ -36,8 +37,8 @@ impl<'a> ResultCollector<'a> {
     /// Records the result of rendering one picture.
     pub(super) fn take(&mut self, task: &RenderTask, result: TaskResult) -> Result<(), RenderError> {
         match (result, task.moment) {
-            (TaskResult::Image(path, seconds), None) => self.image(task, &path, seconds),
-            (TaskResult::Image(path, seconds), Some(moment)) => self.moment(task, moment, &path, seconds),
+            (TaskResult::Image(image, seconds), None) => self.image(task, &image, seconds),
+            (TaskResult::Image(image, seconds), Some(moment)) => self.moment(task, moment, &image, seconds),
             (TaskResult::Broken(said) | TaskResult::Died(said), _) => self.failure(task, &said),
         }
     }
@@ -47,7 +48,7 @@ impl<'a> ResultCollector<'a> {
         &mut self,
         task: &RenderTask,
         moment: u32,
-        path: &Path,
+        image: &Finished,
         seconds: f64,
     ) -> Result<(), RenderError> {
         if self.failed.contains(&task.index) {
@@ -58,7 +59,7 @@ impl<'a> ResultCollector<'a> {
             Entry::Occupied(begun) => begun.into_mut(),
             Entry::Vacant(new) => new.insert(Exposure::new(self.job.images, task.index)?),
         };
-        if !exposure.add(path, moment, seconds, of)? {
+        if !exposure.add(image, moment, seconds, of)? {
             return Ok(());
         }
         let Some(exposure) = self.exposures.remove(&task.index) else { return Ok(()) };
@@ -66,11 +67,11 @@ impl<'a> ResultCollector<'a> {
     }
 
     /// Stores the image of a frame, and copies of it for all frames with equal scripts.
-    fn image(&mut self, task: &RenderTask, path: &Path, seconds: f64) -> Result<(), RenderError> {
+    fn image(&mut self, task: &RenderTask, image: &Finished, seconds: f64) -> Result<(), RenderError> {
         let (images, scripts) = (self.job.images, self.job.sequence.scripts());
         let group = &self.groups[task.index];
         let first = &scripts[group.members[0]];
-        images.adopt(path, &first.name, &group.record)?;
+        images.adopt(image, &first.name, &group.record)?;
         self.outcome.rendered += 1;
         if self.outcome.slowest.is_none_or(|(_, slowest)| seconds > slowest) {
             self.outcome.slowest = Some((task.frame, seconds));

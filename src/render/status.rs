@@ -14,9 +14,9 @@ use super::batch::{CurrentSettings, SCRIPTS};
 use super::files;
 use super::record::{Compare, Files, HIDDEN, Record, State, Verdict};
 use crate::diagnostic::visible;
-use crate::output::{self, MANIFEST};
-use crate::regular_file;
+use crate::output;
 use crate::simulate::Selection;
+use crate::system;
 
 /// The age at which the marker of a running frame counts as abandoned. A living process updates its marker twice a minute.
 const HEARTBEATS: Duration = Duration::from_secs(180);
@@ -223,7 +223,7 @@ impl FolderContents {
             None => (folder.to_owned(), None),
         };
         let images = folder.join("images");
-        let head = output::read_manifest(&scripts.join(MANIFEST)).ok_or_else(|| {
+        let head = output::read_manifest(&scripts).ok_or_else(|| {
             io::Error::new(io::ErrorKind::NotFound, "it holds no scripts that jabuka wrote")
         })?;
         let unfinished_scripts = head.state != output::State::Complete;
@@ -266,7 +266,7 @@ impl Running {
     fn read(images: &Path, name: &str, frame: usize) -> Option<(Running, bool)> {
         let path = images.join(HIDDEN).join("running").join(name);
         let touched = fs::metadata(&path).ok()?.modified().ok()?;
-        let text = regular_file::read_to_string(&path).ok()?;
+        let text = system::read_to_string(&path).ok()?;
         let mut words = text.split_whitespace();
         let host = words.next()?.to_owned();
         let process = words.next()?.parse().ok()?;
@@ -281,7 +281,7 @@ impl Failed {
     /// Reads the reason of a frame's failure. `None` if the frame has not failed, or its script has changed since.
     fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
         let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
-        let text = regular_file::read_to_string(&path).ok()?;
+        let text = system::read_to_string(&path).ok()?;
         let modified = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
         if modified(script) > modified(&path) {
             return None;
@@ -297,13 +297,13 @@ fn is_made(film: &Path, how: &str, place: &FolderContents) -> bool {
     hasher.update(format!("{how}\n"));
     for frame in &place.frames {
         let name = place.name(*frame);
-        let Ok(record) = regular_file::read_to_string(&Record::path(&place.images, &name)) else {
+        let Ok(record) = system::read_to_string(&Record::path(&place.images, &name)) else {
             return false;
         };
         hasher.update(format!("{}\n", record.trim_end_matches('\n')));
     }
     let digest: String = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-    let noted = regular_file::read_to_string(&Record::path(&place.images, "film")).unwrap_or_default();
+    let noted = system::read_to_string(&Record::path(&place.images, "film")).unwrap_or_default();
     fs::metadata(film).is_ok_and(|film| film.is_file() && film.len() > 0)
         && noted.trim_end() == format!("film {digest}")
 }

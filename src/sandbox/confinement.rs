@@ -42,7 +42,8 @@ pub struct Confinement {
 pub(crate) struct Needs<'a> {
     /// The files and folders that the program reads, except those that every program may read.
     pub(crate) read: &'a [&'a Path],
-    /// The files and folders that the program writes. Its temporary files go to the first folder.
+    /// The files and folders that the program writes. Its temporary files go to the first folder. A path that begins with `./` is relative
+    /// to the folder in which the program starts.
     pub(crate) write: &'a [&'a Path],
     /// True if the program runs at low priority.
     pub(crate) low_priority: bool,
@@ -92,7 +93,8 @@ impl Confinement {
             command.arg("--read").arg(absolute(path));
         }
         for path in needs.write.iter().copied().chain(self.writable.iter().map(PathBuf::as_path)) {
-            command.arg("--write").arg(absolute(path));
+            let in_start = path.starts_with(".");
+            command.arg("--write").arg(if in_start { path.to_owned() } else { absolute(path) });
         }
         command.arg("--").arg(program);
         command

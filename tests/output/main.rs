@@ -19,6 +19,7 @@ mod models;
 mod recording;
 mod sameness;
 mod shutter;
+mod stranger;
 mod templates;
 mod trails;
 mod up_to_date;

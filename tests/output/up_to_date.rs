@@ -56,7 +56,7 @@ impl Place {
     }
 
     fn found(&self, scene: &Scene, selection: &Selection) -> Option<Manifest> {
-        up_to_date(scene, None, selection, &self.path("out"))
+        up_to_date(scene, None, selection, &Folder::open(&self.path("out")).unwrap())
     }
 }
 
@@ -73,7 +73,8 @@ fn what_was_written_is_known_with_what_was_noticed() {
     // A part of the frames is up to date, too; the scripts of another camera are not.
     assert!(place.found(&scene, &"3-5".parse().unwrap()).is_some());
     let view = &scene.views[0];
-    assert_eq!(up_to_date(&scene, Some(view), &Selection::first(11), &place.path("out")), None);
+    let folder = Folder::open(&place.path("out")).unwrap();
+    assert_eq!(up_to_date(&scene, Some(view), &Selection::first(11), &folder), None);
 }
 
 #[test]

@@ -10,10 +10,12 @@ use std::process::{Command, Output};
 
 use jabuka::diagnostic::Code;
 
-/// Returns a command that runs `jabuka` as built for the tests. It keeps no runs in the cache.
+/// Returns a command that runs `jabuka` as built for the tests. It keeps no runs in the cache, and notes which folders it made in a folder of
+/// the tests.
 pub(crate) fn jabuka() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_jabuka"));
     command.current_dir(root()).env("JABUKA_CACHE_SIZE", "0");
+    command.env("XDG_STATE_HOME", env!("CARGO_TARGET_TMPDIR"));
     command
 }
 

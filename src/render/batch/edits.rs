@@ -1,8 +1,6 @@
 //! Writes the files of a job folder that users may edit, without losing their edits.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -10,11 +8,25 @@ use sha2::{Digest, Sha256};
 use super::Edits;
 use super::texts::Text;
 use crate::output::{self, Folder, OutputError};
+use crate::system::{Dir, Kind};
 
 /// The name of the file that marks a folder as one of jabuka's job folders. It contains the digests of the files as jabuka wrote them.
 const MARKS: &str = ".jabuka-job.json";
 
 const GENERATOR: &str = "jabuka";
+
+/// The files of a job folder that jabuka keeps if they differ from what it writes, and that engines read beside them.
+const KEPT: [&str; 9] = [
+    "local.conf",
+    "render.sbatch",
+    "video.sbatch",
+    "template.yaml",
+    "template.json",
+    "asset_references.yaml",
+    "asset_references.json",
+    "parameter_values.yaml",
+    "parameter_values.json",
+];
 
 /// The digests of the files that jabuka wrote into a job folder. A file with another digest was edited.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -32,8 +44,8 @@ impl Default for WrittenDigests {
 
 impl WrittenDigests {
     /// Reads the digests of the files in a job folder. `None` if jabuka did not make the folder.
-    pub(super) fn read(folder: &Path) -> Option<WrittenDigests> {
-        let marks: WrittenDigests = serde_json::from_slice(&fs::read(folder.join(MARKS)).ok()?).ok()?;
+    pub(super) fn read(folder: &Dir) -> Option<WrittenDigests> {
+        let marks: WrittenDigests = serde_json::from_slice(&folder.read(MARKS).ok()?).ok()?;
         (marks.generator == GENERATOR).then_some(marks)
     }
 
@@ -43,15 +55,31 @@ impl WrittenDigests {
     }
 }
 
+/// Returns the files of a job folder that its scripts or an engine would use, and that jabuka would keep as edited by the user. In a folder that
+/// was not made here, they can be anyone's.
+pub(super) fn strangers(folder: &Folder, texts: &[Text]) -> Result<Vec<String>, OutputError> {
+    let mut found = Vec::new();
+    for name in KEPT {
+        let Some(about) = folder.dir().about(name)? else { continue };
+        let ours = texts.iter().find(|text| text.name == name).map(|text| text.text.as_bytes());
+        let is_ours = about.kind == Kind::File
+            && ours.is_some_and(|ours| folder.dir().read(name).is_ok_and(|is| is == ours));
+        if !is_ours {
+            found.push(name.to_owned());
+        }
+    }
+    Ok(found)
+}
+
 /// Writes files into a job folder. If a file was edited and users may edit it, it stays, and the new text goes to a file with the added
 /// extension `.new`. Any other edited file is renamed: it gets the added extension `.old`.
 pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputError> {
-    let mut marks = WrittenDigests::read(folder.path()).unwrap_or_default();
+    let mut marks = WrittenDigests::read(folder.dir()).unwrap_or_default();
     let mut edits = Edits::default();
     for text in texts {
-        let path = folder.path().join(text.name);
         let (was, is) = (marks.files.get(text.name).cloned(), digest(text.text.as_bytes()));
-        let there = fs::read(&path).ok().map(|bytes| digest(&bytes));
+        // Anything but a regular file, such as a link, is replaced.
+        let there = folder.dir().read(text.name).ok().map(|bytes| digest(&bytes));
         let edited = there.as_ref().is_some_and(|there| *there != is && Some(there) != was.as_ref());
         if edited && text.users {
             edits.kept.push(text.name);
@@ -61,10 +89,9 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
             }
         } else {
             if edited {
-                let name = output::free_name(folder.path(), &format!("{}.old", text.name));
-                let old = folder.path().join(&name);
+                let name = output::free_name(folder.dir(), &format!("{}.old", text.name))?;
+                folder.dir().rename(text.name, folder.dir(), &name)?;
                 edits.moved.push((text.name, name));
-                fs::rename(&path, &old).map_err(|error| OutputError::Io(old, error))?;
             }
             put(folder, text.name, text)?;
         }
@@ -81,15 +108,15 @@ fn put(folder: &Folder, name: &str, text: &Text) -> Result<(), OutputError> {
     #[cfg(unix)]
     if text.runs {
         use std::os::unix::fs::PermissionsExt;
-        let path = folder.path().join(name);
-        let permit = |path: &Path| {
-            let mut permissions = fs::metadata(path)?.permissions();
+        let file = folder.dir().open_file(name)?;
+        let permit = || {
+            let mut permissions = file.metadata()?.permissions();
             // Everyone who may read the file may also execute it.
             let mode = permissions.mode();
             permissions.set_mode(mode | (mode & 0o444) >> 2);
-            fs::set_permissions(path, permissions)
+            file.set_permissions(permissions)
         };
-        permit(&path).map_err(|error| OutputError::Io(path, error))?;
+        permit().map_err(|error| OutputError::Io(folder.path().join(name), error))?;
     }
     Ok(())
 }
@@ -100,7 +127,10 @@ fn digest(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
+    use crate::system::Made;
 
     fn text(name: &'static str, users: bool, text: &str) -> Text {
         Text { name, text: text.to_owned(), users, runs: false }
@@ -109,8 +139,10 @@ mod tests {
     #[test]
     fn edits_are_not_lost() {
         let folder = tempfile::tempdir().unwrap();
-        let open =
-            || Folder::open_marked(folder.path(), &|path| WrittenDigests::read(path).is_some()).unwrap();
+        let open = || {
+            let dir = Dir::make(folder.path()).unwrap();
+            Folder::of(dir, Made::default(), &|dir| WrittenDigests::read(dir).is_some()).unwrap()
+        };
         let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
         let texts = |version: &str| [text("render.sbatch", true, version), text("submit", false, version)];
         assert_eq!(write(&open(), &texts("1")).unwrap(), Edits::default());

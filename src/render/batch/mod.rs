@@ -8,7 +8,6 @@ mod edits;
 mod settings;
 mod texts;
 
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -21,6 +20,7 @@ pub use texts::Requirements;
 use super::record::HIDDEN;
 use super::{Pace, Quality};
 use crate::output::{self, Folder, OutputError};
+use crate::system::{Dir, Kind};
 
 /// The subfolder of a job folder that contains the scripts.
 pub const SCRIPTS: &str = "scripts";
@@ -66,11 +66,14 @@ impl JobFolder {
     /// # Errors
     /// If jabuka did not make the folder, another process writes to it, or it cannot be created or read.
     pub fn open(path: &Path) -> Result<JobFolder, OutputError> {
-        let folder = Folder::open_marked(path, &|path| edits::WrittenDigests::read(path).is_some())?;
-        let job = JobFolder { folder };
+        let (dir, made) = Dir::make_noting(path)?;
+        let folder = Folder::of(dir, made, &|dir| edits::WrittenDigests::read(dir).is_some())?;
+        for name in ["logs", "images"] {
+            refuse_links(folder.dir(), name)?;
+        }
         // The folder is marked as jabuka's at once, so that jabuka can open it again if this process is killed.
-        edits::WrittenDigests::read(path).unwrap_or_default().write(&job.folder)?;
-        Ok(job)
+        edits::WrittenDigests::read(folder.dir()).unwrap_or_default().write(&folder)?;
+        Ok(JobFolder { folder })
     }
 
     /// Opens the subfolder for the scripts of the job, for writing.
@@ -78,26 +81,53 @@ impl JobFolder {
     /// # Errors
     /// If the subfolder cannot be opened as an output folder.
     pub fn scripts(&self) -> Result<Folder, OutputError> {
-        Folder::open(&self.folder.path().join(SCRIPTS))
+        Folder::within(self.folder.dir(), SCRIPTS)
     }
 
-    /// Writes all files of a job except the scripts. Edits by users are kept or moved; the result lists them.
+    /// Removes the folder again, if it was empty or missing before. A job without scripts is of no use.
+    pub fn discard(&self) {
+        self.folder.discard();
+    }
+
+    /// Writes all files of a job except the scripts. Edits by users are kept or moved; the result lists them. With `trust`, files of a folder
+    /// that was not made here count as edits of the user.
     ///
     /// # Errors
-    /// If a file cannot be written.
+    /// If a file cannot be written; if the folder was not made here, and holds files that would be kept, without `trust`.
     pub fn write(
         &self,
         settings: &Settings,
         engine: Engine,
         requirements: &Requirements,
     ) -> Result<Edits, OutputError> {
-        let path = self.folder.path();
+        let texts = texts::texts(settings, engine, requirements);
+        if !self.folder.is_made_here() && !settings.trust {
+            let names = edits::strangers(&self.folder, &texts)?;
+            if !names.is_empty() {
+                return Err(OutputError::JobFromElsewhere(self.folder.path().to_owned(), names));
+            }
+        }
         // The engine writes logs into `logs`. If that folder is missing, the job fails without a message.
         for folder in ["logs", "images", &format!("images/{HIDDEN}")] {
-            let folder = path.join(folder);
-            fs::create_dir_all(&folder).map_err(|error| OutputError::Io(folder, error))?;
+            self.folder.dir().make_folder(folder)?;
         }
-        edits::write(&self.folder, &texts::texts(settings, engine, requirements))
+        let edits = edits::write(&self.folder, &texts)?;
+        self.folder.note_made_here();
+        Ok(edits)
+    }
+}
+
+/// Refuses links below `logs`, and in the hidden folder among the images. The scripts of a job write there.
+fn refuse_links(folder: &Dir, name: &str) -> Result<(), OutputError> {
+    match folder.about(name)?.map(|found| found.kind) {
+        Some(Kind::Link) => Err(OutputError::Link(folder.path().join(name))),
+        Some(Kind::Folder) => {
+            let folder = folder.folder(name)?;
+            // The images themselves are only replaced, never written to.
+            let names = if name == "images" { vec![HIDDEN.into()] } else { folder.names()? };
+            names.iter().try_for_each(|name| name.to_str().map_or(Ok(()), |name| refuse_links(&folder, name)))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -131,8 +161,8 @@ pub fn settings(
         .collect();
     // A frame with motion blur has two scripts but one image.
     frames.dedup();
-    let blurred = fs::read_dir(scripts).map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
-    let blurred = blurred.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("shutter_"));
+    let names = Dir::of_path(scripts)?.names()?;
+    let blurred = names.iter().any(|name| name.to_string_lossy().starts_with("shutter_"));
     let last_frame = head.frames.saturating_sub(1);
     let number = frames.len();
     #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]

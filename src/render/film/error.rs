@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use super::{Format, Pace};
 use crate::diagnostic::{Code, Diagnostic, Report};
+use crate::system::FolderError;
 
 /// An error of making a film or a contact sheet.
 #[derive(Debug)]
@@ -48,6 +49,8 @@ pub enum FilmError {
     Locked(PathBuf),
     /// The disk has no space left for the file.
     DiskFull(PathBuf),
+    /// A folder on the path of the file is a symbolic link.
+    Link(PathBuf),
     /// A file could not be written.
     Io(PathBuf, io::Error),
     /// ffmpeg failed: the path of the film, how ffmpeg ended, and its last messages.
@@ -71,6 +74,7 @@ impl FilmError {
             FilmError::NoFfmpeg(..) | FilmError::NoEncoder(..) => Code::NoFfmpeg,
             FilmError::Image(..) => Code::BadImage,
             FilmError::Sizes { .. } => Code::ImageSizes,
+            FilmError::Link(_) => Code::Link,
             FilmError::Folder(_) | FilmError::Locked(_) | FilmError::DiskFull(_) | FilmError::Io(..) => {
                 Code::CannotWrite
             }
@@ -115,6 +119,7 @@ impl FilmError {
             }
             FilmError::Locked(_) => Some("wait until the other run has ended, or name another file"),
             FilmError::Folder(_) => Some("name a file"),
+            FilmError::Link(_) => Some("name the folder that it leads to"),
             FilmError::DiskFull(_) => Some("make room; the images are kept"),
             FilmError::Cancelled => Some("run the same command again: the images are kept"),
             FilmError::SheetName(_)
@@ -131,6 +136,16 @@ impl FilmError {
         |error| match error.kind() {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => FilmError::DiskFull(path),
             _ => FilmError::Io(path, error),
+        }
+    }
+}
+
+impl From<FolderError> for FilmError {
+    fn from(error: FolderError) -> FilmError {
+        match error {
+            FolderError::Link(path) => FilmError::Link(path),
+            FolderError::NotAFolder(path) => FilmError::Io(path, io::ErrorKind::NotADirectory.into()),
+            FolderError::Io(path, error) => FilmError::io(path)(error),
         }
     }
 }
@@ -178,6 +193,7 @@ impl fmt::Display for FilmError {
             ),
             FilmError::Locked(path) => write!(f, "another jabuka writes `{}`", path.display()),
             FilmError::DiskFull(path) => write!(f, "no space is left for `{}`", path.display()),
+            FilmError::Link(path) => write!(f, "`{}` is a link, which is not followed", path.display()),
             FilmError::Io(path, error) => write!(f, "`{}`: {error}", path.display()),
             FilmError::Failed(path, how, said) if said.is_empty() => {
                 write!(f, "ffmpeg could not make `{}`: it {how} without a word", path.display())

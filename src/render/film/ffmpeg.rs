@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::super::started::Started;
+use super::target::Target;
 use super::{FilmError, Format};
 use crate::sandbox::{Confinement, Needs};
 
@@ -50,7 +51,7 @@ impl Ffmpeg {
             let mut command = confinement.command(program, Needs::default());
             let output = command.args(arguments).stdin(Stdio::null()).output();
             let output = output.map_err(|error| unusable(error.to_string()))?;
-            Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+            Ok::<_, FilmError>(String::from_utf8_lossy(&output.stdout).into_owned())
         };
         let answer = ask(&["-version"])?;
         let version = answer.strip_prefix("ffmpeg version ").and_then(|rest| rest.split_whitespace().next());
@@ -75,7 +76,7 @@ impl Ffmpeg {
         &self.version
     }
 
-    /// Runs ffmpeg with write access to the file `film` only. `feed` writes to ffmpeg's standard input, on a thread of its own. `progress`
+    /// Runs ffmpeg with write access to the temporary file of `film` only. `feed` writes to ffmpeg's standard input, on a thread of its own. `progress`
     /// receives the number of written frames.
     ///
     /// # Errors
@@ -83,14 +84,16 @@ impl Ffmpeg {
     pub(super) fn run(
         &self,
         arguments: &[OsString],
-        film: &Path,
+        film: &Target,
         feed: impl FnOnce(&mut dyn Write, &AtomicBool) -> Result<(), FilmError> + Send,
         cancelled: &dyn Fn() -> bool,
         progress: &dyn Fn(usize),
     ) -> Result<End, FilmError> {
-        let needs = Needs { write: &[film], ..Needs::default() };
+        let temporary = film.temporary();
+        let needs = Needs { write: &[&temporary], ..Needs::default() };
         let mut command = self.confinement.command(&self.program, needs);
         command
+            .current_dir(film.folder().path_for_child())
             .args(["-hide_banner", "-loglevel", "error", "-nostats", "-xerror", "-progress", "pipe:1"])
             .args(arguments)
             .stdin(Stdio::piped())

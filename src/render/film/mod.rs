@@ -181,7 +181,7 @@ impl Film {
             }
             Ok(())
         };
-        let end = ffmpeg.run(&arguments, target.temporary(), feed, cancelled, progress)?;
+        let end = ffmpeg.run(&arguments, &target, feed, cancelled, progress)?;
         self.judge(end, images.len())?;
         target.finish()
     }

@@ -1,3 +1,5 @@
+use std::fs::{self, File};
+
 use super::*;
 
 /// Writes a PNG of 2 × 1 pixels, and returns its path.
