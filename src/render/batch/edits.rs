@@ -78,9 +78,15 @@ pub(super) fn write(folder: &Folder, texts: &[Text]) -> Result<Edits, OutputErro
     let mut edits = Edits::default();
     for text in texts {
         let (was, is) = (marks.files.get(text.name).cloned(), digest(text.text.as_bytes()));
-        // Anything but a regular file, such as a link, is replaced.
-        let there = folder.dir().read(text.name).ok().map(|bytes| digest(&bytes));
-        let edited = there.as_ref().is_some_and(|there| *there != is && Some(there) != was.as_ref());
+        let edited = match folder.dir().about(text.name)?.map(|found| found.kind) {
+            None => false,
+            Some(Kind::File) => {
+                let there = digest(&folder.dir().read(text.name)?);
+                there != is && Some(&there) != was.as_ref()
+            }
+            // Users may have put a link here.
+            Some(_) => true,
+        };
         if edited && text.users {
             edits.kept.push(text.name);
             if was.as_ref() != Some(&is) {

@@ -187,8 +187,7 @@ pub fn settings(
 /// Returns the names of the files that all scripts read. Refuses control characters in names, since each name takes one line of the
 /// settings.
 fn files(scripts: &Path) -> Result<Vec<String>, OutputError> {
-    let files = super::files::of_scripts(scripts);
-    let files = files.map_err(|error| OutputError::Io(scripts.to_owned(), error))?;
+    let files = super::files::in_folder(&Dir::of_path(scripts)?)?;
     if let Some(file) = files.iter().find(|file| file.contains(char::is_control)) {
         let why = "the settings of a job cannot hold a name with a line break or another control character";
         return Err(OutputError::Io(scripts.join(file), io::Error::new(io::ErrorKind::InvalidInput, why)));

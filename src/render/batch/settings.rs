@@ -1,9 +1,9 @@
 //! The settings of a cluster job, for the bash scripts that run on the nodes. They are in the file `job.conf` of the job folder.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::render::record::read_input;
 use crate::render::{Format, Pace, Quality};
 use crate::simulate::Selection;
 
@@ -141,7 +141,7 @@ fn values_of_user(folder: &Path) -> io::Result<Vec<(String, String)>> {
 
 /// Reads the keys and values of a settings file, by the same rules as `settings.sh`. `None` if the file does not exist.
 fn values(folder: &Path, name: &str) -> io::Result<Option<Vec<(String, String)>>> {
-    let bytes = match fs::read(folder.join(name)) {
+    let bytes = match read_input(&folder.join(name)) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(io::Error::new(error.kind(), format!("its `{name}`: {error}"))),
@@ -200,6 +200,7 @@ pub(super) fn fill(text: &str, values: &[(&str, &str)]) -> String {
 
 #[cfg(test)]
 pub(super) mod tests {
+    use std::fs;
     use std::process::Command;
 
     use super::*;
