@@ -191,7 +191,11 @@ fn render_folder(arguments: &Arguments, products: &Products, stop: &AtomicBool) 
         Some(_) => Dir::of_path(&arguments.source),
         None => Dir::open(&arguments.source),
     };
-    let dir = dir.map_err(|error| failed(&error.into()))?;
+    let dir = dir.or_else(|error| {
+        // That there are no scripts says more than that the folder is a link.
+        Sequence::open(&arguments.source, selection.as_ref()).map_err(|error| failed(&error))?;
+        Err(failed(&error.into()))
+    })?;
     render_scripts(arguments, products, &dir, selection.as_ref(), "", stop)
 }
 

@@ -40,6 +40,7 @@ pub(crate) fn run(lines: &str, folder: &Path) -> Output {
         .env("PATH", path)
         .env("HOME", folder)
         .env_remove("XDG_CACHE_HOME")
+        .env_remove("XDG_STATE_HOME")
         .env_remove("JABUKA_CACHE_DIR")
         .output()
         .unwrap()

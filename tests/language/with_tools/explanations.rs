@@ -54,6 +54,12 @@ fn commands_that_an_explanation_calls_wrong_get_the_code_and_those_it_calls_righ
         let folder = tempfile::tempdir().unwrap();
         let copied = Command::new("cp").arg("-a").arg(prepared.path().join(".")).arg(folder.path()).status();
         assert!(copied.unwrap().success());
+        if wrong.contains("out/scene") {
+            // The copy of a folder counts as one from elsewhere, so these examples get a folder that was made here.
+            fs::remove_dir_all(folder.path().join("out")).unwrap();
+            let output = commands::run("$ jabuka render scene.toml", folder.path());
+            assert!(output.status.success(), "{}", stderr(&output));
+        }
         let output = commands::run(&wrong, folder.path());
         let said = stderr(&output);
         // Invalid arguments give the exit code 2, and no error code in the message.
