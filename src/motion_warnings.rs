@@ -10,6 +10,7 @@ pub fn all(scene: &Scene, survey: &Survey) -> Vec<Diagnostic> {
     let corrected = survey.corrected.iter().map(corrected);
     corrected
         .chain(survey.crossings.iter().map(crossing))
+        .chain(survey.fall.iter().map(fall))
         .chain(survey.overlap.iter().map(overlap))
         .chain(survey.stretched.iter().map(stretched))
         .chain(sunken(scene, survey))
@@ -80,6 +81,20 @@ fn crossing(crossing: &Crossing) -> Diagnostic {
     };
     let message = format!("`{}` goes through {plane} at t = {} s{others}", crossing.body, crossing.time);
     Diagnostic::warning(Code::Crossing, message).help(format!("nothing stops it; {STOPS}"))
+}
+
+/// Returns the warning that a body falls without end.
+fn fall(fall: &Crossing) -> Diagnostic {
+    let others = match fall.others {
+        0 => String::new(),
+        1 => ", and so does 1 other body".to_owned(),
+        others => format!(", and so do {others} other bodies"),
+    };
+    let message =
+        format!("`{}` falls below height 0 at t = {} s, and on without end{others}", fall.body, fall.time);
+    let help = "nothing stops it; with `simulation.contacts = \"event-driven\"`, bodies land on the ground at height 0; without a \
+                ground, `environment.ground = false` ends this warning";
+    Diagnostic::warning(Code::Crossing, message).help(help)
 }
 
 /// Returns the warning that a joint gives way.

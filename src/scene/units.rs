@@ -148,6 +148,12 @@ pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
     factor.map(|factor| written(number * factor))
 }
 
+/// Returns the number for a percentage such as `80%`, as TOML text. `None` for other texts.
+pub(super) fn percentage(text: &str) -> Option<String> {
+    let number = text.trim().strip_suffix('%')?.trim_end().parse::<f64>().ok()?;
+    number.is_finite().then(|| written(number / 100.0))
+}
+
 /// Formats a number as TOML, rounded to 13 significant digits, which removes the rounding error of a conversion.
 pub(super) fn written(number: f64) -> String {
     let rounded = format!("{number:.12e}").parse::<f64>().unwrap_or(number);

@@ -2,6 +2,8 @@
 
 use super::{Broken, SimulateError};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
+use crate::dynamics::Motor;
+use crate::scene::{ForceKind, JointKind, Scene};
 
 impl SimulateError {
     /// The diagnostic code of the error.
@@ -63,15 +65,17 @@ impl SimulateError {
     /// Suggests a remedy. `None` if the error message alone is enough.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            SimulateError::Diverged(_) => Some(
-                "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper",
-            ),
+            SimulateError::Diverged(diverged) => Some(diverged.remedy),
             SimulateError::Broken(broken) if broken.time == 0.0 => Some(
                 "with the other joints of its bodies, it cannot: their lengths and points contradict each other",
             ),
-            SimulateError::Broken(_) => Some(
-                "other joints, or bodies whose motion is given, pull the bodies apart; or take a smaller `simulation.step`",
+            SimulateError::Broken(broken) if broken.is_driven => Some(
+                "bodies whose motion is given, motors or other joints pull the bodies apart: give the bodies more freedom, or change the \
+                 motion",
             ),
+            SimulateError::Broken(_) => {
+                Some("other joints pull the bodies apart; or take a smaller `simulation.step`")
+            }
             SimulateError::Stuck(stuck) if stuck.depth.is_some() => Some(
                 "move them apart, or join them, or let them pass through each other: `collides = false`, or the same \
                  `collision_group`",
@@ -89,4 +93,45 @@ impl SimulateError {
             SimulateError::Undefined(_) => None,
         }
     }
+}
+
+/// Returns the advice for a run that diverged. Recommends a smaller step only where one can help.
+pub(super) fn remedy(scene: &Scene) -> &'static str {
+    let simulation = &scene.simulation;
+    if simulation.method.adaptive {
+        return "the integrator chooses its own steps, so the motion itself leaves the range of numbers: look for a force that grows \
+                without bound";
+    }
+    // The largest step, relative to the time scale of a spring or a damper, that is surely stable.
+    const STABLE: f64 = 0.1;
+    let step = simulation.step;
+    let lightest = scene.bodies.iter().map(|body| body.start.mass).fold(f64::INFINITY, f64::min);
+    let needs_step = |kind: &ForceKind| match kind {
+        ForceKind::Constant(_) => false,
+        ForceKind::Spring { links, .. } => links.iter().any(|link| {
+            link.stiffness * step * step > STABLE * lightest || link.damping * step > STABLE * lightest
+        }),
+        ForceKind::Drag(drag) => drag.quadratic > 0.0 || drag.linear * step > STABLE * lightest,
+        _ => true,
+    };
+    let is_bound = !scene.joints.is_empty() || simulation.contacts.is_some();
+    if is_bound || scene.forces.iter().any(|force| needs_step(&force.kind)) {
+        "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper"
+    } else {
+        "a smaller step does not help: a force, a velocity or a mass is so extreme that the motion leaves the range of numbers"
+    }
+}
+
+/// Returns whether the scene prescribes the motion of a body or of a joint.
+pub(super) fn is_driven(scene: &Scene) -> bool {
+    let has_motor = |kind: &JointKind| {
+        let motor = match kind {
+            JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
+            JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
+            _ => None,
+        };
+        matches!(motor, Some(Motor::Value(_)))
+    };
+    scene.bodies.iter().any(|body| body.motion.is_some())
+        || scene.joints.iter().any(|joint| has_motor(&joint.kind))
 }

@@ -86,6 +86,8 @@ pub struct Diverged {
     pub body: String,
     /// The time of the frame with the non-finite state, s.
     pub time: f64,
+    /// The advice to the user.
+    pub remedy: &'static str,
 }
 
 /// The reason why a run cannot be simulated or read.
@@ -196,6 +198,8 @@ pub struct Broken {
     pub time: f64,
     /// The remaining violation of the joint's constraints: m, or rad for a rotation.
     pub missing: f64,
+    /// Whether a motion that the scene prescribes may pull the joint apart, so that no smaller step helps.
+    pub is_driven: bool,
     /// The span of the joint's name, and the texts that the scene was read from.
     pub place: (Option<diagnostic::Span>, Sources),
 }
@@ -241,7 +245,8 @@ impl SimulateError {
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {
-                SimulateError::Diverged(Diverged { body: scene.bodies[body.index()].name.to_string(), time })
+                let body = scene.bodies[body.index()].name.to_string();
+                SimulateError::Diverged(Diverged { body, time, remedy: diagnose::remedy(scene) })
             }
             Breakdown::Undefined { force, at } => match Undefined::of(scene, force, &at) {
                 Some(undefined) => SimulateError::Undefined(Box::new(undefined)),
@@ -263,7 +268,8 @@ impl SimulateError {
                 let joint = scene.joints[constraint].name.clone();
                 let span = scene.places.joints.get(constraint).copied();
                 let place = (span, scene.warnings.sources.clone());
-                SimulateError::Broken(Broken { joint, time, missing, place })
+                let is_driven = diagnose::is_driven(scene);
+                SimulateError::Broken(Broken { joint, time, missing, is_driven, place })
             }
         }
     }

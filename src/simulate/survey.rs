@@ -10,7 +10,7 @@ mod tests;
 
 pub use corrected::Corrected;
 pub use crossing::Crossing;
-use crossing::{Watched, free, planes};
+use crossing::{Falls, Watched, free, planes};
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
@@ -34,6 +34,8 @@ pub struct Survey {
     pub without_strays: Option<Span>,
     /// The first passage of a body through each plane, including a ground with a given height. Empty in scenes with contacts.
     pub crossings: Vec<Crossing>,
+    /// The first body that falls below height 0 without end, in a scene with a ground and gravity, but no contacts.
+    pub fall: Option<Crossing>,
     /// The first two bodies that move into each other. `None` if there are none, or if the scene has contacts.
     pub overlap: Option<Overlap>,
     /// The first body whose initial velocity was changed by joints. `None` if the joints changed nothing.
@@ -107,6 +109,7 @@ pub struct Surveyor<'a> {
     spans: Spans,
     /// The planes that are watched for bodies passing through them. Each has a list of bodies that were not in contact with it at first.
     planes: Vec<Watched>,
+    falls: Falls,
     /// The indices of the bodies that forces move, shared by all planes.
     free: Vec<usize>,
     /// The indices of the bodies that forces move and that have not yet been present.
@@ -141,6 +144,7 @@ impl<'a> Surveyor<'a> {
             scene,
             spans: Spans::default(),
             planes: planes(scene),
+            falls: Falls::new(scene),
             free: free(scene).collect(),
             awaited: free(scene).collect(),
             crossed: vec![false; scene.bodies.len()],
@@ -166,6 +170,7 @@ impl<'a> Surveyor<'a> {
         for plane in &mut self.planes {
             plane.see(scene, frame, (&self.free, &come), &mut self.crossed);
         }
+        self.falls.see(scene, frame);
         self.overlaps.see(frame);
         if frame.index == 0 {
             self.corrected = Corrected::find(scene, frame);
@@ -215,6 +220,7 @@ impl<'a> Surveyor<'a> {
             scene,
             spans,
             planes,
+            falls,
             overlaps,
             clouds,
             corrected,
@@ -233,6 +239,7 @@ impl<'a> Surveyor<'a> {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
             crossings: planes.into_iter().filter_map(Watched::finish).collect(),
+            fall: falls.finish(),
             overlap: overlaps.finish(),
             corrected,
             requested,

@@ -101,6 +101,21 @@ fn a_run_that_leaves_the_numbers_ends_there() {
     assert!(frames.len() < 251 && frames[..frames.len() - 1].iter().all(Result::is_ok));
 }
 
+#[test]
+fn a_smaller_step_is_advised_for_a_stiff_spring() {
+    let text = "
+        simulation = { integrator = 'explicit-euler' }
+        [body.far]
+        shape.sphere.radius = 1
+        location = [1, 0, 0]
+        [force.one]
+        spring = { between = ['far', [0, 0, 0]], stiffness = 1e9, rest_length = 0 }
+        ";
+    let scene = Scene::parse(text).unwrap();
+    let Some(Err(error)) = Frames::new(&scene).last() else { panic!("the run did not diverge") };
+    assert!(error.help().unwrap_or_default().contains("take a smaller `simulation.step`"), "{error}");
+}
+
 mod between_frames {
     use super::*;
     use crate::dynamics::METHODS;

@@ -433,7 +433,7 @@ fn what_a_file_does_not_say_is_as_the_body_says() {
     assert!((last.bodies[0].orientation * DVec3::X).abs_diff_eq(DVec3::Y, 1e-15));
     // A location pattern that the motion overrides causes a warning.
     let warned = scene.warnings.to_text(false);
-    assert!(warned.contains("`location` of `ring[0]` has no effect"), "{warned}");
+    assert!(warned.contains("the place that `repeat` gives to `ring[0]` has no effect"), "{warned}");
 }
 
 /// Checks that a run of prescribed motion takes no integration steps: a step of 1 ps would mean 10¹⁸ of them.

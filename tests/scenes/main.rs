@@ -3,6 +3,7 @@
 
 mod coming_and_going;
 mod contacts;
+mod first;
 mod given_motion;
 mod joints;
 mod many;

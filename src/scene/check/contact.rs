@@ -56,8 +56,8 @@ pub(super) fn collider(
     if simulation.contacts == Some(ContactLaw::EventDriven) && shape.has_torus() {
         let message = format!("contacts of `{name}` cannot be computed");
         let error = Diagnostic::error(Code::BadContacts, message);
-        let help = "build it as a `compound` of capsules or spheres, or let others pass through it: `collides = false`; \
-                    `simulation.contacts = \"time-stepping\"` takes it as a ring of capsules";
+        let help = "take a `cylinder` with the ring's `inertia` and `look`, a `compound` of capsules, or let others pass through \
+                    it: `collides = false`; `simulation.contacts = \"time-stepping\"` takes it as a ring of capsules";
         let span = view.table("shape").key_span("torus").or(view.key_span("shape"));
         let error = error.help(help);
         context.diagnostics.push(match span {
@@ -116,10 +116,16 @@ pub(super) fn check(
 fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     let mut wrong: Vec<(&str, Span)> = Vec::new();
     for body in root.bodies() {
-        body.look(|view| wrong.extend(OF_BODIES.iter().filter_map(|key| Some((*key, view.key_span(key)?)))));
+        body.look(|view| {
+            // Without contacts, `collides = false` is true anyway.
+            let is_needless = |key: &&&str| **key != "collides" || view.boolean("collides") != Some(false);
+            let keys = OF_BODIES.iter().filter(is_needless);
+            wrong.extend(keys.filter_map(|key| Some((*key, view.key_span(key)?))));
+        });
     }
     for (_, _, joint) in root.named("joint") {
-        let span = super::joint::kind(&joint).and_then(|kind| kind.key_span("collides"));
+        let kind = super::joint::kind(&joint).filter(|kind| kind.boolean("collides") == Some(true));
+        let span = kind.and_then(|kind| kind.key_span("collides"));
         wrong.extend(span.map(|span| ("collides", span)));
     }
     if let Some(ground) = root.table("environment").variant("ground") {

@@ -11,6 +11,7 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
+use crate::scene::grammar::quoted;
 use crate::scene::{
     Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
     ScaleBar, Side,
@@ -84,7 +85,7 @@ fn pieces(
     (bodies, joints): (&[Body], &[Joint]),
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
-    let mut reader = Reader { text, span, root, place, bodies, joints, context };
+    let mut reader = Reader { text, span, root, place, bodies, joints, context, missing: Vec::new() };
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
         reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
@@ -97,13 +98,60 @@ fn pieces(
         let Some(length) = text[begin..].find('}') else {
             let error = Diagnostic::error(Code::LabelSyntax, "this value has no end");
             reader.report(error, begin..begin + 2, "needs a `}`");
+            reader.report_missing();
             return pieces;
         };
         pieces.extend(reader.value(begin + 2..begin + length));
         at = begin + length + 1;
     }
     pieces.extend(reader.words(at..text.len()));
+    reader.report_missing();
     pieces
+}
+
+/// A value in a label as another language writes it.
+struct Other {
+    range: Range<usize>,
+    message: &'static str,
+    /// The value as a label writes it.
+    meant: String,
+}
+
+/// Finds values as other languages write them: `{t}` of Python, `$t` of a shell, and `%.2f` of C.
+fn values_of_other_languages(words: &str) -> Vec<Other> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(begin) = words[at..].find(['{', '$', '%']).map(|found| at + found) {
+        let rest = &words[begin..];
+        at = begin + 1;
+        let (length, message, meant) = if rest.starts_with('{') {
+            let Some(length) = rest.find('}').map(|end| end + 1) else { continue };
+            (length, "text in braces is shown unchanged", format!("${}", &rest[..length]))
+        } else if rest.starts_with('$') {
+            let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
+            let name = &rest[1..];
+            let name = &name[..name.find(|c| !is_part(c)).unwrap_or(name.len())];
+            let name = name.trim_end_matches('.');
+            if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                continue;
+            }
+            (1 + name.len(), "a value without braces is shown unchanged", format!("${{{name}}}"))
+        } else {
+            let format =
+                rest[1..].trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-'));
+            let digits = &rest[1..rest.len() - format.len()];
+            let is_alone = format.chars().nth(1).is_none_or(|next| !next.is_ascii_alphanumeric());
+            let Some('d' | 'i' | 'f' | 'e' | 'g' | 's') = format.chars().next().filter(|_| is_alone) else {
+                continue;
+            };
+            let decimals = digits.rsplit_once('.').map(|(_, decimals)| format!(":.{decimals}"));
+            let message = "a format with `%` is shown unchanged";
+            (digits.len() + 2, message, format!("${{t{}}}", decimals.unwrap_or_default()))
+        };
+        found.push(Other { range: begin..begin + length, message, meant });
+        at = begin + length;
+    }
+    found
 }
 
 struct Reader<'a, 'b, 'c> {
@@ -114,6 +162,8 @@ struct Reader<'a, 'b, 'c> {
     bodies: &'a [Body],
     joints: &'a [Joint],
     context: &'a mut Context<'c>,
+    /// The letters that POV-Ray's font does not have, each once, with its first range in the text.
+    missing: Vec<(char, Range<usize>)>,
 }
 
 impl Reader<'_, '_, '_> {
@@ -129,21 +179,19 @@ impl Reader<'_, '_, '_> {
 
     fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
-        if let Some((at, letter)) = words.char_indices().find(|(_, letter)| letter_of(*letter).is_none()) {
-            let here = range.start + at..range.start + at + letter.len_utf8();
-            let message = format!("POV-Ray's font has no letter `{}`", letter.escape_debug());
-            self.report(Diagnostic::error(Code::LabelLetter, message), here, "it would be an empty box");
-            return None;
+        for (at, letter) in words.char_indices().filter(|(_, letter)| letter_of(*letter).is_none()) {
+            if self.missing.iter().all(|(known, _)| *known != letter) {
+                let here = range.start + at..range.start + at + letter.len_utf8();
+                self.missing.push((letter, here));
+            }
         }
-        if let Some((begin, length)) = words.find('{').and_then(|at| Some((at, words[at..].find('}')?))) {
-            let here = range.start + begin..range.start + begin + length + 1;
-            let message = "text in braces is shown unchanged";
-            let warning = Diagnostic::warning(Code::LabelSyntax, message);
-            let meant = format!("${}", &self.text[here.clone()]);
+        for Other { range: inner, message, meant } in values_of_other_languages(words) {
+            let here = range.start + inner.start..range.start + inner.end;
             let at = self.at(&here);
+            let warning = Diagnostic::warning(Code::LabelSyntax, message);
             let warning = warning.at(at, format!("did you mean `{meant}`?"));
             // In an escaped string, the span is the whole string, which the fix must not replace.
-            let is_piece = at.len() == length + 1;
+            let is_piece = at.len() == inner.len();
             self.context.diagnostics.push(if is_piece {
                 warning.fix(at, meant).fix_is_said()
             } else {
@@ -151,6 +199,21 @@ impl Reader<'_, '_, '_> {
             });
         }
         (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
+    }
+
+    /// Reports all letters of the text that POV-Ray's font does not have.
+    fn report_missing(&mut self) {
+        let missing = std::mem::take(&mut self.missing);
+        let Some((_, first)) = missing.first() else { return };
+        let letters: Vec<String> =
+            missing.iter().map(|(letter, _)| letter.escape_debug().to_string()).collect();
+        let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
+        let (noun, label) = match letters.len() {
+            1 => ("letter", "it would be an empty box"),
+            _ => ("letters", "each would be an empty box"),
+        };
+        let message = format!("POV-Ray's font has no {noun} {}", quoted(&letters));
+        self.report(Diagnostic::error(Code::LabelLetter, message), first.clone(), label);
     }
 
     fn value(&mut self, range: Range<usize>) -> Option<Piece> {

@@ -51,9 +51,13 @@ pub(super) fn read(
 
 /// Warns that the `location` of a body has no effect because its motion gives the location.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
-    let warning = Diagnostic::warning(Code::NoEffect, format!("`location` of `{name}` has no effect"));
-    let why = "its motion says where it is";
-    context.diagnostics.extend(view.key_span("location").map(|span| warning.at(span, why)));
+    let Some(span) = view.key_span("location") else { return };
+    // The copies of a body have their locations from the key `repeat`.
+    let is_of_repeat = context.sources.raw(span) == "repeat";
+    let key = if is_of_repeat { "the place that `repeat` gives" } else { "`location`" };
+    let of = if is_of_repeat { "to" } else { "of" };
+    let warning = Diagnostic::warning(Code::NoEffect, format!("{key} {of} `{name}` has no effect"));
+    context.diagnostics.push(warning.at(span, "its motion says where it is"));
 }
 
 fn by_formula(

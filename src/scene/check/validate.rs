@@ -15,6 +15,10 @@ pub(super) fn validate(root: &Table, context: &mut Context<'_>) {
 /// Validates a table against its grammar `spec`. `at` is the source span that names the table, and `path` is the table's name in
 /// diagnostics.
 fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, context: &mut Context<'_>) {
+    if let Some(error) = corrections::gravity(table, spec, at, path, context) {
+        context.diagnostics.push(error);
+        return;
+    }
     // The known keys that the unknown keys were meant to be. Do not report these known keys as missing.
     let mut meant = Vec::new();
     let before = context.diagnostics.len();
@@ -36,6 +40,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
     for entry in table.entries.iter().filter(|entry| !said.contains(&entry.name.span)) {
         if let Some(key) = spec.key(&entry.name.text) {
             let before = context.diagnostics.len();
+            corrections::radians(&entry.node, key, spec, context);
             value(&entry.node, &key.kind, Some(entry), path, context);
             if path == "the scene" && context.has_errors(before) {
                 context.forces_are_wrong |= key.name == "force";
@@ -403,6 +408,14 @@ fn reference(
     let is_word = word.chars().nth(1).is_some() && !label.contains(['"', '\\']);
     let near = near.map(|near| format!("\"{near}\"")).filter(|_| is_word);
     let is_near = label.starts_with("did you mean");
+    let point = word.split_once('.').map(|(body, _)| body);
+    let point = point.filter(|body| is_body && context.names.bodies.contains_key(*body));
+    let label = match point {
+        Some(body) => format!(
+            "a point of `{body}` is `{{ body = \"{body}\", at = [0, 0.5, 0] }}`, in the body's own axes"
+        ),
+        None => label,
+    };
     let error = error.at(node.span, label);
     let error = match near {
         Some(near) => error.fix(node.span, near).fix_is_said(),

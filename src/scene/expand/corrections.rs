@@ -19,6 +19,14 @@ pub(super) struct OfBody {
 impl Expander<'_> {
     /// Returns true, and reports an error, if the text is a number with a unit, such as `5 cm`.
     pub(super) fn has_unit(&mut self, text: &str, span: Span) -> bool {
+        if let Some(number) = units::percentage(text) {
+            if self.reported.insert(span) {
+                let error = Diagnostic::error(Code::NumberWithUnit, "a number stands alone, without `%`");
+                self.diagnostics
+                    .push(error.at(span, "a percentage is a number from 0 to 1").fix(span, number));
+            }
+            return true;
+        }
         let Some((number, unit)) = units::quantity(text) else { return false };
         if !self.reported.insert(span) {
             return true;

@@ -55,6 +55,16 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
             None => error,
         };
     }
+    if let Some(name) = rest.strip_prefix('$') {
+        let name = name.trim_start_matches('{');
+        let length = name.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(name.len());
+        let end = rest.len() - name.len() + length;
+        let end = end + usize::from(rest.starts_with("${") && rest[end..].starts_with('}'));
+        if length > 0 {
+            let error = syntax(start..start + end, "`$` is no part of a formula");
+            return error.label(format!("write `{}`", &name[..length])).fix(&name[..length]);
+        }
+    }
     // A word in another alphabet is one mistake, not one mistake per letter.
     let first = rest.chars().next().map_or(0, char::len_utf8);
     let letters: usize = rest.chars().take_while(|c| c.is_alphanumeric()).map(char::len_utf8).sum();

@@ -237,7 +237,9 @@ fn unknown(name: &str, range: Range<usize>, scope: &Scope) -> ExpressionError {
     match name {
         "t" => error.label("this number is set once, before the time begins"),
         "i" => error.label("only copies have this index: write a `repeat`"),
-        "j" | "k" => error.label("only a body with a `repeat` of so many directions has this index"),
+        "j" | "k" if !scope.has_fields() => {
+            error.label("only a body with a `repeat` of so many directions has this index")
+        }
         "inf" | "nan" => error.label("the numbers of a scene are finite"),
         _ => {
             let label = scope.suggest(name);

@@ -115,12 +115,19 @@ impl Scope {
         self.names.get(name).copied().or_else(|| super::function::constant(name).map(Binding::Constant))
     }
 
+    /// Returns whether formulas know the quantities of a body.
+    pub(super) fn has_fields(&self) -> bool {
+        !self.fields.is_empty()
+    }
+
     pub(super) fn is_random(&self) -> bool {
         self.is_random
     }
 
     /// Returns the text of a suggestion for an unknown name: a similar name, or the list of all names.
     pub(super) fn suggest(&self, name: &str) -> String {
+        /// The most names that a message lists. The quantities of a body and some variables of the scene are fewer.
+        const MOST: usize = 24;
         if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
         }
@@ -130,7 +137,18 @@ impl Scope {
         let mut names: Vec<&str> = self.names.keys().map(String::as_str).chain(fields).collect();
         // Sorting makes the message independent of the order in the hash map.
         names.sort_unstable();
+        names.dedup();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
+        // The names that other programs and textbooks have for the same quantity.
+        const OTHERS: [(&str, &str); 5] =
+            [("m", "mass"), ("q", "charge"), ("v", "speed"), ("time", "t"), ("velocity", "speed")];
+        let other = OTHERS.iter().find(|(other, _)| *other == name).map(|(_, own)| *own);
+        if let Some(own) = other.filter(|own| self.has_fields() && names.contains(own)) {
+            return format!("did you mean `{own}`?");
+        }
+        if matches!(name, "theta" | "phi" | "angle") && names.contains(&"x") && names.contains(&"y") {
+            return "the angle of a place about the z axis is `atan2(y, x)`, in radians".to_owned();
+        }
         // A single letter differs from every other letter by one edit, so single letters are compared only by case.
         let near = if name.len() == 1 {
             all().find(|other| other.eq_ignore_ascii_case(name))
@@ -140,8 +158,8 @@ impl Scope {
         match near {
             Some(near) => format!("did you mean `{near}`?"),
             None if names.len() == 1 => format!("there is only `{}`", names[0]),
-            None if names.len() <= 12 => format!("there are `{}`", names.join("`, `")),
-            None => format!("none of the {} variables is called so", names.len()),
+            None if names.len() <= MOST => format!("there are `{}`", names.join("`, `")),
+            None => format!("none of the {} names that formulas know here", names.len()),
         }
     }
 }

@@ -10,7 +10,7 @@ pub(super) const RESTITUTION: KeySpec = KeySpec::new(
     "The ratio of the rebound speed to the approach speed: 0 for no bounce, 1 for no loss. Of the two \
      bodies' values, the larger counts",
 )
-.also(&["bounciness", "bounce", "elasticity", "cor", "coefficient_of_restitution"]);
+.also(&["bounciness", "bounce", "elasticity", "e", "cor", "coefficient_of_restitution"]);
 
 pub(super) const FRICTION: KeySpec = KeySpec::new(
     "friction",

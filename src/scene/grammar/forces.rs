@@ -111,7 +111,8 @@ static CONSTANT: TableSpec = TableSpec {
     keys: &[
         KeySpec::new("force", VECTOR, "The force at the center of each body, in world axes")
             .unit("N")
-            .default_numbers(&[0.0, 0.0, 0.0]),
+            .default_numbers(&[0.0, 0.0, 0.0])
+            .also(&["f", "F", "value", "vector"]),
         KeySpec::new("torque", VECTOR, "The torque on each body, in world axes")
             .unit("N·m")
             .default_numbers(&[0.0, 0.0, 0.0]),

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::toml::parse_value;
 use crate::diagnostic::Sources;
 use crate::scene::expression::Formula;
-use crate::scene::grammar::unit_of_key;
+use crate::scene::grammar::{Kind, Rule, SCENE, TableSpec, unit_of_key};
 use crate::scene::units;
 
 /// The correction of a part of a line: its byte range in the line, the new text, and the explanation for the user.
@@ -26,9 +26,15 @@ const BOOLEAN: &str = "there are `true` and `false`";
 const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
 const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
 const HEADER: &str = "a dot stands between the parts of a header";
+const NAME: &str = "a name is one word; a name with spaces stands in quotes";
+const COMMENT: &str = "`#` begins a comment";
+const PERCENT: &str = "a percentage is a number: 80 % is 0.8";
 
 /// Corrects a line that is not valid TOML. `None` if the intended text is unclear.
 pub(super) fn correct(line: &str) -> Option<Correction> {
+    if let Some(correction) = comment(line) {
+        return Some(correction);
+    }
     let (content, comment) = split_comment(line);
     let trimmed = content.trim();
     if trimmed.starts_with('[') && trimmed.ends_with(']') && !trimmed.contains('=') {
@@ -61,17 +67,57 @@ pub(super) fn correct(line: &str) -> Option<Correction> {
 
 fn header(content: &str, trimmed: &str) -> Option<Correction> {
     let inner = trimmed.trim_matches(['[', ']']);
-    let parts: Vec<&str> = inner.split(|c: char| c.is_whitespace() || matches!(c, ':' | '/' | '.')).collect();
-    let parts: Vec<&str> =
-        parts.into_iter().map(|part| part.trim_matches('"')).filter(|part| !part.is_empty()).collect();
+    let words = |text: &'_ str| {
+        let words = text.split(char::is_whitespace).map(|word| word.trim_matches('"').to_owned());
+        words.filter(|word| !word.is_empty()).collect::<Vec<String>>()
+    };
+    let mut parts: Vec<String> = Vec::new();
+    let mut has_spaces = false;
+    for part in inner.split([':', '/', '.']) {
+        let mut words = words(part);
+        // In `[body my ball]`, the first word is the key of a collection, and the others are the name.
+        if parts.is_empty() && words.len() > 1 {
+            parts.push(words.remove(0));
+        }
+        // In `[force.left spring]`, the last word is the kind.
+        let kinds = parts.first().and_then(|first| match SCENE.key(first)?.kind {
+            Kind::Named(spec) => Some(spec),
+            _ => None,
+        });
+        let is_last = parts.len() + words.len() > 2;
+        let kind = words.pop_if(|last| is_last && kinds.is_some_and(|kinds| is_kind(last, kinds)));
+        has_spaces |= words.len() > 1;
+        if !words.is_empty() {
+            parts.push(words.join("_"));
+        }
+        parts.extend(kind);
+    }
     let is_bare =
-        |part: &&str| part.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-'));
+        |part: &String| part.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'-'));
     let text = format!("[{}]", parts.join("."));
     let start = content.len() - content.trim_start().len();
     (!parts.is_empty() && parts.iter().all(is_bare) && text != trimmed).then(|| Correction {
         range: start..start + trimmed.len(),
         text,
-        why: HEADER,
+        why: if has_spaces { NAME } else { HEADER },
+    })
+}
+
+/// Returns whether a word is a kind of the tables of a collection, such as `spring` of forces.
+fn is_kind(word: &str, spec: &TableSpec) -> bool {
+    matches!(&spec.rule, Rule::ExactlyOne(kinds) if kinds.contains(&word))
+}
+
+/// Corrects a line that is a comment of another language, such as `// ball` or `/* ball */`.
+fn comment(line: &str) -> Option<Correction> {
+    let trimmed = line.trim();
+    let words = ["//", "/*", "--", "%", ";"].iter().find_map(|sign| trimmed.strip_prefix(sign))?;
+    let words = words.trim_start_matches(['/', '*', '-', '%', ';']).trim_end_matches("*/").trim();
+    let start = line.len() - line.trim_start().len();
+    Some(Correction {
+        range: start..start + trimmed.len(),
+        text: format!("# {words}").trim_end().to_owned(),
+        why: COMMENT,
     })
 }
 
@@ -92,6 +138,9 @@ fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
     if let Some(number) = number(cut) {
         return Some((number, POINT));
     }
+    if let Some(number) = units::percentage(cut) {
+        return Some((number, PERCENT));
+    }
     match cut.to_ascii_lowercase().as_str() {
         "true" | "yes" | "on" => return Some(("true".to_owned(), BOOLEAN)),
         "false" | "no" | "off" => return Some(("false".to_owned(), BOOLEAN)),
@@ -101,6 +150,11 @@ fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
         if let Some(inner) = cut.strip_prefix(open).and_then(|rest| rest.strip_suffix(close)) {
             let is_table = open == '{' && !top_level(inner, &['=', ':']).is_empty();
             let better = if is_table { table(inner) } else { list(inner, key) };
+            // If the brackets and commas are right, the fault is in an item.
+            let better = better.map(|(text, why)| match open {
+                '[' if why == LIST => (text, why_of_item(inner, key).unwrap_or(why)),
+                _ => (text, why),
+            });
             // The result must be valid TOML: a formula such as `(1 + 2) * (3 + 4)` begins and ends like a list.
             if better.as_ref().is_some_and(|(text, _)| is_toml(text)) {
                 return better;
@@ -183,6 +237,19 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<CorrectedValue> {
     Some((format!("[{}]", items.join(", ")), why))
 }
 
+/// Returns the explanation for the first item of a list that is not valid TOML. `None` if the items are not separated by commas.
+fn why_of_item(inner: &str, key: &str) -> Option<&'static str> {
+    let mut ends = top_level(inner, &[',']);
+    ends.push(inner.len());
+    let starts = std::iter::once(0).chain(ends.iter().map(|end| end + 1));
+    let mut items = starts.zip(&ends).map(|(start, end)| inner[start..*end].trim());
+    let wrong = items.find(|item| parse_value(item, no_source()).is_err())?;
+    if wrong.is_empty() || wrong.contains(char::is_whitespace) {
+        return None;
+    }
+    value(wrong, key).map(|(_, why)| why)
+}
+
 /// Returns the number of items of a list in square brackets. 0 for any other text.
 pub(in crate::scene) fn items(list: &str) -> usize {
     list.strip_prefix('[')
@@ -239,6 +306,9 @@ fn split_comment(line: &str) -> (&str, Option<&str>) {
                 return (&line[..at], Some(line[at + 1..].trim()).filter(|words| !words.is_empty()));
             }
             (None, '/') if line[at..].starts_with("//") => return (&line[..at], Some(line[at + 2..].trim())),
+            (None, '/') if line[at..].starts_with("/*") => {
+                return (&line[..at], Some(line[at + 2..].trim_end().trim_end_matches("*/").trim()));
+            }
             _ => {}
         }
     }
@@ -284,6 +354,17 @@ mod tests {
             ("shape.sphere = { radius: 1 }", "shape.sphere = { radius = 1 }"),
             ("[body ball]", "[body.ball]"),
             ("[body: ball]", "[body.ball]"),
+            ("[body.my ball]", "[body.my_ball]"),
+            ("[body my ball]", "[body.my_ball]"),
+            ("[force.left spring]", "[force.left.spring]"),
+            ("[force.left hand spring]", "[force.left_hand.spring]"),
+            ("[joint door hinge]", "[joint.door.hinge]"),
+            ("// a ball", "# a ball"),
+            ("  /* a ball */", "  # a ball"),
+            ("; a ball", "# a ball"),
+            ("mass = 2 /* kg */", "mass = 2  # kg"),
+            ("restitution = 80%", "restitution = 0.8"),
+            ("velocity = [v0, 0, 0]", "velocity = [\"v0\", 0, 0]"),
         ] {
             let corrected = correct(line).map(|corrected| {
                 let mut text = line.to_owned();

@@ -4,13 +4,13 @@ mod brackets;
 mod copied;
 pub(in crate::scene) mod corrections;
 pub(super) mod file;
+mod foreign;
 mod load;
 mod overrides;
 mod shared;
 mod syntax;
 mod toml;
 mod tree;
-mod yaml;
 
 pub use copied::CopiedTable;
 pub use load::{MAX_BYTES, load};

@@ -5,15 +5,15 @@ use std::num::IntErrorKind;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
-use super::{Entry, Name, Node, Table, Value, brackets, corrections, syntax, yaml};
+use super::{Entry, Name, Node, Table, Value, brackets, corrections, foreign, syntax};
 use crate::diagnostic::{Code, Diagnostic, SourceId, Span};
 
 /// Parses a text. Reports syntax errors as diagnostics, and returns a tree of the readable values.
 pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) -> Node {
     let (document, mut errors) = DeTable::parse_recoverable(text);
     errors.retain(|error| error.message() != syntax::DEEP_KEY);
-    if let (Some(error), Some(toml)) = (errors.first(), yaml::to_toml(text)) {
-        diagnostics.push(not_toml(error, toml, text, source));
+    if let (Some(error), Some(foreign)) = (errors.first(), foreign::recognize(text)) {
+        diagnostics.push(not_toml(error, foreign, text, source));
         return Node { span: Span::new(source, 0..text.len()), value: Value::Table(Table::default()) };
     }
     errors.sort_by_key(|error| error.span().map(|range| range.start));
@@ -51,14 +51,18 @@ pub fn parse(text: &str, source: SourceId, diagnostics: &mut Vec<Diagnostic>) ->
     root
 }
 
-/// Creates the error for a text in YAML. Its fix replaces the text by the equivalent TOML.
-fn not_toml(error: &Error, toml: String, text: &str, source: SourceId) -> Diagnostic {
+/// Creates the error for a text in YAML or JSON. Its fix replaces the text by the equivalent TOML.
+fn not_toml(error: &Error, foreign: foreign::Foreign, text: &str, source: SourceId) -> Diagnostic {
     let line = line_at(text, error.span().map_or(0, |range| range.start));
     let (start, end) = (line.start, line.end);
-    let error = Diagnostic::error(Code::TomlSyntax, "this is YAML; a scene is TOML");
+    let message = format!("this is {}; a scene is TOML", foreign.format);
+    let error = Diagnostic::error(Code::TomlSyntax, message);
     let error =
         error.at(Span::new(source, start..end), "TOML writes `key = value`, below headers in brackets");
-    error.fix(Span::new(source, 0..text.len()), toml)
+    match foreign.toml {
+        Some(toml) => error.fix(Span::new(source, 0..text.len()), toml),
+        None => error,
+    }
 }
 
 /// Adds a fix with the corrected line, if the intended text is clear. `at` is the byte offset of the error.

@@ -40,11 +40,34 @@ impl Corrected {
         };
         let mut others = frame.bodies.iter().filter(is_other);
         let first = others.next()?;
+        let body = &scene.bodies[first.id];
+        let size = body.shape.bounding_radius().unwrap_or(1.0);
+        let speed = first.velocity.length() + size * first.angular_velocity.length();
         Some(Corrected {
-            body: scene.bodies[first.id].name.to_string(),
-            velocity: first.velocity,
-            angular_velocity: first.angular_velocity,
+            body: body.name.to_string(),
+            velocity: without_rounding(first.velocity, speed),
+            angular_velocity: without_rounding(first.angular_velocity, speed / size),
             others: others.count(),
         })
+    }
+}
+
+/// Sets the components of a vector to 0 that are rounding errors, compared with a speed of the same kind.
+fn without_rounding(vector: DVec3, speed: f64) -> DVec3 {
+    /// The largest rounding error, relative to the speed.
+    const ROUNDING: f64 = 1e-12;
+    DVec3::from_array(vector.to_array().map(|part| if part.abs() <= ROUNDING * speed { 0.0 } else { part }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_errors_are_left_out_of_the_advice() {
+        let vector = DVec3::new(1.18e-31, 2.0, -4e-16);
+        assert_eq!(without_rounding(vector, 2.0), DVec3::new(0.0, 2.0, 0.0));
+        let small = DVec3::new(1e-9, 2e-9, 0.0);
+        assert_eq!(without_rounding(small, 2e-9), small, "all is small");
     }
 }

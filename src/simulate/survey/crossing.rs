@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::Frame;
 use crate::dynamics::{BodySnapshot, RigidBody, Shape};
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, ForceKind, Scene};
 
 /// The passage of bodies through a plane, in a scene without contacts.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,80 @@ pub(super) fn planes(scene: &Scene) -> Vec<Watched> {
     let ground = height.map(|height| watched(None, None, DVec3::Y * height, DVec3::Y));
     scene.bodies.iter().enumerate().filter_map(plane).chain(ground).collect()
 }
+
+/// The bodies that may fall without end, since nothing stops them: the scene has gravity and a ground without a given height, but no
+/// contacts.
+pub(super) struct Falls {
+    bodies: Vec<Faller>,
+    found: Option<Crossing>,
+}
+
+/// A body that began above height 0.
+struct Faller {
+    id: usize,
+    /// The largest height of its lowest point, m.
+    highest: f64,
+    /// The time of the first frame in which its lowest point is below 0, s. `None` while it is above.
+    below_since: Option<f64>,
+}
+
+impl Falls {
+    /// Lists the bodies that no joint and no spring holds. Empty if the scene has contacts, no ground, or a ground with a height.
+    pub(super) fn new(scene: &Scene) -> Falls {
+        let gravity = scene.simulation.gravity;
+        let has_ground = scene.environment.ground.as_ref().is_some_and(|ground| ground.height.is_none());
+        let is_vertical = gravity.y < 0.0 && gravity.x == 0.0 && gravity.z == 0.0;
+        let is_plain = |kind: &ForceKind| matches!(kind, ForceKind::Constant(_) | ForceKind::Drag(_));
+        // Joints and other forces may hold bodies.
+        let is_held = !scene.joints.is_empty() || !scene.forces.iter().all(|force| is_plain(&force.kind));
+        let is_watched = has_ground && is_vertical && !is_held && scene.simulation.contacts.is_none();
+        let bodies = if is_watched {
+            free(scene).map(|id| Faller { id, highest: f64::NEG_INFINITY, below_since: None }).collect()
+        } else {
+            Vec::new()
+        };
+        Falls { bodies, found: None }
+    }
+
+    /// Updates the heights with a frame. A body falls without end if it falls further below height 0 than it has been above.
+    pub(super) fn see(&mut self, scene: &Scene, frame: &Frame) {
+        let Falls { bodies, found } = self;
+        bodies.retain_mut(|faller| {
+            let Some(body) = frame.body(faller.id) else { return true };
+            let shape = &scene.bodies[faller.id].shape;
+            let Some(reach) = shape.support(body.orientation, -DVec3::Y) else { return false };
+            let height = body.location.y - reach;
+            if faller.highest == f64::NEG_INFINITY
+                && height < -ROUNDING * (body.location.y.abs() + reach.abs())
+            {
+                // The body begins below height 0, which is no ground for it.
+                return false;
+            }
+            faller.highest = faller.highest.max(height);
+            if height < 0.0 && faller.below_since.is_none() {
+                faller.below_since = Some(frame.time);
+            }
+            let is_far = height < -faller.highest.max(2.0 * reach.abs()) && body.velocity.y < 0.0;
+            let Some(time) = faller.below_since.filter(|_| is_far) else { return true };
+            match found {
+                Some(found) => found.others += 1,
+                None => {
+                    let body = scene.bodies[faller.id].name.to_string();
+                    *found = Some(Crossing { plane: None, body, time, others: 0 });
+                }
+            }
+            false
+        });
+    }
+
+    /// Returns the first body that falls without end, with the number of others.
+    pub(super) fn finish(self) -> Option<Crossing> {
+        self.found
+    }
+}
+
+/// The largest rounding error of a height, relative to the coordinates of a body.
+const ROUNDING: f64 = 1e-9;
 
 impl Watched {
     /// Updates the plane with a frame. `free` are the bodies that forces move, and `come` those of them that appear in this frame. Sets

@@ -8,7 +8,7 @@ use super::key_of;
 use super::text::{removal, whole};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::scene::grammar::{KeySpec, Kind, Rule, TableSpec};
-use crate::scene::source::{Entry, Table};
+use crate::scene::source::{Entry, Table, Value};
 
 /// The kind that the user probably meant for a table, such as the shape `sphere` for a body.
 pub(in crate::scene::check) struct MeantKind {
@@ -103,7 +103,16 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         };
         words.iter().map(worth).sum()
     };
-    let candidates = kinds.keys.iter().filter(|key| names.contains(&key.name));
+    // Only a force by formulas has formulas of the place in a list.
+    let has_text = |entry: &Entry| match &entry.node.value {
+        Value::Array(items) => items.iter().any(|item| item.as_str().is_some()),
+        _ => false,
+    };
+    let has_formulas = table.entries.iter().filter(is_free).any(has_text);
+    let candidates = kinds
+        .keys
+        .iter()
+        .filter(|key| names.contains(&key.name) && !(has_formulas && key.name == "constant"));
     let (_, key, spec) = candidates
         .filter_map(|key| Some((key, key.kind.table()?)))
         .map(|(key, inner)| ((is_there(key.name), fits(inner), is_named(key)), key, inner))
@@ -164,5 +173,10 @@ pub(in crate::scene::check) fn correct_word(
         (context.diagnostics[before..].iter_mut().find(is_of_it), example)
     {
         *diagnostic = Diagnostic { fix: None, ..diagnostic.clone() }.fix(span, text);
+        let way = meant.way.join(".");
+        if let (true, Some(label)) = (meant.has_keys, diagnostic.labels.first_mut()) {
+            label.text = format!("leave this line out: the keys below `{way}` name the kind");
+            diagnostic.help = None;
+        }
     }
 }

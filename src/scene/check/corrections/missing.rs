@@ -14,6 +14,15 @@ pub(in crate::scene::check) fn correct_missing(
     at: Option<Span>,
     context: &Context<'_>,
 ) -> Diagnostic {
+    // A body that only `--set` names is probably misspelled.
+    if let Some(at) = at.filter(|at| !is_file(at.source(), &context.sources)) {
+        let word = super::text::raw(at, context);
+        let others = context.names.bodies.keys().map(AsRef::as_ref).filter(|name| *name != word);
+        return match super::super::suggest::nearest(word, others) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None => error,
+        };
+    }
     let text = match &key.kind {
         Kind::Table(spec) => match &spec.rule {
             Rule::ExactlyOne(names) => match spec.key(names[0]) {

@@ -1,6 +1,7 @@
 //! Suggests corrections for wrong keys and values, as text that can replace the mistake.
 
 mod ends;
+mod gravity;
 mod joint;
 mod key_group;
 mod kind;
@@ -9,6 +10,7 @@ mod missing;
 mod nameless;
 mod not_built;
 mod owner;
+mod radians;
 mod table;
 mod text;
 mod unknown;
@@ -17,12 +19,14 @@ mod vector;
 mod way;
 mod word;
 
+pub(super) use self::gravity::gravity;
 pub(super) use self::kind::{correct_word, meant_kind};
 pub(super) use self::missing::{correct_kind, correct_missing, insertion};
 pub(super) use self::nameless::{correct_array, correct_unnamed, nameless};
 
 pub(super) use self::key_group::key_groups;
 pub(super) use self::owner::Owner;
+pub(super) use self::radians::radians;
 pub(super) use self::text::{before, is_file};
 pub(super) use self::unknown::{known_keys, unknown};
 pub(super) use self::value::{color_for_material, correct_value};

@@ -17,6 +17,9 @@ pub(in crate::scene::check) fn nameless(
     context: &Context<'_>,
 ) -> Option<(Diagnostic, &'static str)> {
     let word = &*entry.name.text;
+    if let Some(error) = of_known_bodies(entry, context) {
+        return Some((error, "body"));
+    }
     let fits =
         |way: Vec<&'static str>| key_at(&way, &SCENE).is_some_and(|key| key.kind.takes(&entry.node.value));
     if suggest::key(word, &SCENE).is_some()
@@ -36,6 +39,25 @@ pub(in crate::scene::check) fn nameless(
     };
     let error = edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text));
     Some((if is_said { error.fix_is_said() } else { error }, kind))
+}
+
+/// Returns the error for tables of bodies that stand below the key instead of the body: `[trail.ball]` instead of `[body.ball.trail]`.
+fn of_known_bodies(entry: &Entry, context: &Context<'_>) -> Option<Diagnostic> {
+    let word = &*entry.name.text;
+    let table = entry.node.as_table().filter(|table| !table.entries.is_empty())?;
+    let key =
+        key_of(word, collection("body")?).or_else(|| key_of(&format!("{word}s"), collection("body")?))?;
+    let is_body = |entry: &Entry| {
+        context.names.bodies.contains_key(&entry.name.text) && key.kind.takes(&entry.node.value)
+    };
+    if !table.entries.iter().all(is_body) {
+        return None;
+    }
+    let name = as_key(&table.entries[0].name.text);
+    let error = Diagnostic::error(Code::UnknownKey, format!("unknown key `{word}` in the scene"))
+        .at(entry.name.span, format!("did you mean `body.{name}.{}`?", key.name));
+    let edits = renamed(entry, table, "body", Some(key.name), context);
+    Some(edits.into_iter().fold(error, |error, (span, text)| error.fix(span, text)))
 }
 
 pub(super) type Edits = Vec<(Span, String)>;

@@ -29,6 +29,20 @@ pub(in crate::scene::check) fn is_word_to_come(key: &str, word: &str) -> bool {
     key == "contacts" && word == "time-stepping"
 }
 
+/// The names of a playback speed in other programs.
+const SLOW_MOTION: &[&str] = &[
+    "slow_motion",
+    "slowmo",
+    "slow_mo",
+    "slowmotion",
+    "slowdown",
+    "playback_speed",
+    "time_scale",
+    "timescale",
+];
+const SLOWER: &str = "a film is slow if it shows fewer frames per second than the scene has: with `frame_rate = 100` in \
+                      [simulation] and `video_rate = 25` in [output], it runs at a quarter of the speed";
+
 static NOT_BUILT: &[NotBuilt] = &[
     NotBuilt {
         of: "a body",
@@ -174,6 +188,9 @@ static NOT_BUILT: &[NotBuilt] = &[
         comes_with: "",
         is_removable: true,
     },
+    NotBuilt { of: "a scene", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
+    NotBuilt { of: "the simulation", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
+    NotBuilt { of: "the output", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
     NotBuilt {
         of: "the output",
         words: &["quality", "antialias", "antialiasing"],

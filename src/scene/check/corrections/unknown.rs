@@ -52,6 +52,13 @@ pub(in crate::scene::check) fn unknown(
         return (error, None);
     };
     let error = error.at(entry.name.span, format!("did you mean `{}`?", way.join(".")));
+    let error = match way.as_slice() {
+        ["collides"] if spec.noun == "a body" => {
+            error.help("bodies collide anyway if [simulation] has `contacts = \"event-driven\"`")
+        }
+        ["video_rate"] => error.help("the scene itself has `simulation.frame_rate` frames per second"),
+        _ => error,
+    };
     let error = corrected(error, entry, &way, table, context);
     let error = rescaled(error, entry);
     (beside(error, meant, &way, table, spec), Some(way[0]))

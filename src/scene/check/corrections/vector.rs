@@ -17,6 +17,9 @@ pub(super) fn list(
 ) -> Option<String> {
     let raw = raw(node.span, context);
     match &node.value {
+        Value::Boolean(is_on) if key == "gravity" => {
+            Some(if *is_on { "[0, -9.81, 0]" } else { "[0, 0, 0]" }.to_owned())
+        }
         Value::Integer(_) | Value::Float(_) if count == 3 => Some(along_an_axis(raw, node.as_number()?, key)),
         Value::String(text) => {
             let inner = text.trim().trim_matches(['(', ')', '[', ']', '<', '>', '{', '}']);
