@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::{Anchor, BodyId, BodySnapshot};
 use super::member::{End, Member};
-use super::{Equations, Members};
+use super::{Equations, Members, Scale};
 
 /// The free coordinate of a joint: the angle of a hinge, or the displacement of a slider. It is measured at the second end, relative to
 /// the first.
@@ -26,8 +26,8 @@ pub(super) struct Free {
     pub(super) value: f64,
     /// The part of the coordinate's second time derivative that does not depend on the accelerations of the bodies.
     bias: f64,
-    /// The magnitude of the terms whose difference is the coordinate. It bounds the rounding error.
-    pub(super) scale: f64,
+    /// The scale of the coordinate.
+    pub(super) scale: Scale,
     /// For each end: its body, and the derivatives of the coordinate with respect to the body's position and rotation.
     parts: [(Option<usize>, DVec3, DVec3); 2],
 }
@@ -75,7 +75,7 @@ impl Coordinate {
                 Free {
                     value: libm::atan2(axis.dot(u.cross(w)), u.dot(w)),
                     bias: a.angular_velocity().cross(axis).dot(relative),
-                    scale: 1.0,
+                    scale: Scale::ANGLE,
                     parts,
                 }
             }
@@ -90,7 +90,7 @@ impl Coordinate {
                     bias: axis.dot(to_bend - from_bend)
                         + 2.0 * axis_rate.dot(to_rate - from_rate)
                         + omega.cross(axis_rate).dot(apart),
-                    scale: from.abs().max(to.abs()).max_element(),
+                    scale: super::parts::scale([a, b], from, to).at_least(apart.abs().max_element()),
                     parts: [(a.body, -axis, axis.cross(apart + a.arm)), (b.body, axis, b.arm.cross(axis))],
                 }
             }
@@ -138,10 +138,13 @@ pub(super) struct CoordinateRow<'a> {
 impl CoordinateRow<'_> {
     /// Writes the equation and its Jacobian into the rows of its constraint.
     pub(super) fn write(self, equations: &mut Equations<'_>) {
-        let (mut bias, mut scale) = (self.curvature, f64::MIN_POSITIVE);
+        let (mut bias, mut scale) = (self.curvature, Scale::default());
         for (factor, free) in self.terms {
             bias += factor * free.bias;
-            scale = scale.max(factor.abs() * free.scale);
+            let Scale { size, terms, is_length } = free.scale;
+            let (size, terms) = (factor.abs() * size, factor.abs() * terms);
+            // The last coordinate has no factor but a sign, so the equation has its unit.
+            scale = Scale { is_length, ..scale.max(Scale { size, terms, is_length }) };
         }
         equations.row(self.row, self.violation, bias, scale);
         equations.moving(self.row, self.rate);

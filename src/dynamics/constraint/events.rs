@@ -7,9 +7,12 @@ use super::jacobian;
 use super::modes::Mode;
 use super::solver::Solver;
 
-/// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its scale. A constraint counts as moving if its rate c'
+/// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its size. A constraint counts as moving if its rate c'
 /// exceeds this fraction of the largest rate of all constraints.
 pub(super) const PASSED: f64 = 1e-12;
+
+/// A stop that opens and does not approach may be passed by this many tolerances.
+const LEAVES: f64 = 10.0;
 
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
 /// [`Solver::decide`], so every event changes at least one mode.
@@ -57,11 +60,18 @@ impl Solver {
             if of > 0.0 { value / of / tolerated + 1.0 } else { 1.0 }
         };
         let margin = |i: usize| match (self.modes[i], self.laws[i]) {
-            (Mode::Open, Law::Inequality) => part(self.rows[i].violation, self.rows[i].scale, PASSED),
-            (Mode::Pushed(sign), _) => part(-sign * rates[i], size, PASSED),
-            (Mode::Held, Law::Inequality) => part(self.unknown[i] * self.weight(i), force, PULLED),
+            (Mode::Open, Law::Inequality) => {
+                let margin = part(self.rows[i].violation, self.rows[i].tolerance(PASSED), 1.0);
+                // After its event, a stop that opens is still passed by the tolerance.
+                let leaves = rates[i] >= -PASSED * size * self.unit(i);
+                if leaves && margin > -LEAVES { margin.max(0.0) } else { margin }
+            }
+            (Mode::Pushed(sign), _) => part(-sign * rates[i], size * self.unit(i), PASSED),
+            (Mode::Held, Law::Inequality) => {
+                part(self.unknown[i] * self.weight(i), force * self.unit(i), PULLED)
+            }
             (Mode::Held, Law::SpeedMotor { limit }) => {
-                part((limit - self.unknown[i].abs()) * self.weight(i), force, PULLED)
+                part((limit - self.unknown[i].abs()) * self.weight(i), force * self.unit(i), PULLED)
             }
             _ => f64::INFINITY,
         };
@@ -69,9 +79,9 @@ impl Solver {
             Mode::Held if grip.is_restless => f64::INFINITY,
             Mode::Held => {
                 let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();
-                part(left * self.weight(grip.row), force, PULLED)
+                part(left * self.weight(grip.row), force * self.unit(grip.row), PULLED)
             }
-            Mode::Slid => part(grip.of(&rates).dot(grip.heading), size, PASSED),
+            Mode::Slid => part(grip.of(&rates).dot(grip.heading), size * self.unit(grip.row), PASSED),
             Mode::Open | Mode::Pushed(_) => f64::INFINITY,
         };
         let grips = self.grips.iter().map(|grip| (of_grip(grip), grip.row));
@@ -87,7 +97,7 @@ impl Solver {
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
     }
 
-    /// Returns the typical change of a constraint row's rate c' by forces within `time` seconds.
+    /// Returns the typical change of a constraint row's rate c' by forces within `time` seconds, m/s.
     pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
         let change = self.largest_acceleration * time;
         if change.is_finite() { change } else { 0.0 }

@@ -128,8 +128,10 @@ impl Solver {
         if let Some(structure) = &self.structure {
             jacobian::products(structure, &self.jacobian, &self.members, &mut rates);
         }
-        let slow = SLOW * self.largest_rate;
+        let length = self.structure.as_ref().map_or(1.0, |structure| structure.length);
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            let unit = if self.rows[grip.row].scale.is_length { 1.0 } else { length.recip() };
+            let slow = SLOW * self.largest_rate * unit;
             let slip = grip.of(&rates);
             let speed = slip.length();
             // A contact whose slip begins or ends keeps the friction direction found before, even after the slip has ended. The forces then
@@ -145,8 +147,10 @@ impl Solver {
     /// Stores the slip direction of each sliding contact at the start of a step.
     pub(super) fn head(&mut self) {
         self.see_slips();
-        let slow = SLOW * self.largest_rate;
+        let length = self.structure.as_ref().map_or(1.0, |structure| structure.length);
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
+            let unit = if self.rows[grip.row].scale.is_length { 1.0 } else { length.recip() };
+            let slow = SLOW * self.largest_rate * unit;
             grip.is_beginning = false;
             let slip = grip.of(&self.slips);
             if slip.length() > slow && !grip.keeps_heading(slip, self.span) {
@@ -168,7 +172,7 @@ impl Solver {
     /// zero, and sliding if not.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
         let FrictionPair { row, normal, is_restless, is_caught, .. } = self.grips[grip];
-        let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate;
+        let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate * self.unit(row);
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
             Mode::Open
@@ -187,7 +191,7 @@ impl Solver {
     /// otherwise sliding would begin in the wrong direction.
     pub(super) fn still_moves(&self, rates: &[f64]) -> bool {
         let moves = |row: usize, speed: f64, part: f64| {
-            self.modes[row] == Mode::Held && speed > part * self.largest_rate
+            self.modes[row] == Mode::Held && speed > part * self.largest_rate * self.unit(row)
         };
         let grips = &self.grips;
         grips.iter().any(|grip| moves(grip.row, grip.of(rates).length(), PASSED))
@@ -281,6 +285,7 @@ impl Solver {
                 continue;
             }
             let weight = self.grips[i].stiffness;
+            let slight = slight * self.unit(row);
             let most = coefficient * self.unknown[normal].max(0.0);
             let grip = &mut self.grips[i];
             let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;

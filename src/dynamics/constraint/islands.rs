@@ -23,6 +23,8 @@ struct Line {
     /// The part of the contact row's rate c' that the Gauss–Seidel sweep cannot change: ∂c/∂t and the velocities of fixed bodies.
     bias: f64,
     goal: f64,
+    /// The rate that counts as much as 1 m/s.
+    unit: f64,
     /// The smallest impulse that the contact row may have.
     least: f64,
 }
@@ -85,7 +87,7 @@ impl Island {
             if next != before {
                 self.impulses[normal] = next;
                 line.push(next - before, &self.terms, velocities);
-                change = change.max((next - before).abs() * line.weight);
+                change = change.max((next - before).abs() * line.weight / line.unit);
             }
         }
         for pair in &self.pairs {
@@ -103,7 +105,7 @@ impl Island {
             (self.impulses[pair.first], self.impulses[pair.first + 1]) = (next.x, next.y);
             u.push(next.x - before.x, &self.terms, velocities);
             w.push(next.y - before.y, &self.terms, velocities);
-            change = change.max((next - before).length() * pair.weight);
+            change = change.max((next - before).length() * pair.weight / u.unit);
         }
         change
     }
@@ -233,6 +235,7 @@ impl Solver {
         }
         debug_assert!(self.laws[row] == Law::Inequality || matches!(self.laws[row], Law::Friction { .. }));
         let (weight, least) = (self.columns.weights()[row], self.least(row));
-        Line { row, terms: first..terms.len(), weight, bias, goal, least }
+        let unit = self.unit(row);
+        Line { row, terms: first..terms.len(), weight, bias, goal, unit, least }
     }
 }

@@ -39,8 +39,8 @@ pub(super) fn for_each_direction(
     }
 }
 
-/// Computes the rate c' = J v + ∂c/∂t of each constraint row from the velocities of the members. Returns the magnitude of the terms: the
-/// largest sum of absolute values in a row.
+/// Computes the rate c' = J v + ∂c/∂t of each constraint row from the velocities of the members. Returns the magnitude of the terms, m/s:
+/// the largest sum of absolute values in a row. Rates of angles count times the size of the mechanism.
 pub(super) fn rates(
     structure: &Structure,
     jacobian: &[Direction],
@@ -52,7 +52,8 @@ pub(super) fn rates(
     for ((i, out), row) in out.iter_mut().enumerate().zip(rows) {
         let (sum, size) = product(structure, jacobian, members, i);
         *out = sum + row.rate;
-        for size in [size, row.rate.abs()] {
+        let unit = if row.scale.is_length { 1.0 } else { structure.length };
+        for size in [unit * size, unit * row.rate.abs()] {
             if size > largest {
                 largest = size;
             }

@@ -23,6 +23,8 @@ pub struct Member {
     pub(super) inverse_mass: f64,
     /// The inverse inertia tensor R I⁻¹ Rᵀ of the body, world axes, 1/(kg m²); 0 for a body that torques cannot rotate.
     pub(super) inverse_inertia: DMat3,
+    /// The size of the body, m: its largest radius of gyration. 0 for a body that forces cannot move.
+    pub(super) size: f64,
 }
 
 /// The constant properties of a constrained body: its mass and inertia.
@@ -33,11 +35,18 @@ pub(super) struct BodyConstants {
     /// The diagonal of the inverse inertia tensor I⁻¹ in the principal axes, 1/(kg m²).
     inverse_inertia: DVec3,
     is_isotropic: bool,
+    /// The size of the body, m: its largest radius of gyration. 0 for a body that forces cannot move.
+    pub(super) size: f64,
     /// The rotation from the body axes to the principal axes. `None` if these axes are the same.
     turned: Option<DQuat>,
 }
 
 impl BodyConstants {
+    /// Returns true if forces can move the body.
+    pub(super) fn can_move(&self) -> bool {
+        self.inverse_mass != 0.0
+    }
+
     pub(super) fn of(body: usize, model: &Model) -> BodyConstants {
         let (axes, inverse_inertia) = (model.principal_axes(body), model.inverse_inertia()[body]);
         BodyConstants {
@@ -45,18 +54,24 @@ impl BodyConstants {
             inverse_mass: model.inverse_mass()[body],
             inverse_inertia,
             is_isotropic: is_isotropic(inverse_inertia),
+            size: (model.inertia()[body].max_element() * model.inverse_mass()[body]).sqrt(),
             turned: (axes != DQuat::IDENTITY).then(|| axes.conjugate()),
         }
     }
 }
 
 impl Member {
+    /// Returns true if forces can move the body.
+    pub(in crate::dynamics) fn can_move(&self) -> bool {
+        self.inverse_mass != 0.0
+    }
+
     /// Creates a member with the mass and inertia of a body. Its position and velocity are not set yet.
     pub(super) fn new(nature: &BodyConstants) -> Member {
         let inverse_mass = nature.inverse_mass;
         let inverse_inertia = if inverse_mass == 0.0 { DVec3::ZERO } else { nature.inverse_inertia };
         let inverse_inertia = DMat3::from_diagonal(inverse_inertia);
-        Member { inverse_mass, inverse_inertia, ..Member::default() }
+        Member { inverse_mass, inverse_inertia, size: nature.size, ..Member::default() }
     }
 
     /// Returns body `i` with its position and velocity in a state.
@@ -133,6 +148,7 @@ static WORLD: Member = Member {
     angular_momentum: DVec3::ZERO,
     inverse_mass: 0.0,
     inverse_inertia: DMat3::ZERO,
+    size: 0.0,
 };
 
 impl<'a> End<'a> {
@@ -162,6 +178,12 @@ impl<'a> End<'a> {
     /// Returns the position of the end, world axes, m.
     pub(super) fn location(&self) -> DVec3 {
         self.member.location + self.arm
+    }
+
+    /// Returns the size of the end, m: its lever and the size of its body. 0 if forces cannot move the body.
+    #[inline(always)]
+    pub(super) fn size(&self) -> f64 {
+        if self.member.inverse_mass == 0.0 { 0.0 } else { self.arm.abs().max_element().max(self.member.size) }
     }
 
     /// Returns the rotation from the axes of the end's body to the world axes.

@@ -29,6 +29,7 @@ mod rebound;
 mod restless;
 mod rod;
 mod rope;
+mod scale;
 mod separate;
 mod servo;
 mod settle;
@@ -51,6 +52,7 @@ pub use pulley::Pulley;
 pub use reaction::Reaction;
 pub use rod::Rod;
 pub use rope::Rope;
+pub use scale::Scale;
 pub use servo::Servo;
 pub use slider::Slider;
 pub(super) use solver::Solver;
@@ -119,8 +121,8 @@ pub struct Row {
     pub rate: f64,
     /// The part of c'' that does not depend on accelerations: J̇ v + ∂²c/∂t².
     pub bias: f64,
-    /// The magnitude of the terms whose difference is c. The rounding error of c is about 1e-16 of this.
-    pub scale: f64,
+    /// The magnitudes to which the tolerances of the equation are relative.
+    pub scale: Scale,
 }
 
 /// The entries of the Jacobian in one row for one body: c' = linear·v + angular·ω + …
@@ -212,7 +214,7 @@ pub struct Equations<'a> {
 impl Equations<'_> {
     /// Writes an equation of the constraint, with a time-independent c, and sets its Jacobian to zero. `row` counts from the constraint's
     /// first row.
-    pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: f64) {
+    pub(in crate::dynamics) fn row(&mut self, row: usize, violation: f64, bias: f64, scale: Scale) {
         self.rows[self.row + row] = Row { violation, rate: 0.0, bias, scale };
         // A loop by index: the compiler would unroll an iterator's loop for many bodies, but most constraint rows have one or two.
         let mut i = self.direction + row * self.bodies;

@@ -25,7 +25,7 @@ pub(super) enum Mode {
     Slid,
 }
 
-/// A stop (c ≥ 0) counts as touched if c is at most this fraction of its scale.
+/// A stop (c ≥ 0) counts as touched if c is at most this fraction of its size.
 pub(super) const TOUCHED: f64 = 1e-9;
 
 /// The largest number of sliding contacts that one decision of modes can make stick at once.
@@ -93,7 +93,7 @@ impl Solver {
             .laws
             .iter()
             .zip(&self.rows)
-            .map(|(law, row)| *law == Law::Inequality && row.violation <= TOUCHED * row.scale)
+            .map(|(law, row)| *law == Law::Inequality && row.violation <= row.tolerance(TOUCHED))
             .collect();
         let size = self.hit(model, state, &touched);
         // The impulses have changed the velocities.
@@ -110,8 +110,9 @@ impl Solver {
         for i in 0..self.rows.len() {
             // A body that passes a stop (inequality c ≥ 0) by the tolerated depth c reaches a rate of √(2 c'' c). This rate counts as
             // zero. Otherwise two active stops would be hit in turn endlessly.
-            let fallen = 8.0 * PASSED * self.rows[i].scale * self.largest_acceleration;
-            let is_still = rates[i].abs() <= (TOUCHED * size).max(fallen.sqrt()).max(stills[i]);
+            let unit = self.unit(i);
+            let fallen = 8.0 * self.rows[i].tolerance(PASSED) * self.largest_acceleration * unit;
+            let is_still = rates[i].abs() <= (TOUCHED * size * unit).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
                 Law::Equality => (Mode::Held, false),
                 Law::Inequality if touched[i] && is_still => (Mode::Held, true),
@@ -187,7 +188,8 @@ impl Solver {
         self.largest_rate = self.largest_rate.max(size);
         let size = self.largest_rate;
         let slight = SLIGHT * size;
-        let is_hit = |i: usize, rate: f64| touched[i] && rate < -slight;
+        let units: Vec<f64> = (0..n).map(|i| self.unit(i)).collect();
+        let is_hit = |i: usize, rate: f64| touched[i] && rate < -slight * units[i];
         if !(0..n).any(|i| is_hit(i, before[i])) {
             return size;
         }
@@ -212,7 +214,7 @@ impl Solver {
                 Mode::Open if touched[i] => -after[i],
                 _ => 0.0,
             };
-            match worst(n, round, slight, wrong) {
+            match worst(n, round, slight, |i| wrong(i) / units[i]) {
                 None => break,
                 Some(i) if self.modes[i] == Mode::Held => self.modes[i] = Mode::Open,
                 Some(i) => self.modes[i] = Mode::Held,
@@ -289,7 +291,7 @@ impl Solver {
                 (Mode::Pushed(sign), _) => sign * accelerations[i],
                 (Mode::Held, Law::Equality) | (Mode::Slid, _) => 0.0,
             };
-            last = worst(n, round, SLIGHT * size, wrong);
+            last = worst(n, round, SLIGHT * size, |i| wrong(i) / self.unit(i));
             match last {
                 None if one_by_one || !self.change_grips(&accelerations, SLIGHT * size) => return None,
                 None => {}

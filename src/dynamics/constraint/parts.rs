@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::super::{Anchor, BodyId};
 use super::member::End;
-use super::{Equations, Row};
+use super::{Equations, Row, Scale};
 
 /// Returns the bodies of a list of ends, each once, in the order that [`End::all`] expects.
 pub(super) fn bodies(ends: &[Anchor]) -> Vec<BodyId> {
@@ -24,8 +24,8 @@ pub(super) struct EndToEndVector<'a> {
     pub(super) length: f64,
     /// The part of |d|'' that does not depend on the accelerations of the bodies, m/s².
     pub(super) bias: f64,
-    /// The magnitude of the coordinates whose difference is d, m. It bounds the rounding error.
-    pub(super) scale: f64,
+    /// The scale of |d|: the size of the bodies at its ends and its length, and the coordinates whose difference is d.
+    pub(super) scale: Scale,
     u: DVec3,
     ends: &'a [End<'a>; 2],
 }
@@ -56,7 +56,7 @@ impl<'a> EndToEndVector<'a> {
         }
         let along = u.dot(rate);
         bias += (rate.length_squared() - along * along) * inverse;
-        let scale = from.abs().max(to.abs()).max_element();
+        let scale = scale([a, b], from, to).at_least(length);
         EndToEndVector { length, bias, scale, u, ends }
     }
 
@@ -85,7 +85,7 @@ impl<'a> EndToEndVector<'a> {
     /// Writes the single constraint row of a rod or a rope: c = `sign` (|d| − `length`).
     #[inline(always)]
     pub(super) fn write_only(&self, sign: f64, length: f64, equations: &mut Equations<'_>) {
-        let scale = if length > self.scale { length } else { self.scale };
+        let scale = self.scale.at_least(length);
         let (violation, bias) = (sign * (self.length - length), sign * self.bias);
         equations.only_row(Row { violation, rate: 0.0, bias, scale }, self.directions(sign));
     }
@@ -100,13 +100,20 @@ impl<'a> EndToEndVector<'a> {
     }
 }
 
+/// Returns the scale of an equation between the locations of two ends, m.
+#[inline(always)]
+pub(super) fn scale([a, b]: [&End<'_>; 2], from: DVec3, to: DVec3) -> Scale {
+    let terms = from.abs().max(to.abs()).max(a.arm.abs()).max(b.arm.abs()).max_element();
+    Scale::length(a.size().max(b.size()), terms)
+}
+
 /// Writes three constraint rows that keep two points at the same place.
 pub(super) fn same_point([a, b]: &[End<'_>; 2], first: usize, equations: &mut Equations<'_>) {
     let [from, to] = [a.location(), b.location()];
     let (apart, bias) = (to - from, b.motion().1 - a.motion().1);
-    let scale = from.abs().max(to.abs()).max(a.arm.abs()).max(b.arm.abs());
+    let scale = scale([a, b], from, to);
     for (i, axis) in DVec3::AXES.into_iter().enumerate() {
-        equations.row(first + i, apart[i], bias[i], scale.max_element());
+        equations.row(first + i, apart[i], bias[i], scale);
         equations.direction(first + i, a.body, -axis, -a.arm.cross(axis));
         equations.direction(first + i, b.body, axis, b.arm.cross(axis));
     }
@@ -124,7 +131,7 @@ pub(super) fn perpendicular(
     let [first, second] = [a.angular_velocity(), b.angular_velocity()];
     let (u_rate, w_rate) = (first.cross(u), second.cross(w));
     let bias = first.cross(u_rate).dot(w) + 2.0 * u_rate.dot(w_rate) + u.dot(second.cross(w_rate));
-    equations.row(row, u.dot(w), bias, 1.0);
+    equations.row(row, u.dot(w), bias, Scale::ANGLE);
     equations.direction(row, a.body, DVec3::ZERO, u.cross(w));
     equations.direction(row, b.body, DVec3::ZERO, w.cross(u));
 }
@@ -155,7 +162,7 @@ pub(super) fn beside([a, b]: &[End<'_>; 2], u: DVec3, row: usize, equations: &mu
     let u_rate = omega.cross(u);
     let bias =
         u.dot(to_bend - from_bend) + 2.0 * u_rate.dot(to_rate - from_rate) + omega.cross(u_rate).dot(apart);
-    let scale = from.abs().max(to.abs()).max_element();
+    let scale = scale([a, b], from, to).at_least(apart.abs().max_element());
     equations.row(row, u.dot(apart), bias, scale);
     equations.direction(row, a.body, -u, u.cross(apart + a.arm));
     equations.direction(row, b.body, u, b.arm.cross(u));

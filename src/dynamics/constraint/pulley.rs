@@ -2,7 +2,7 @@
 
 use super::super::Anchor;
 use super::member::End;
-use super::{Constraint, Equations, Law, Members, parts};
+use super::{Constraint, Equations, Law, Members, Scale, parts};
 
 /// A massless, frictionless rope that runs from one end over two points to the other end. The rope can be slack. Each end stays at least a
 /// hundredth of the rope's length away from the point over which its part of the rope runs.
@@ -50,7 +50,8 @@ impl Constraint for Pulley {
         let sum = |value: fn(&parts::EndToEndVector<'_>) -> f64| -> f64 {
             ways.iter().map(|(way, factor)| factor * value(way)).sum()
         };
-        let scale = ways.iter().fold(self.length, |scale, (way, _)| scale.max(way.scale));
+        let scale =
+            ways.iter().fold(Scale::length(self.length, self.length), |scale, (way, _)| scale.max(way.scale));
         equations.row(0, self.length - sum(|way| way.length), -sum(|way| way.bias), scale);
         for (i, (way, factor)) in ways.iter().enumerate() {
             way.write(-factor, 0, equations);
@@ -58,7 +59,7 @@ impl Constraint for Pulley {
                 1 + i,
                 way.length - Pulley::NEAREST * self.length,
                 way.bias,
-                way.scale.max(self.length),
+                way.scale.at_least(self.length),
             );
             way.write(1.0, 1 + i, equations);
         }

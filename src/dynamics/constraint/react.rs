@@ -72,7 +72,8 @@ impl Solver {
     }
 
     /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
-    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms.
+    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s². Those of angles count
+    /// times the size of the mechanism.
     pub(super) fn react_seeing(
         &mut self,
         t: f64,
@@ -89,7 +90,8 @@ impl Solver {
         };
         let mut size = 0.0_f64;
         for (i, row) in rows.iter().enumerate() {
-            size = size.max(product(structure, jacobian, members, i).1).max(row.bias.abs());
+            let unit = if row.scale.is_length { 1.0 } else { structure.length };
+            size = size.max(unit * product(structure, jacobian, members, i).1).max(unit * row.bias.abs());
         }
         move_members(structure, jacobian, unknown, members);
         products(structure, jacobian, members, accelerations);

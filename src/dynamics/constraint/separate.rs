@@ -33,7 +33,8 @@ impl Solver {
             (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
         }
         self.unknown.fill(0.0);
-        let deepest = goals.iter().fold(0.0_f64, |most, goal| most.max(*goal));
+        let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
+        let deepest = depths.fold(0.0, f64::max);
         if self.joints() == 0 {
             self.sweep_islands(&goals, false, (APART * deepest, SWEEPS, true));
         } else {

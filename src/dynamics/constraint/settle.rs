@@ -6,9 +6,9 @@ use super::super::integrator::drift_body;
 use super::super::{Model, State};
 use super::Row;
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
-use super::solver::{FAILURE, Solver};
+use super::solver::Solver;
 
-/// An equation holds if its error is at most this fraction of its scale: a few rounding errors.
+/// Velocities obey a constraint if its rate is at most this fraction of the largest one: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
 
 /// If the errors at the start of a step, divided by its length, exceed this fraction of the largest rate, the step does not correct them.
@@ -58,10 +58,10 @@ impl Solver {
             self.measure(t + dt, &trial);
             self.rows.iter_mut().zip(&left).for_each(|(row, left)| row.violation -= left);
             let worst = self.worst();
-            let is_enough = worst < FAILURE && worst > 0.5 * before;
+            let is_enough = worst > 0.5 * before && self.are_kept();
             // The equations of friction at several points can contradict each other, so the error may stay.
             let stays = self.factor.is_soft() && worst > STAYS * before;
-            if worst <= ROUNDING || is_enough || stays {
+            if worst <= 1.0 || is_enough || stays {
                 break;
             }
             if worst > DIVERGED * before {
@@ -110,7 +110,7 @@ impl Solver {
             self.measure_places(t, state);
             let worst = self.worst();
             let is_slow = worst > 0.1 * before;
-            if worst <= ROUNDING || (worst < FAILURE && is_slow) {
+            if worst <= 1.0 || (is_slow && self.are_kept()) {
                 return;
             }
             if !self.is_factorised || is_slow {
@@ -143,8 +143,11 @@ impl Solver {
                 return;
             };
             let scale = rates(structure, jacobian, members, rows, unknown);
-            let worst = unknown.iter().zip(&self.held).filter(|(_, held)| **held);
-            let worst = worst.fold(0.0_f64, |worst, (rate, _)| worst.max(rate.abs()));
+            let length = structure.length;
+            let worst = unknown.iter().zip(rows.iter()).zip(&self.held).filter(|(_, held)| **held);
+            let worst = worst.fold(0.0_f64, |worst, ((rate, row), _)| {
+                worst.max(if row.scale.is_length { rate.abs() } else { length * rate.abs() })
+            });
             // If a rate is NaN, the comparison is false and the loop ends as well.
             if !(worst > ROUNDING * scale && worst < 0.5 * before) {
                 return;

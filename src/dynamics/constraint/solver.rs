@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::super::contact::LastingContact;
-use super::super::{Breakdown, Model, Motion, State};
+use super::super::{Anchor, Breakdown, Model, Motion, State};
 use super::columns::Columns;
 use super::factor::Factor;
 use super::friction::FrictionPair;
@@ -18,7 +18,7 @@ use super::modes::Mode;
 use super::structure::{Place, Structure};
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
-/// A constraint is broken if its error exceeds this fraction of its scale after all corrections.
+/// A constraint is broken if its error exceeds this fraction of its size after all corrections.
 pub(super) const FAILURE: f64 = 1e-9;
 
 /// The state of the constraint solver: working memory, contacts, and data of the present step.
@@ -64,8 +64,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) slips: Vec<f64>,
     /// True if the mode of any constraint row can change, so that not all laws are [`Law::Equality`].
     pub(super) has_modes: bool,
-    /// The largest magnitude of the terms of c' so far; `largest_acceleration` is that of c''. Values far below them count as rounding
-    /// errors.
+    /// The largest magnitude of the terms of c' so far, m/s; `largest_acceleration` is that of c'', m/s². Values far below them, in the
+    /// [unit](Solver::unit) of their row, count as rounding errors.
     pub(super) largest_rate: f64,
     pub(super) largest_acceleration: f64,
     /// The largest magnitudes of the terms of c' and c'' at the state of the last [`Solver::margin`].
@@ -164,7 +164,7 @@ impl Solver {
             // Open stops (inequalities without contact) do not count: a trial step may pass them.
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
-                let is_kept = missing <= FAILURE * self.rows[row].scale;
+                let is_kept = missing <= self.rows[row].tolerance(FAILURE);
                 // A NaN is the largest error.
                 if !is_kept && failed.is_none_or(|(_, most)| missing.total_cmp(&most).is_gt()) {
                     failed = Some((place.constraint, missing));
@@ -193,7 +193,7 @@ impl Solver {
         self.all.extend(model.constraints().iter().cloned());
         self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
         let is_there = |body: usize| model.is_present(body) && !self.away.contains(&body);
-        let structure = Structure::of(&self.all, is_there, can_move);
+        let mut structure = Structure::of(&self.all, is_there, can_move);
         self.first_row = vec![None; self.all.len()];
         for place in &structure.places {
             self.first_row[place.constraint] = Some(place.row);
@@ -211,6 +211,7 @@ impl Solver {
             self.factor.soften(soft);
         }
         self.natures = structure.bodies.iter().map(|&body| BodyConstants::of(body, model)).collect();
+        structure.length = self.size_of(&structure);
         self.members = self.natures.iter().map(Member::new).collect();
         (self.measured, self.factorised) = (f64::NAN, f64::NAN);
         self.motions = structure.bodies.iter().map(|&body| model.motion(body)).collect();
@@ -231,6 +232,22 @@ impl Solver {
         self.origin = self.members.clone();
         self.unknown = vec![0.0; structure.rows];
         self.structure = Some(structure);
+    }
+
+    /// Returns the size of the mechanisms, m: the largest lever or radius of gyration of a body that can move. 1 if there is none.
+    fn size_of(&self, structure: &Structure) -> f64 {
+        let moves = |nature: &&BodyConstants| nature.can_move();
+        let sizes = self.natures.iter().filter(moves).map(|nature| nature.size);
+        let ends = structure.places.iter().flat_map(|place| self.all[place.constraint].ends());
+        let levers = ends.filter_map(|end| match end {
+            Anchor::Body { id, at } => {
+                let member = structure.bodies.binary_search(&id.index()).ok()?;
+                self.natures[member].can_move().then(|| at.length())
+            }
+            Anchor::Point(_) => None,
+        });
+        let size = sizes.chain(levers).fold(0.0, f64::max);
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
     /// Evaluates all equations and their Jacobian at a state.
@@ -270,11 +287,10 @@ impl Solver {
         self.measured = t;
     }
 
-    /// Returns the largest error of an active constraint row, as a fraction of its scale. A NaN counts as infinite.
+    /// Returns the largest error of an active constraint row, in units of its rounding error. A NaN counts as infinite.
     pub(super) fn worst(&self) -> f64 {
-        let off = |row: &Row| row.violation.abs() / row.scale.max(f64::MIN_POSITIVE);
         let held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
-        held.map(|(row, _)| off(row)).fold(0.0, |worst, off| {
+        held.map(|(row, _)| row.error()).fold(0.0, |worst, off| {
             if off <= worst {
                 worst
             } else if off.is_nan() {
@@ -283,6 +299,12 @@ impl Solver {
                 off
             }
         })
+    }
+
+    /// Returns true if no active constraint row is broken.
+    pub(super) fn are_kept(&self) -> bool {
+        let mut held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
+        held.all(|(row, _)| row.violation.abs() <= row.tolerance(FAILURE))
     }
 
     /// Factorizes J M⁻¹ Jᵀ of the last measurement. With `choose`, redundant constraint rows become inactive.

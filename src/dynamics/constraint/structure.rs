@@ -19,6 +19,8 @@ pub(super) struct Structure {
     pub(super) directions: usize,
     /// The index of each constraint row's first direction. The last entry is the number of directions.
     pub(super) row_start: Vec<usize>,
+    /// The size of the mechanisms, m: the largest lever or radius of gyration of a body that can move. It weighs angles against lengths.
+    pub(super) length: f64,
     /// For each constraint, the constraints eliminated before it that share a movable body with it, and the constraint itself as the last
     /// entry.
     pub(super) neighbours: Vec<Vec<Neighbour>>,

@@ -151,7 +151,8 @@ impl Solver {
     /// Finds the impulses in `unknown`, and applies them to the velocities of the members. `before` holds the rate of each constraint row
     /// without these impulses.
     fn sweep(&mut self, goals: &[f64], purpose: Purpose, before: &[f64]) {
-        let fastest = before.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let speeds = before.iter().enumerate().map(|(row, rate)| rate.abs() / self.unit(row));
+        let fastest = speeds.fold(0.0, f64::max);
         if purpose != Purpose::Impact {
             self.forced = fastest;
         }
@@ -216,7 +217,7 @@ impl Solver {
         for (row, impulse) in self.unknown.iter().enumerate() {
             if matches!(self.laws[row], Law::Inequality | Law::Friction { .. }) {
                 work += impulse * (0.5 * (before[row] + self.rate_of(row)) - goals[row]);
-                size += impulse.abs();
+                size += impulse.abs() * self.unit(row);
             }
         }
         work > EXCUSED * tolerance * size
@@ -275,7 +276,8 @@ impl Solver {
         self.first_row.len() - self.contacts.len()
     }
 
-    /// Makes one Gauss–Seidel sweep over limits, motors and the normal rows of contacts. Returns the largest change of a rate.
+    /// Makes one Gauss–Seidel sweep over limits, motors and the normal rows of contacts. Returns the largest change of a rate,
+    /// m/s.
     pub(super) fn sweep_rows(&mut self, goals: &[f64], purpose: Purpose) -> f64 {
         let mut change = 0.0_f64;
         for (row, &goal) in goals.iter().enumerate() {
@@ -296,7 +298,7 @@ impl Solver {
             };
             self.unknown[row] = next;
             self.columns.apply(row, next - before, &mut self.members);
-            change = change.max((next - before).abs() * weight);
+            change = change.max((next - before).abs() * weight / self.unit(row));
         }
         change
     }
@@ -320,7 +322,7 @@ impl Solver {
         (self.unknown[row], self.unknown[row + 1]) = (next.x, next.y);
         self.columns.apply(row, next.x - before.x, &mut self.members);
         self.columns.apply(row + 1, next.y - before.y, &mut self.members);
-        (next - before).length() * weight
+        (next - before).length() * weight / self.unit(row)
     }
 
     /// Returns the absolute change of the next constraint row's rate under a unit impulse along this row.

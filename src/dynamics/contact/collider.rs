@@ -17,17 +17,17 @@ use super::solid::{Pose, Solid};
 use super::touch::{Touch, inside, touches};
 use super::{ContactProperties, Contacts, Impact};
 
-/// At an event, bodies count as touching if their gap is below this fraction of their coordinates.
+/// At an event, bodies count as touching if their gap is below this fraction of their size.
 pub(super) const NEAR: f64 = 1e-10;
 
-/// For bodies at rest, further points count as touching if their gap is below this fraction of the coordinates. Otherwise a body that
+/// For bodies at rest, further points count as touching if their gap is below this fraction of their size. Otherwise a body that
 /// stands on three of four corners would never come to rest.
 const SNUG: f64 = 1e-8;
 
-/// Further points of touching bodies may overlap by this fraction of the coordinates before an event ends the step.
+/// Further points of touching bodies may overlap by this fraction of their size before an event ends the step.
 const PASSED: f64 = 1e-12;
 
-/// A body that appears may overlap others by this fraction of the coordinates.
+/// A body that appears may overlap others by this fraction of their size.
 const OVERLAP: f64 = 1e-9;
 
 /// A closing speed below this fraction of the largest one so far counts as a rounding error.
@@ -172,8 +172,8 @@ impl Collider {
         for pair in &mut pairs.list {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            let scale = scale(pair.bodies, [x, y], before);
-            let near_enough = NEAR * scale;
+            let scale = Scale::of(pair.bodies, [x, y], (model, before));
+            let near_enough = scale.tolerance(NEAR);
             if pair.free > near_enough {
                 continue;
             }
@@ -191,7 +191,7 @@ impl Collider {
             let speed = (before.velocity[b] - before.velocity[a]).length();
             let slight = 2.0 * SLIGHT * fastest.max(speed);
             let approach =
-                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: TOUCH * scale };
+                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: scale.touch() };
             if let Some(time) = approach.first(end) {
                 (end, first) = (time, Some((time, pair.bodies)));
             }
@@ -211,7 +211,7 @@ impl Collider {
         let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { return None };
         let poses = bodies.map(|i| pose(i, model, state));
         let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-        let touch = TOUCH * scale(bodies, [x, y], state);
+        let touch = Scale::of(bodies, [x, y], (model, state)).touch();
         let gap = |place: &ClosestPoints| if place.gap.abs() > touch { place.gap } else { 0.0 };
         let turns = |&body: &usize| model.angular_velocity(body, state) != DVec3::ZERO;
         if are_convex([x, y]) && !bodies.iter().any(turns) {
@@ -239,7 +239,7 @@ impl Collider {
             let [a, b] = contact.bodies;
             let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { continue };
             let [p, q] = [a, b].map(|i| pose(i, model, state));
-            let tolerated = PASSED * scale(contact.bodies, [x, y], state);
+            let tolerated = Scale::of(contact.bodies, [x, y], (model, state)).tolerance(PASSED);
             margin = margin.min(inside(&contact.touch, x, &p, y, &q) / tolerated);
             margin = margin.min(contact.left([p, q]) / PASSED);
             if last == Some(contact.bodies) {
@@ -272,7 +272,8 @@ impl Collider {
             if crowd.holds(pair.bodies, model) || is_passive(pair.bodies, model) {
                 continue;
             }
-            let within = NEAR * scale(pair.bodies, [x, y], state);
+            let scale = Scale::of(pair.bodies, [x, y], (model, state));
+            let within = scale.tolerance(NEAR);
             if pair.free > within {
                 continue;
             }
@@ -282,7 +283,7 @@ impl Collider {
             if pair.free > within {
                 continue;
             }
-            let found = touches(x, &poses[0], y, &poses[1], SNUG / NEAR * within).into_iter();
+            let found = touches(x, &poses[0], y, &poses[1], scale.tolerance(SNUG)).into_iter();
             let (touches, snug) = found.partition(|touch| touch.meeting.gap <= within);
             all.push(Touching { bodies: pair.bodies, law: pair.law, touches, snug });
         }
@@ -310,7 +311,8 @@ impl Collider {
             }
             let poses = [a, b].map(|i| pose(i, model, state));
             let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-            (near.gap < -OVERLAP * scale(bodies, [x, y], state)).then_some(-near.gap)
+            let tolerated = Scale::of(bodies, [x, y], (model, state)).tolerance(OVERLAP);
+            (near.gap < -tolerated).then_some(-near.gap)
         };
         let (found, _) = overlapping(contacts, solids, (model, state), overlap);
         if let Some((bodies, depth)) = found.into_iter().min_by_key(|(bodies, _)| *bodies) {
@@ -353,13 +355,36 @@ fn rate(meeting: &ClosestPoints, bodies: [usize; 2], (model, state): (&Model, &S
     meeting.normal.dot(at(1) - at(0))
 }
 
-/// Returns the magnitude of the coordinates of two bodies, m, to which rounding errors are proportional.
-pub(super) fn scale(bodies: [usize; 2], solids: [&Solid; 2], state: &State) -> f64 {
-    let size = |i: usize| {
-        let reach = solids[i].reach() + solids[i].size();
-        if reach.is_finite() { state.location[bodies[i]].abs().max_element() + reach } else { 0.0 }
-    };
-    size(0).max(size(1))
+/// The lengths to which the tolerances of a contact are relative. They follow from the sizes of the bodies; the coordinates only widen a
+/// tolerance to the rounding errors that they cause.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    /// The size of the larger of the two bodies that forces can move, m. If forces move neither of them: the size of the smaller one.
+    size: f64,
+    /// The magnitude of the coordinates of the two bodies, m, to which rounding errors are proportional.
+    coordinates: f64,
+}
+
+impl Scale {
+    pub(super) fn of(bodies: [usize; 2], solids: [&Solid; 2], (model, state): (&Model, &State)) -> Scale {
+        let reach = |i: usize| solids[i].reach() + solids[i].size();
+        let finite = |length: f64| if length.is_finite() { length } else { 0.0 };
+        let own = |i: usize| if model.can_move(bodies[i]) { finite(reach(i)) } else { 0.0 };
+        let coordinate = |i: usize| state.location[bodies[i]].abs().max_element() + finite(reach(i));
+        let size = own(0).max(own(1));
+        let size = if size > 0.0 { size } else { finite(reach(0).min(reach(1))) };
+        Scale { size, coordinates: coordinate(0).max(coordinate(1)) }
+    }
+
+    /// Returns the tolerance that is this fraction of the size of the bodies, m, but at least ten times the gap at which they touch.
+    pub(super) fn tolerance(self, part: f64) -> f64 {
+        (part * self.size).max(10.0 * self.touch())
+    }
+
+    /// Returns the gap at which the bodies touch to within rounding errors, m.
+    pub(super) fn touch(self) -> f64 {
+        TOUCH * self.coordinates
+    }
 }
 
 /// Returns the deepest overlap of some bodies and its depth, m, if very many of their pairs overlap by more than `allowed`, m. The bodies

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::super::sets::Sets;
 use super::super::{Model, State};
-use super::approach::{Approach, TOUCH};
+use super::approach::Approach;
 use super::closest_points::nearest;
-use super::collider::{Collider, NEAR, SLIGHT, is_passive, scale};
+use super::collider::{Collider, NEAR, SLIGHT, Scale, is_passive};
 use super::crowd::Crowd;
 use super::lasting_contact::LastingContact;
 use super::pairs::{Pair, way};
@@ -95,8 +95,9 @@ impl Collider {
             if is_passive(pair.bodies, model) {
                 continue;
             }
-            let (ways, scale) = (free[a] + free[b], scale(pair.bodies, [x, y], before));
-            let (touch, meet) = (NEAR * scale, NEAR * scale + (GENEROUS - 1.0) * ways);
+            let (ways, scale) = (free[a] + free[b], Scale::of(pair.bodies, [x, y], (model, before)));
+            let touch = scale.tolerance(NEAR);
+            let meet = touch + (GENEROUS - 1.0) * ways;
             let is_settled = |body: usize| is_busy[body] || !model.can_move(body);
             if pair.free > meet || is_settled(a) && is_settled(b) && sets.are_one([a, b], model) {
                 continue;
@@ -113,7 +114,7 @@ impl Collider {
             let speed = (before.velocity[b] - before.velocity[a]).length();
             let slight = 2.0 * SLIGHT * fastest.max(speed);
             let approach =
-                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: TOUCH * scale };
+                Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: scale.touch() };
             if approach.first(duration).is_some() {
                 (is_busy[a], is_busy[b]) = (true, true);
             }
@@ -196,7 +197,8 @@ impl Collider {
             let [a, b] = pair.bodies;
             pair.free -= more[a] + more[b];
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            if !is_passive(pair.bodies, model) && pair.free <= NEAR * scale(pair.bodies, [x, y], state) {
+            let touch = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(NEAR);
+            if !is_passive(pair.bodies, model) && pair.free <= touch {
                 met.push(pair.bodies);
             }
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::super::constraint::{Constraint, Equations, Law, Member, Members};
+use super::super::constraint::{Constraint, Equations, Law, Member, Members, Scale};
 use super::super::{Anchor, BodyId};
 use super::change::Change;
 use super::patch::meet;
@@ -117,9 +117,11 @@ impl Constraint for LastingContact {
         // The part of the slip's rate that does not depend on accelerations: the arms change as the contact point moves over both bodies.
         let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);
         let drift = turning(1) - turning(0);
-        let size = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
+        let terms = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
+        let levers = [0, 1].map(|i| if both[i].can_move() { arms[i].abs().max_element() } else { 0.0 });
+        let scale = Scale::length(self.size, terms).max(Scale::length(levers[0].max(levers[1]), terms));
         let mut write = |row: usize, violation: f64, bias: f64, linear: DVec3| {
-            equations.row(row, violation, bias, size);
+            equations.row(row, violation, bias, scale);
             equations.direction(row, Some(0), -linear, -arms[0].cross(linear));
             equations.direction(row, Some(1), linear, arms[1].cross(linear));
         };
@@ -142,7 +144,7 @@ impl Constraint for LastingContact {
                 0.5 * members.elapsed() * (relative(&origin[0], &origin[1]) + relative(both[0], both[1]))
             });
             for (row, axis) in [(first, u), (first + 1, w)] {
-                equations.row(row, rolled.dot(axis), 0.0, 1.0);
+                equations.row(row, rolled.dot(axis), 0.0, Scale::ANGLE);
                 equations.direction(row, Some(0), DVec3::ZERO, -axis);
                 equations.direction(row, Some(1), DVec3::ZERO, axis);
             }

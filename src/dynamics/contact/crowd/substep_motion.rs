@@ -16,7 +16,7 @@ use super::super::super::integrator::drift_body;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
-use super::super::collider::{Collider, scale};
+use super::super::collider::{Collider, Scale};
 use super::super::lasting_contact::{LastingContact, heading};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
@@ -39,7 +39,7 @@ const GRASP: f64 = 1e-5;
 const DEEP: f64 = 0.01;
 
 /// The largest number of attempts to separate jammed bodies. After them, the run fails.
-const REPAIRS: usize = 5;
+const REPAIRS: usize = 50;
 
 /// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
 /// smaller body's size. Lower bounces do not count as free flight.
@@ -48,7 +48,7 @@ const LEAN: f64 = 0.01;
 /// Times within a substep are equal if they differ by less than this fraction of the substep.
 const SAME: f64 = 1e-12;
 
-/// Bodies touch if their gap is below this fraction of their coordinates.
+/// Bodies touch if their gap is below this fraction of their size.
 const NEAR: f64 = 1e-9;
 
 /// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
@@ -316,7 +316,7 @@ impl Collider {
     ) -> Result<Vec<Arc<LastingContact>>, Breakdown> {
         let mut jammed = None;
         for _ in 0..REPAIRS {
-            let (all, deep) = self.touching_in_crowd(model, state);
+            let (all, deep) = self.touching_in_crowd(model, state, 0.0);
             if deep.is_none() {
                 self.crowd.pushing.clear();
                 self.crowd.course = None;
@@ -326,6 +326,8 @@ impl Collider {
                 return Ok(all);
             }
             jammed = deep;
+            // What is moved apart must not be moved into its neighbors.
+            let (all, _) = self.touching_in_crowd(model, state, LEAN);
             let solver = &mut self.crowd.solver;
             solver.find_by_sweeps(model);
             solver.take_contacts(all);
@@ -338,19 +340,20 @@ impl Collider {
     }
 
     /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
-    /// any.
+    /// any. Points with a gap below `near`, as a fraction of the smaller body's size, count as contacts, too.
     fn touching_in_crowd(
         &self,
         model: &Model,
         state: &State,
+        near: f64,
     ) -> (Vec<Arc<LastingContact>>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
             let size = self.size(pair.bodies);
             let is_pushing = self.crowd.pushing.contains(&pair.bodies);
-            let touching = NEAR * scale(pair.bodies, [x, y], state);
-            let within = if is_pushing { GRASP * size } else { touching };
+            let touching = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(NEAR);
+            let within = if is_pushing { GRASP * size } else { touching }.max(near * size);
             let places = self.places_within(model, state, &pair, [x, y], within);
             if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
                 deep = Some(pair.bodies);
