@@ -54,8 +54,10 @@ fn write_all(
     selection: &Selection,
     done: &(dyn Fn() + Sync),
 ) -> Result<Written, OutputError> {
-    // Most mistakes in a template concern every script. They are found before any file is changed.
-    if let Some(first) = run.recorded().exposures(selection).next() {
+    // Most mistakes in a template of the user concern every script. They are found before any file is changed.
+    if !run.scene().povray.templates.is_empty()
+        && let Some(first) = run.recorded().exposures(selection).next()
+    {
         run.script(&first?.frame)?;
     }
     let head = Header::new(run);
