@@ -1,6 +1,6 @@
 //! Converts a simulation error into a diagnostic.
 
-use super::{Broken, SimulateError};
+use super::SimulateError;
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
 use crate::dynamics::Motor;
 use crate::scene::{ForceKind, JointKind, Scene};
@@ -40,8 +40,9 @@ impl SimulateError {
             None => diagnostic,
         };
         let (diagnostic, sources) = match self {
-            SimulateError::Broken(Broken { place: (Some(span), sources), .. }) => {
-                (diagnostic.at(*span, ""), sources.clone())
+            SimulateError::Broken(broken) => {
+                let (span, sources) = &broken.place;
+                (span.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, "")), sources.clone())
             }
             SimulateError::Undefined(undefined) => match &undefined.place {
                 (Some(span), sources) => (diagnostic.at(*span, undefined.why.2.clone()), sources.clone()),
@@ -55,9 +56,7 @@ impl SimulateError {
                 let (spans, sources) = &stuck.place;
                 (spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, "")), sources.clone())
             }
-            SimulateError::Diverged(_) | SimulateError::Broken(_) | SimulateError::Recording(_) => {
-                (diagnostic, Sources::default())
-            }
+            SimulateError::Diverged(_) | SimulateError::Recording(_) => (diagnostic, Sources::default()),
         };
         Report { sources, diagnostics: vec![diagnostic] }
     }

@@ -94,11 +94,11 @@ pub struct Diverged {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SimulateError {
     /// The state became non-finite.
-    Diverged(Diverged),
+    Diverged(Box<Diverged>),
     /// The formula of a force has no finite value.
     Undefined(Box<Undefined>),
     /// The constraints of a joint cannot be satisfied.
-    Broken(Broken),
+    Broken(Box<Broken>),
     /// The contact between two bodies cannot be computed.
     Stuck(Box<Stuck>),
     /// No timestep is short enough for the motion of a body.
@@ -246,7 +246,7 @@ impl SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {
                 let body = scene.bodies[body.index()].name.to_string();
-                SimulateError::Diverged(Diverged { body, time, remedy: diagnose::remedy(scene) })
+                SimulateError::Diverged(Box::new(Diverged { body, time, remedy: diagnose::remedy(scene) }))
             }
             Breakdown::Undefined { force, at } => match Undefined::of(scene, force, &at) {
                 Some(undefined) => SimulateError::Undefined(Box::new(undefined)),
@@ -269,7 +269,7 @@ impl SimulateError {
                 let span = scene.places.joints.get(constraint).copied();
                 let place = (span, scene.warnings.sources.clone());
                 let is_driven = diagnose::is_driven(scene);
-                SimulateError::Broken(Broken { joint, time, missing, is_driven, place })
+                SimulateError::Broken(Box::new(Broken { joint, time, missing, is_driven, place }))
             }
         }
     }

@@ -159,7 +159,7 @@ impl Dir {
             match native::open_path(&start) {
                 Ok(handle) => break handle,
                 Err(error) if make.is_some() && error.kind() == io::ErrorKind::NotFound && trusted > 1 => {
-                    trusted -= 1
+                    trusted -= 1;
                 }
                 Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
                     return Err(FolderError::NotAFolder(start));

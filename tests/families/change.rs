@@ -66,7 +66,8 @@ impl Change {
     }
 
     fn unit(&self, length: i32, mass: i32, time: i32) -> f64 {
-        self.units[0].powi(length) * self.units[1].powi(mass) * self.units[2].powi(time)
+        let powers = self.units.iter().zip([length, mass, time]);
+        powers.map(|(unit, power)| libm::pow(*unit, f64::from(power))).product()
     }
 
     /// Changes the direction of a vector, such as a velocity.

@@ -176,7 +176,7 @@ const SHAPES: &[Shape] = &[
     }),
     ("the asset is a link", |home, at| link(home, &format!("{at}/assets/wood.png"), "notes.txt")),
     ("the asset is a dangling link", |home, at| {
-        link(home, &format!("{at}/assets/wood.png"), "autostart/new")
+        link(home, &format!("{at}/assets/wood.png"), "autostart/new");
     }),
     ("a file that is none of jabuka's is listed", |home, at| {
         manifest_with(home, &format!("project/{at}"), &["assets/thesis", "thesis.txt", ".bashrc"]);

@@ -74,7 +74,7 @@ fn the_part_of_a_motor_is_its_own_torque() {
     world.advance_to(0.1);
     let found = reaction(&mut world);
     assert!((found.motor - 0.2).abs() < 1e-12 && (found.torque.x - 0.2).abs() < 1e-11, "{found:?}");
-    assert!((found.torque.length() - (0.2_f64.powi(2) + (0.4 * mass * G).powi(2)).sqrt()).abs() < 1e-9);
+    assert!((found.torque.length() - libm::hypot(0.2, 0.4 * mass * G)).abs() < 1e-9);
 }
 
 fn is_near(found: DVec3, x: f64, y: f64, z: f64) -> bool {

@@ -127,9 +127,8 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
         let (length, message, meant) = if rest.starts_with('{') {
             let Some(length) = rest.find('}').map(|end| end + 1) else { continue };
             (length, "text in braces is shown unchanged", format!("${}", &rest[..length]))
-        } else if rest.starts_with('$') {
+        } else if let Some(name) = rest.strip_prefix('$') {
             let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.');
-            let name = &rest[1..];
             let name = &name[..name.find(|c| !is_part(c)).unwrap_or(name.len())];
             let name = name.trim_end_matches('.');
             if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {

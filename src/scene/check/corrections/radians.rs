@@ -53,7 +53,7 @@ fn twelfths(text: &str, number: f64) -> Option<f64> {
     let digits = text.bytes().filter(u8::is_ascii_digit).count() - usize::from(number.abs() < 1.0);
     let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+'));
     let twelfths = (number / (PI / 12.0)).round();
-    let precision = 0.1_f64.powi(i32::try_from(decimals).ok()?);
+    let precision = libm::pow(0.1, f64::from(u32::try_from(decimals).ok()?));
     let is_near = (number - twelfths * PI / 12.0).abs() <= 0.51 * precision.max(1e-12);
     // A number without a fraction of its own, such as 0.262, may also be a small angle in degrees.
     let is_usual = twelfths % 2.0 == 0.0 || twelfths % 3.0 == 0.0;
