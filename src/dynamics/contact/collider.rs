@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::{BodyId, Breakdown, Constraint, Model, Shape, State};
+use super::super::{BodyId, Breakdown, Constraint, Model, State};
 use super::approach::{Approach, TOUCH, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
@@ -389,6 +389,7 @@ impl Scale {
 
 /// Returns the deepest overlap of some bodies and its depth, m, if very many of their pairs overlap by more than `allowed`, m. The bodies
 /// are given by their indices. Meshes and shapes without a [`Solid`] do not count.
+#[cfg(feature = "time-stepping")]
 pub(in crate::dynamics) fn crowded(
     contacts: &Contacts,
     some: &[usize],
@@ -398,7 +399,8 @@ pub(in crate::dynamics) fn crowded(
     let mut solids = vec![None; model.len()];
     for &i in some {
         let collides = contacts.surfaces.get(i).is_some_and(Option::is_some);
-        let shape = model.shape(i).filter(|shape| collides && !matches!(shape, Shape::Mesh { .. }));
+        let shape =
+            model.shape(i).filter(|shape| collides && !matches!(shape, crate::dynamics::Shape::Mesh { .. }));
         solids[i] = shape.and_then(Solid::of);
     }
     let overlap = |[a, b]: [usize; 2]| {

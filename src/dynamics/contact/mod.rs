@@ -34,7 +34,9 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 pub(super) use ball::Ball;
-pub(super) use collider::{Collider, crowded};
+pub(super) use collider::Collider;
+#[cfg(feature = "time-stepping")]
+pub(super) use collider::crowded;
 pub(super) use group::Parting;
 pub(super) use lasting_contact::LastingContact;
 pub(super) use solid::{Pose, Solid};
