@@ -6,13 +6,14 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use jabuka::Scene;
+use jabuka::catalog::Category;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::dynamics::Method;
 use jabuka::explain::Explanation;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
 use jabuka::scene::expression::{Formula, Function, Program, Scope};
-use jabuka::scene::grammar::SCENE;
+use jabuka::scene::grammar::{SCENE, find_keys};
 use jabuka::scene::sdl::{Where, files, refusals};
 use jabuka::scene::source::parse;
 use jabuka::scene::{Color, Finish, LibraryMaterial, Options, Override, Preset};
@@ -20,7 +21,8 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 36] = [
+const TRIED: [&str; 38] = [
+    "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
     "diagnostic/mod.rs: error",
@@ -45,6 +47,7 @@ const TRIED: [&str; 36] = [
     "scene/expression/scope.rs: is_free",
     "scene/expression/scope.rs: slot",
     "scene/expression/scope.rs: value",
+    "scene/grammar/find.rs: find_keys",
     "scene/grammar/mod.rs: key",
     "scene/library.rs: named",
     "scene/look.rs: named",
@@ -61,7 +64,7 @@ const TRIED: [&str; 36] = [
 
 /// Public functions whose text argument is made by jabuka itself and never by a user: names of frames, files and meshes, and options of
 /// POV-Ray.
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 15] = [
     "dynamics/shape/mesh/mod.rs: new",
     "dynamics/shape/mesh/mod.rs: surface",
     "emit/mod.rs: shutter",
@@ -71,6 +74,7 @@ const NAMES: [&str; 14] = [
     "random.rs: new",
     "render/images.rs: copy_out",
     "render/images.rs: image",
+    "render/images.rs: read",
     "render/record.rs: expected",
     "render/record.rs: path",
     "render/record.rs: read",
@@ -149,6 +153,7 @@ proptest! {
     fn no_text_stops_a_public_function(text in texts(), other in texts()) {
         let _ = (Code::named(&text), Explanation::of(&text), Method::by_name(&text), Function::named(&text));
         let _ = (Preset::named(&text), Finish::named(&text), LibraryMaterial::named(&text), SCENE.key(&text));
+        let _ = (Category::named(&text), find_keys(&text));
         let _ = (Color::parse(&text), text.parse::<Selection>(), nearest(&text, [other.as_str(), "red"]));
         prop_assert_eq!(visible_lines(&text).lines().count(), text.lines().count());
         let is_visible = !visible(&text).contains(['\u{202e}', '\u{0}', '\n']);
