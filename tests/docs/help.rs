@@ -359,8 +359,8 @@ fn a_scene_that_is_not_there_is_told_the_one_beside_it() {
     for (command, named, meant) in [
         ("compile", "throw", Some("throw.toml")),
         ("check", "./throw", Some("./throw.toml")),
-        ("render", "thorw.toml", Some("throw.toml")),
-        ("preview", "bonce", Some("bounce.toml")),
+        ("report", "thorw.toml", Some("throw.toml")),
+        ("report", "bonce", Some("bounce.toml")),
         ("compile", "pendulum.toml", None),
         ("compile", "no/such/throw", None),
     ] {
