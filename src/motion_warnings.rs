@@ -91,7 +91,7 @@ fn fall(fall: &Crossing) -> Diagnostic {
         others => format!(", and so do {others} other bodies"),
     };
     let message =
-        format!("`{}` falls below height 0 at t = {} s, and on without end{others}", fall.body, fall.time);
+        format!("`{}` falls below height 0 at t = {} s, and keeps falling{others}", fall.body, fall.time);
     let help = "nothing stops it; with `simulation.contacts = \"event-driven\"`, bodies land on the ground at height 0; without a \
                 ground, `environment.ground = false` ends this warning";
     Diagnostic::warning(Code::Crossing, message).help(help)

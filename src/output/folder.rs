@@ -20,7 +20,7 @@ const LOCK: &str = ".jabuka-lock";
 pub struct Folder {
     dir: Dir,
     _lock: File,
-    /// True if jabuka made this folder on this machine, so that the user has made all later changes in it.
+    /// True if jabuka made this folder on this machine. All later changes in it are then the user's.
     made_here: bool,
     /// The folders that were made to open this one.
     made: Made,

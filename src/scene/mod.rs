@@ -167,7 +167,7 @@ impl Scene {
         Some((ground.height?, ground.surface?))
     }
 
-    /// Returns true if a force is computed with a tree of bodies. Its potential, too, is then that of the tree.
+    /// Returns true if a force is computed with a tree of bodies. The potential energy is then computed with the same tree.
     pub fn has_tree(&self) -> bool {
         let of_tree = |force: &Force| match &force.kind {
             ForceKind::Gravitation(gravitation) => gravitation.opening_angle.is_some(),

@@ -1,6 +1,6 @@
 //! Tests of bodies that have come to rest on others, and are held there until something moves them: it must find them, whatever it is.
 //!
-//! Each scene leaves a box at rest for at least 0.4 s, far longer than the steps after which it is held.
+//! In each scene, a box rests for at least 0.4 s. It is held in place long before something reaches it.
 
 use glam::DVec3;
 use jabuka::simulate::Frame;

@@ -12,7 +12,7 @@ use super::solver::Solver;
 pub(super) const PASSED: f64 = 1e-12;
 
 /// A stop that opens and does not approach may be passed by this many tolerances.
-const LEAVES: f64 = 10.0;
+const OPENING_TOLERANCES: f64 = 10.0;
 
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
 /// [`Solver::decide`], so every event changes at least one mode.
@@ -62,9 +62,9 @@ impl Solver {
         let margin = |i: usize| match (self.modes[i], self.laws[i]) {
             (Mode::Open, Law::Inequality) => {
                 let margin = part(self.rows[i].violation, self.rows[i].tolerance(PASSED), 1.0);
-                // After its event, a stop that opens is still passed by the tolerance.
+                // A stop that has just opened is still passed by as much as its event tolerates.
                 let leaves = rates[i] >= -PASSED * size * self.unit(i);
-                if leaves && margin > -LEAVES { margin.max(0.0) } else { margin }
+                if leaves && margin > -OPENING_TOLERANCES { margin.max(0.0) } else { margin }
             }
             (Mode::Pushed(sign), _) => part(-sign * rates[i], size * self.unit(i), PASSED),
             (Mode::Held, Law::Inequality) => {

@@ -11,6 +11,7 @@ use super::super::sets::Sets;
 use super::Law;
 use super::anderson::Anderson;
 use super::solver::Solver;
+use super::sweep::Stopping;
 
 /// A constraint row of a contact (normal or tangent) in the form that Gauss–Seidel sweeps need.
 struct Line {
@@ -119,16 +120,15 @@ impl Island {
         self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
     }
 
-    /// Repeats Gauss–Seidel sweeps, at most `sweeps` times, until no sweep changes a rate by more than `tolerance`; with Anderson
-    /// acceleration if `is_fast` is true.
-    fn settle(&mut self, (tolerance, sweeps, is_fast): (f64, usize, bool), velocities: &mut [DVec3]) {
+    /// Repeats Gauss–Seidel sweeps.
+    fn settle(&mut self, stopping: Stopping, velocities: &mut [DVec3]) {
         let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
         let mut anderson = Anderson::from(&self.impulses, &weights);
-        for left in (0..sweeps).rev() {
-            if self.sweep(velocities) <= tolerance || left == 0 {
+        for number in 1.. {
+            if stopping.ends(number, self.sweep(velocities)) {
                 return;
             }
-            if !is_fast {
+            if !stopping.is_fast {
                 continue;
             }
             let further = anderson.go_further(&self.impulses);
@@ -146,12 +146,12 @@ impl Solver {
     /// Finds the contact impulses by Gauss–Seidel sweeps over each island, and applies them to the velocities of the members. `unknown`
     /// holds the initial impulses before the call and the result after it. `goals` holds one rate per constraint row: the rate of a normal
     /// row may fall to its goal, and friction drives the rate of a tangent row towards its goal. Friction is included if `with_friction` is
-    /// true. `how` holds the tolerance, the largest number of sweeps, and whether they are accelerated.
-    pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, how: (f64, usize, bool)) {
+    /// true.
+    pub(super) fn sweep_islands(&mut self, goals: &[f64], with_friction: bool, stopping: Stopping) {
         let mut velocities: Vec<DVec3> =
             self.members.iter().flat_map(|member| [member.velocity, member.angular_velocity]).collect();
         for mut island in self.islands(goals, with_friction) {
-            island.settle(how, &mut velocities);
+            island.settle(stopping, &mut velocities);
             for (line, impulse) in island.lines.iter().zip(island.impulses) {
                 self.unknown[line.row] = impulse;
             }

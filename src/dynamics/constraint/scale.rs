@@ -8,10 +8,10 @@ use super::Row;
 use super::solver::Solver;
 
 /// An equation holds exactly if its error is at most this fraction of its size or of its terms: a few rounding errors.
-const ROUNDING: f64 = 1e-15;
+const EXACT: f64 = 1e-15;
 
 /// No tolerance is below this fraction of the terms of an equation. It covers the rounding errors of some steps.
-const ROUNDED: f64 = 1e-14;
+const LEAST_OF_TERMS: f64 = 1e-14;
 
 /// The magnitudes to which the tolerances of a constraint equation c = 0 are relative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,13 +52,13 @@ impl Row {
     /// Returns the tolerance for c that is this fraction of the equation's size, but at least its rounding error.
     #[inline]
     pub(super) fn tolerance(&self, part: f64) -> f64 {
-        (part * self.scale.size).max(ROUNDED * self.scale.terms)
+        (part * self.scale.size).max(LEAST_OF_TERMS * self.scale.terms)
     }
 
     /// Returns the error of the equation, in units of its rounding error.
     #[inline]
     pub(super) fn error(&self) -> f64 {
-        let rounding = ROUNDING * self.scale.size.max(self.scale.terms);
+        let rounding = EXACT * self.scale.size.max(self.scale.terms);
         self.violation.abs() / rounding.max(f64::MIN_POSITIVE)
     }
 }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::State;
 use super::solver::Solver;
-use super::sweep::{Purpose, SWEEPS};
+use super::sweep::{Purpose, Stopping};
 use super::{Law, Row};
 
 /// Overlaps below this fraction of the smallest body's size are ignored.
@@ -36,9 +36,9 @@ impl Solver {
         let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
         let deepest = depths.fold(0.0, f64::max);
         if self.joints() == 0 {
-            self.sweep_islands(&goals, false, (APART * deepest, SWEEPS, true));
+            self.sweep_islands(&goals, false, Stopping::fast(APART * deepest));
         } else {
-            self.sweep_until((APART * deepest, SWEEPS, true), |solver| {
+            self.sweep_until(Stopping::fast(APART * deepest), |solver| {
                 solver.sweep_rows(&goals, Purpose::Impact)
             });
         }

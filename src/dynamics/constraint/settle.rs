@@ -11,9 +11,9 @@ use super::solver::Solver;
 /// Velocities obey a constraint if its rate is at most this fraction of the largest one: a few rounding errors.
 const ROUNDING: f64 = 1e-15;
 
-/// If the errors at the start of a step, divided by its length, exceed this fraction of the largest rate, the step does not correct them.
+/// A step does not correct the errors at its start if the rates for that, errors / step, exceed this fraction of the largest rate.
 /// In a piece of 1e-15 s, rounding errors of positions would become velocities.
-const SUDDEN: f64 = 1e-9;
+const LARGEST_CORRECTION: f64 = 1e-9;
 
 /// The largest number of iterations of a projection. Each iteration multiplies the error by at most the square of the rotation angle in a
 /// step. So a projection that needs more iterations does not converge.
@@ -37,7 +37,7 @@ impl Solver {
         self.first.clone_from(&self.jacobian);
         self.first_rates.clear();
         self.first_rates.extend(self.rows.iter().map(|row| row.rate));
-        let sudden = |row: &Row| row.violation.abs() > SUDDEN * self.largest_rate * dt;
+        let sudden = |row: &Row| row.violation.abs() > LARGEST_CORRECTION * self.largest_rate * dt;
         let is_sudden = !self.contacts.is_empty() && self.rows.iter().any(sudden);
         let left: Vec<f64> = self.rows.iter().filter(|_| is_sudden).map(|row| row.violation).collect();
         let mut trial = std::mem::take(&mut self.trial);

@@ -21,11 +21,39 @@ const SETTLED: f64 = 1e-7;
 /// afterwards correct the remaining error.
 const STRUCK: f64 = 1e-5;
 
-/// The number of sweeps, in units of [`SWEEPS`], when the impulses of faster sweeps have added energy.
-const PATIENT: usize = 20;
+/// The largest number of sweeps without acceleration, which replace accelerated sweeps that have added energy.
+const PATIENT_SWEEPS: usize = 20 * SWEEPS;
 
-/// Impulses add energy if they do more work than the errors that the sweeps leave explain, by more than this factor.
-const EXCUSED: f64 = 10.0;
+/// Impulses add energy if their work is more than this many times the work that the remaining errors of the rates can do.
+const EXCUSED_WORK: f64 = 10.0;
+
+/// How sweeps over contacts end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stopping {
+    /// The change of a rate in one sweep below which no further sweep is needed.
+    tolerance: f64,
+    /// The largest number of sweeps.
+    most: usize,
+    /// True if the impulses of several sweeps are extrapolated (Anderson acceleration).
+    pub(super) is_fast: bool,
+}
+
+impl Stopping {
+    /// Accelerated sweeps, which converge sooner.
+    pub(super) const fn fast(tolerance: f64) -> Stopping {
+        Stopping { tolerance, most: SWEEPS, is_fast: true }
+    }
+
+    /// Many sweeps without acceleration. From zero impulses, none of them adds energy.
+    const fn patient(tolerance: f64) -> Stopping {
+        Stopping { tolerance, most: PATIENT_SWEEPS, is_fast: false }
+    }
+
+    /// Returns true if sweep number `sweep`, counted from 1, is the last, after a change of a rate by `change`.
+    pub(super) fn ends(self, sweep: usize, change: f64) -> bool {
+        change <= self.tolerance || sweep >= self.most
+    }
+}
 
 /// What the impulses of a set of Gauss–Seidel sweeps stand for: an impact, or forces during a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,7 +205,7 @@ impl Solver {
             // From zero, and without acceleration, each step of a sweep brings the energy nearer to its least value.
             self.unknown.fill(0.0);
             self.members.clone_from(&members);
-            self.sweep_all(&goals, purpose, (tolerance, PATIENT * SWEEPS, false));
+            self.sweep_all(&goals, purpose, Stopping::patient(tolerance));
         }
         if let Purpose::Forces(time) = purpose {
             self.remember_forces(time);
@@ -190,21 +218,16 @@ impl Solver {
         if let Purpose::Forces(time) = purpose {
             self.start_warm(time);
         }
-        self.sweep_all(goals, purpose, (tolerance, SWEEPS, true));
+        self.sweep_all(goals, purpose, Stopping::fast(tolerance));
     }
 
-    /// Sweeps over all contacts, limits and motors, at most `sweeps` times, until no sweep changes a rate by more than `tolerance`.
-    fn sweep_all(
-        &mut self,
-        goals: &[f64],
-        purpose: Purpose,
-        (tolerance, sweeps, is_fast): (f64, usize, bool),
-    ) {
+    /// Repeats sweeps over all contacts, limits and motors.
+    fn sweep_all(&mut self, goals: &[f64], purpose: Purpose, stopping: Stopping) {
         if self.joints() == 0 {
-            self.sweep_islands(goals, true, (tolerance, sweeps, is_fast));
+            self.sweep_islands(goals, true, stopping);
             return;
         }
-        self.sweep_until((tolerance, sweeps, is_fast), |solver| {
+        self.sweep_until(stopping, |solver| {
             let change = solver.sweep_rows(goals, purpose);
             (0..solver.grips.len()).fold(change, |change, grip| change.max(solver.sweep_grip(grip, goals)))
         });
@@ -220,22 +243,17 @@ impl Solver {
                 size += impulse.abs() * self.unit(row);
             }
         }
-        work > EXCUSED * tolerance * size
+        work > EXCUSED_WORK * tolerance * size
     }
 
-    /// Repeats Gauss–Seidel sweeps, at most `sweeps` times, until no rate changes by more than `tolerance`; with Anderson acceleration if
-    /// `is_fast` is true. `sweep` returns the largest change of a rate.
-    pub(super) fn sweep_until(
-        &mut self,
-        (tolerance, sweeps, is_fast): (f64, usize, bool),
-        mut sweep: impl FnMut(&mut Self) -> f64,
-    ) {
+    /// Repeats Gauss–Seidel sweeps. `sweep` returns the largest change of a rate.
+    pub(super) fn sweep_until(&mut self, stopping: Stopping, mut sweep: impl FnMut(&mut Self) -> f64) {
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
-        for left in (0..sweeps).rev() {
-            if sweep(self) <= tolerance || left == 0 {
+        for number in 1.. {
+            if stopping.ends(number, sweep(self)) {
                 return;
             }
-            if !is_fast {
+            if !stopping.is_fast {
                 continue;
             }
             for (row, &further) in anderson.go_further(&self.unknown).iter().enumerate() {

@@ -115,7 +115,7 @@ fn at(words: &[&str]) -> Option<FoundKey> {
     found
 }
 
-/// Returns the keys of the tables that a value of `kind` at `path` can be.
+/// Returns the keys of all tables that can stand at `path`, where the language asks for a value of `kind`.
 fn keys_in(path: &str, kind: &'static Kind) -> Vec<FoundKey> {
     tables(kind).into_iter().flat_map(|table| keys_of(path, table)).collect()
 }

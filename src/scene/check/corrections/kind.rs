@@ -103,7 +103,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
         };
         words.iter().map(worth).sum()
     };
-    // Only a force by formulas has formulas of the place in a list.
+    // Of all forces, only those by formulas have texts in a list: `force = ["-k*x", 0, 0]`.
     let has_text = |entry: &Entry| match &entry.node.value {
         Value::Array(items) => items.iter().any(|item| item.as_str().is_some()),
         _ => false,
