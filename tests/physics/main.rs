@@ -26,6 +26,7 @@ mod impacts;
 mod joints;
 mod laws;
 mod order;
+mod origin;
 mod reactions;
 mod rotation;
 mod same_bits;
