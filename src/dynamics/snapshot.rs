@@ -136,13 +136,16 @@ pub(crate) fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> 
 }
 
 impl BodySnapshot {
-    /// Returns true if the body's position and velocities are finite.
+    /// The largest coordinate (m), velocity (m/s) and angular velocity (rad/s) of a motion. The squares of larger numbers may not be finite.
+    const LARGEST: f64 = 1e100;
+
+    /// Returns true if the body's position and velocities are finite, and so small that their squares are finite, too.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        self.location.is_finite()
-            && self.orientation.is_finite()
-            && self.velocity.is_finite()
-            && self.angular_velocity.is_finite()
+        let is_small =
+            |vector: DVec3| vector.abs().max_element() <= BodySnapshot::LARGEST && !vector.is_nan();
+        self.orientation.is_finite()
+            && [self.location, self.velocity, self.angular_velocity].into_iter().all(is_small)
     }
 
     /// Returns the position (m) and the velocity (m/s) of a point of the body, world axes. The point is given in body axes, relative to

@@ -19,15 +19,20 @@ pub struct Buoyancy {
     pub density: f64,
     /// The height of the liquid's surface above the origin, in the direction opposite to gravity, m.
     pub level: f64,
-    /// The acceleration g of gravity, world axes, m/s²; not zero.
+    /// The acceleration g of gravity, world axes, m/s². Without gravity there is no buoyancy.
     pub gravity: DVec3,
 }
 
 impl Buoyancy {
+    /// Returns the unit vector opposite to gravity; `None` without gravity.
+    fn up(&self) -> Option<DVec3> {
+        self.gravity.try_normalize().map(|down| -down)
+    }
+
     /// Calls `see` for each present body with its index, its submerged volume (m³), and the first moment of that volume about the centre
     /// of mass (world axes, m⁴).
     fn each(&self, moment: &Moment, mut see: impl FnMut(usize, f64, DVec3)) {
-        let up = -self.gravity.normalize();
+        let Some(up) = self.up() else { return };
         for (body, shape) in &self.bodies {
             let i = body.index();
             if !moment.model.is_present(i) {
@@ -51,7 +56,7 @@ impl Force for Buoyancy {
     }
 
     fn potential(&self, moment: &Moment) -> f64 {
-        let up = -self.gravity.normalize();
+        let Some(up) = self.up() else { return 0.0 };
         let mut sum = 0.0;
         self.each(moment, |i, volume, arm| {
             if moment.model.movable()[i] {
@@ -100,6 +105,15 @@ mod tests {
         );
         force.level = -20.0;
         assert_eq!(loads(&force, &model, &state).force[0].length(), 0.0);
+    }
+
+    #[test]
+    fn without_gravity_nothing_is_carried() {
+        let (mut force, model, state) = floating(&Shape::Box { size: DVec3::ONE });
+        force.gravity = DVec3::ZERO;
+        let loads = loads(&force, &model, &state);
+        assert_eq!((loads.force[0], loads.torque[0]), (DVec3::ZERO, DVec3::ZERO));
+        assert_eq!(force.potential(&Moment { time: 0.0, state: &state, model: &model }), 0.0);
     }
 
     /// The torque must equal minus the derivative of the potential with respect to small rotations about each world axis.
