@@ -217,7 +217,7 @@ impl RunError {
     }
 
     /// Returns advice on how to correct the error. `None` if the message says enough.
-    pub fn help(&self) -> Option<&'static str> {
+    pub fn help(&self) -> Option<String> {
         match self {
             RunError::Simulate(error) => error.help(),
             RunError::Emit(_) => None,

@@ -119,6 +119,7 @@ impl World {
         if !self.is_settled {
             self.is_settled = true;
             let accounts = self.state.accounts;
+            self.solver.expect_step(self.step);
             let mut system = System::new(&self.model, &mut self.solver);
             if system.is_constrained() {
                 self.ledger.see_given(&self.model, &self.state);

@@ -68,9 +68,9 @@ impl OutputError {
     }
 
     /// Returns advice on how to correct the error. `None` if the error message alone is enough.
-    pub fn help(&self) -> Option<&'static str> {
-        match self {
-            OutputError::Run(error) => error.help(),
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            OutputError::Run(error) => return error.help(),
             OutputError::NotOurs(_) => Some("name an empty or a new folder with `-o`"),
             OutputError::FromElsewhere(..) => {
                 Some("look at them, and remove or rename them; or name another folder with `-o`")
@@ -91,7 +91,8 @@ impl OutputError {
                 "make room, and run the same command again; until then, its folder says that not all scripts are there",
             ),
             _ => None,
-        }
+        };
+        help.map(str::to_owned)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Source spans in a scene's text, for errors that occur during a run.
 
+use std::collections::BTreeMap;
+
 use crate::diagnostic::Span;
 
 /// The source spans of names and values in a scene's text, for errors that occur during a run.
@@ -9,6 +11,8 @@ pub struct Places {
     pub bodies: Vec<Span>,
     /// The source span of each joint's name, in the order of [`Scene::joints`](super::Scene::joints).
     pub joints: Vec<Span>,
+    /// The source span of each force's name.
+    pub forces: BTreeMap<String, Span>,
     /// The source span of the value of `simulation.contacts`. `None` if the scene does not set it.
     pub contacts: Option<Span>,
     /// The source span of the key `camera`. `None` if the scene has no `[camera]` table.

@@ -1,9 +1,9 @@
 //! Converts a simulation error into a diagnostic.
 
-use super::SimulateError;
+use super::{Cause, Diverged, ShorterStep, SimulateError};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
 use crate::dynamics::Motor;
-use crate::scene::{ForceKind, JointKind, Scene};
+use crate::scene::{JointKind, Scene};
 
 impl SimulateError {
     /// The diagnostic code of the error.
@@ -56,15 +56,23 @@ impl SimulateError {
                 let (spans, sources) = &stuck.place;
                 (spans.iter().fold(diagnostic, |diagnostic, span| diagnostic.at(*span, "")), sources.clone())
             }
-            SimulateError::Diverged(_) | SimulateError::Recording(_) => (diagnostic, Sources::default()),
+            SimulateError::Diverged(diverged) => {
+                let (span, sources) = &diverged.place;
+                let label = diverged.cause.as_ref().map_or(String::new(), |Cause { force, size }| {
+                    format!("at the start, {force} acts on `{}` with {size:.1e} N or N m", diverged.body)
+                });
+                let at = |diagnostic: Diagnostic, span: &_| diagnostic.at(*span, label.clone());
+                (span.iter().fold(diagnostic, at), sources.clone())
+            }
+            SimulateError::Recording(_) => (diagnostic, Sources::default()),
         };
         Report { sources, diagnostics: vec![diagnostic] }
     }
 
     /// Suggests a remedy. `None` if the error message alone is enough.
-    pub fn help(&self) -> Option<&'static str> {
-        match self {
-            SimulateError::Diverged(diverged) => Some(diverged.remedy),
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            SimulateError::Diverged(diverged) => return diverged.help(),
             SimulateError::Broken(broken) if broken.time == 0.0 => Some(
                 "with the other joints of its bodies, it cannot: their lengths and points contradict each other",
             ),
@@ -90,34 +98,28 @@ impl SimulateError {
                 "it goes to a file below /var/tmp, or where TMPDIR says: make room there, or name another folder",
             ),
             SimulateError::Undefined(_) => None,
-        }
+        };
+        help.map(str::to_owned)
     }
 }
 
-/// Returns the advice for a run that diverged. Recommends a smaller step only where one can help.
-pub(super) fn remedy(scene: &Scene) -> &'static str {
-    let simulation = &scene.simulation;
-    if simulation.method.adaptive {
-        return "the integrator chooses its own steps, so the motion itself leaves the range of numbers: look for a force that grows \
-                without bound";
-    }
-    // The largest step, relative to the time scale of a spring or a damper, that is surely stable.
-    const STABLE: f64 = 0.1;
-    let step = simulation.step;
-    let lightest = scene.bodies.iter().map(|body| body.start.mass).fold(f64::INFINITY, f64::min);
-    let needs_step = |kind: &ForceKind| match kind {
-        ForceKind::Constant(_) => false,
-        ForceKind::Spring { links, .. } => links.iter().any(|link| {
-            link.stiffness * step * step > STABLE * lightest || link.damping * step > STABLE * lightest
-        }),
-        ForceKind::Drag(drag) => drag.quadratic > 0.0 || drag.linear * step > STABLE * lightest,
-        _ => true,
-    };
-    let is_bound = !scene.joints.is_empty() || simulation.contacts.is_some();
-    if is_bound || scene.forces.iter().any(|force| needs_step(&force.kind)) {
-        "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper"
-    } else {
-        "a smaller step does not help: a force, a velocity or a mass is so extreme that the motion leaves the range of numbers"
+impl Diverged {
+    /// Recommends a shorter step where that helps.
+    fn help(&self) -> Option<String> {
+        match (self.shorter, &self.cause) {
+            (ShorterStep::Helps(step), _) => Some(format!(
+                "a smaller `simulation.step` helps: with {step:e} s, the motion stays in bounds until then"
+            )),
+            (ShorterStep::IsUntried, _) => Some(
+                "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper"
+                    .to_owned(),
+            ),
+            (ShorterStep::IsUseless, Some(_)) => None,
+            (ShorterStep::IsUseless, None) => Some(
+                "a smaller `simulation.step` does not help: look for a value in another unit, or a force that grows with the motion"
+                    .to_owned(),
+            ),
+        }
     }
 }
 

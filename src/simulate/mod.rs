@@ -79,15 +79,120 @@ pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 pub use workload::{Workload, evaluations};
 
-/// The error of a run with a non-finite state: the timestep is too long for the method, or the forces are too large.
-#[derive(Clone, Debug, PartialEq)]
+/// The error of a run whose motion leaves the range of numbers: the timestep is too long for the method, or the forces are too large.
+#[derive(Clone, Debug)]
 pub struct Diverged {
-    /// The name of the first body with a non-finite position or velocity.
+    /// The name of the first body with such a position or velocity.
     pub body: String,
-    /// The time of the frame with the non-finite state, s.
+    /// The time of the frame with this state, s.
     pub time: f64,
-    /// The advice to the user.
-    pub remedy: &'static str,
+    /// What pushes the body far more than all others at the start.
+    pub cause: Option<Cause>,
+    /// What a shorter step changes.
+    pub shorter: ShorterStep,
+    /// The span of the name of the force that causes the motion, or else of the body, and the texts that the scene was read from.
+    pub place: (Option<diagnostic::Span>, Sources),
+}
+
+/// What pushes a body, alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cause {
+    /// The force, as a message names it, such as "the force `wind`" or "gravity".
+    pub force: String,
+    /// The size of the force at the start, N, or of its torque, N m, if that is the larger number.
+    pub size: f64,
+}
+
+/// What a shorter step changes for a run that diverges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShorterStep {
+    /// With this step, s, the run keeps its energy until then.
+    Helps(f64),
+    /// The run diverges also with far shorter steps.
+    IsUseless,
+    /// The trial would take too long.
+    IsUntried,
+}
+
+impl PartialEq for Diverged {
+    /// Ignores the span and the texts of the scene.
+    fn eq(&self, other: &Diverged) -> bool {
+        (&self.body, self.time, &self.cause) == (&other.body, other.time, &other.cause)
+    }
+}
+
+impl Diverged {
+    /// A force that is this many times as large as all others together causes the motion alone.
+    const ALONE: f64 = 10.0;
+    /// A trial with a shorter step may take this number of steps, times the number of bodies.
+    const TRIAL: f64 = 1e5;
+
+    fn of(scene: &Scene, body: BodyId, time: f64) -> Diverged {
+        let (cause, name) = Diverged::cause(scene, body.index()).unzip();
+        let of_force = name.and_then(|name: String| scene.places.forces.get(&name));
+        let span = of_force.or(scene.places.bodies.get(body.index()));
+        let place = (span.copied(), scene.warnings.sources.clone());
+        let shorter = ShorterStep::of(scene, time);
+        Diverged { body: scene.bodies[body.index()].name.to_string(), time, cause, shorter, place }
+    }
+
+    /// Returns what alone moves a body at the start, with its name among the forces.
+    fn cause(scene: &Scene, body: usize) -> Option<(Cause, String)> {
+        let world = build::world(scene);
+        let moment = dynamics::Moment { time: 0.0, state: world.state(), model: world.model() };
+        let size = |force: &crate::scene::Force| {
+            let room = vec![glam::DVec3::ZERO; world.len()];
+            let mut loads = dynamics::Loads { force: room.clone(), torque: room, ..Default::default() };
+            force.kind.acting().iter().for_each(|force| force.apply(&moment, &mut loads));
+            loads.force[body].abs().max_element().max(loads.torque[body].abs().max_element())
+        };
+        let own = &scene.bodies[body].start;
+        let mut all = vec![
+            ("gravity".to_owned(), String::new(), (own.mass * scene.simulation.gravity).abs().max_element()),
+            ("its own `force`".to_owned(), String::new(), own.force.abs().max_element()),
+            ("its own `torque`".to_owned(), String::new(), own.torque.abs().max_element()),
+        ];
+        all.extend(
+            scene
+                .forces
+                .iter()
+                .map(|force| (format!("the force `{}`", force.name), force.name.clone(), size(force))),
+        );
+        all.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
+        let others: f64 = all[1..].iter().map(|(_, _, size)| size).sum();
+        let (force, name, size) = all.swap_remove(0);
+        (size > Diverged::ALONE * others).then_some((Cause { force, size }, name))
+    }
+}
+
+impl ShorterStep {
+    /// Repeats a run that diverges at `time`, s, with shorter steps.
+    fn of(scene: &Scene, time: f64) -> ShorterStep {
+        let simulation = &scene.simulation;
+        // A method that chooses its steps has chosen them short enough, and no step changes the start.
+        if !simulation.step.is_finite() || time == 0.0 {
+            return ShorterStep::IsUseless;
+        }
+        let mut trial = scene.clone();
+        let mut shorter = ShorterStep::IsUntried;
+        for part in [1e1, 1e2, 1e3, 1e4] {
+            // One digit is enough.
+            let step = format!("{:.0e}", simulation.step / part).parse().unwrap_or(simulation.step / part);
+            #[allow(clippy::cast_precision_loss, reason = "no scene has 2^53 bodies")]
+            if time / step * scene.bodies.len() as f64 > Diverged::TRIAL {
+                return shorter;
+            }
+            trial.simulation.step = step;
+            let mut dynamics = build::dynamics(&trial, &dynamics::PairCounter::default());
+            let reached = dynamics.advance(time, &[], &mut |_| {}).and_then(|()| dynamics.snapshot());
+            let is_kept = |snapshot: &dynamics::Snapshot| snapshot.balance.drift.abs() < 1.0;
+            if reached.and_then(dynamics::Snapshot::checked).is_ok_and(|snapshot| is_kept(&snapshot)) {
+                return ShorterStep::Helps(step);
+            }
+            shorter = ShorterStep::IsUseless;
+        }
+        shorter
+    }
 }
 
 /// The reason why a run cannot be simulated or read.
@@ -245,8 +350,7 @@ impl SimulateError {
     fn of(scene: &Scene, error: Breakdown) -> SimulateError {
         match error {
             Breakdown::Diverged { body, time } => {
-                let body = scene.bodies[body.index()].name.to_string();
-                SimulateError::Diverged(Box::new(Diverged { body, time, remedy: diagnose::remedy(scene) }))
+                SimulateError::Diverged(Box::new(Diverged::of(scene, body, time)))
             }
             Breakdown::Undefined { force, at } => match Undefined::of(scene, force, &at) {
                 Some(undefined) => SimulateError::Undefined(Box::new(undefined)),
@@ -277,7 +381,11 @@ impl SimulateError {
 
 impl std::fmt::Display for Diverged {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the run diverged: at t = {} s `{}` is at no finite place", self.time, self.body)
+        let Diverged { body, time, .. } = self;
+        write!(
+            f,
+            "the run diverged: at t = {time} s `{body}` is at no finite place, or beyond 1e100 m, m/s or rad/s"
+        )
     }
 }
 

@@ -359,6 +359,36 @@ fn a_pulley_is_atwoods_machine() {
     }
 }
 
+/// Checks motors whose torque is far too large for the time until they reach their speed to be resolved: each gives the speed at once, to
+/// itself and through a gear, and goes on with it. A motor at a stop stays there.
+#[test]
+fn a_motor_of_any_strength_keeps_its_speed() {
+    for method in that_keep_joints() {
+        for limit in [1e6, 1e12, 1e30] {
+            let mut world = falling(method, 4e-3);
+            let first = wheel(&mut world, DVec3::ZERO);
+            let second = wheel(&mut world, DVec3::X * 3.0);
+            let motor = |speed: f64| Some(Motor::Speed { speed, limit });
+            let driven = axle(&world, first, Freedom { limits: None, motor: motor(10.0) });
+            let geared = axle(&world, second, Freedom { limits: None, motor: None });
+            let joints = [driven.coordinate(), geared.coordinate()];
+            world.add_constraint(driven);
+            world.add_constraint(geared);
+            world.add_constraint(Gear { joints, ratio: -2.0 });
+            let stopped = wheel(&mut world, DVec3::X * 9.0);
+            let limits = Some([0.0, 1.0]);
+            world.add_constraint(axle(&world, stopped, Freedom { limits, motor: motor(-10.0) }));
+            world.advance_to(1.0);
+            let case = format!("{} {limit:e}", method.name);
+            let [first, second, stopped] = [first, second, stopped].map(|id| spin(&world, id));
+            assert!((first - 10.0).abs() < 1e-9, "{case}: {first}");
+            // The second wheel turns at `ratio` times the speed of the first.
+            assert!((second + 2.0 * first).abs() < 1e-8, "{case}: {second}");
+            assert!(stopped.abs() < 1e-9, "{case}: {stopped}");
+        }
+    }
+}
+
 /// Checks that events within a step keep the order of a method: a rope becomes taut, a limit is reached, and a motor reaches its speed.
 #[test]
 fn events_keep_the_order_of_a_method() {

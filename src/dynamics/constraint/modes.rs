@@ -123,6 +123,14 @@ impl Solver {
                 Law::Friction { .. } => (Mode::Open, false),
             };
         }
+        self.members.copy_from_slice(&members);
+        if self.start_motors(model, state, &touched, &rates, &mut can_hold) {
+            self.measure(t, state);
+            members.copy_from_slice(&self.members);
+            if let Some(structure) = &self.structure {
+                jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
+            }
+        }
         let modes = self.modes.clone();
         self.undecided = None;
         for _ in 0..=CAUGHT {
@@ -233,6 +241,71 @@ impl Solver {
         state.accounts.limits += taken;
         state.accounts.impacts += at_contacts;
         size
+    }
+
+    /// Gives motors their speed by an impulse if their limit reaches it within an instant: the time until then would be too short for
+    /// events. Books the work of the impulse, and returns true if there is one. A motor that would push a body into a stop gets none.
+    fn start_motors(
+        &mut self,
+        model: &Model,
+        state: &mut State,
+        touched: &[bool],
+        rates: &[f64],
+        can_hold: &mut [bool],
+    ) -> bool {
+        let n = self.rows.len();
+        let mut fast: Vec<bool> = self.modes.iter().map(|mode| matches!(mode, Mode::Pushed(_))).collect();
+        if !fast.contains(&true) {
+            return false;
+        }
+        let decided = self.modes.clone();
+        let is_motor = |law: &Law| matches!(law, Law::SpeedMotor { .. });
+        // Each round takes out the motors that are too weak.
+        let mut are_found = false;
+        while !are_found && fast.contains(&true) {
+            for i in 0..n {
+                let is_active = self.laws[i] == Law::Equality
+                    || is_motor(&self.laws[i]) && (fast[i] || decided[i] == Mode::Held);
+                self.modes[i] = if is_active { Mode::Held } else { Mode::Open };
+            }
+            self.hold();
+            for (value, rate) in self.unknown.iter_mut().zip(rates) {
+                *value = -rate;
+            }
+            self.solve();
+            are_found = true;
+            for (i, fast) in fast.iter_mut().enumerate() {
+                let Law::SpeedMotor { limit } = self.laws[i] else { continue };
+                if *fast && self.unknown[i].abs() > limit * self.instant {
+                    (*fast, are_found) = (false, false);
+                }
+            }
+        }
+        self.modes = decided;
+        let slight = SLIGHT * self.largest_rate;
+        let Solver { structure: Some(structure), jacobian, unknown, rows, laws, members, .. } = self else {
+            return false;
+        };
+        if !are_found {
+            return false;
+        }
+        let mut moved = members.clone();
+        let mut after = vec![0.0; n];
+        jacobian::move_members(structure, jacobian, unknown, &mut moved);
+        jacobian::rates(structure, jacobian, &moved, rows, &mut after);
+        if (0..n).any(|i| touched[i] && after[i] < rates[i].min(0.0) - slight) {
+            return false;
+        }
+        jacobian::push(structure, jacobian, unknown, model, state);
+        jacobian::book(rows.iter().map(|row| row.rate), unknown, state);
+        state.accounts.motors += (0..n)
+            .filter(|&i| is_motor(&laws[i]))
+            .map(|i| 0.5 * unknown[i] * (rates[i] + after[i]))
+            .sum::<f64>();
+        for i in (0..n).filter(|&i| fast[i]) {
+            (self.modes[i], can_hold[i]) = (Mode::Held, true);
+        }
+        true
     }
 
     /// Stops the motion along the active constraint rows by impulses, and books the work of these impulses.

@@ -41,6 +41,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) begun: f64,
     /// The length of the present step, s.
     pub(super) span: f64,
+    /// A motor that reaches its speed within this time, s, gets the speed by an impulse.
+    pub(super) instant: f64,
     /// True if the equations of sliding friction had no solution in the present step.
     pub(super) is_unsolved: bool,
     /// True while [`Solver::aim`] corrects initial velocities, so that the constraints hold at the end of the step.
@@ -97,7 +99,15 @@ pub(in crate::dynamics) struct Solver {
     pub(super) failure: Option<Breakdown>,
 }
 
+/// An instant, as a fraction of a step: two events that are closer to each other cannot be told apart reliably.
+const INSTANT: f64 = 1e-8;
+
 impl Solver {
+    /// Tells the solver the length of the next step, s.
+    pub(in crate::dynamics) fn expect_step(&mut self, length: f64) {
+        self.instant = if length.is_finite() { INSTANT * length } else { 0.0 };
+    }
+
     /// Discards the layout of the constraints. Must be called whenever bodies or constraints have changed.
     pub(in crate::dynamics) fn forget(&mut self) {
         self.structure = None;

@@ -37,6 +37,7 @@ impl World {
         self.settle();
         self.ledger.close(&self.model, t, &self.state);
         self.end = t + dt;
+        self.solver.expect_step(dt);
         self.solver.calm();
         self.check_rest(t);
         if !self.step_apart(t, dt, moments, see) {

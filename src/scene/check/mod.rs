@@ -358,6 +358,7 @@ fn build(
         povray,
         places: Places {
             joints: places_of_joints,
+            forces: root.named("force").iter().map(|(name, span, _)| ((*name).to_owned(), *span)).collect(),
             bodies: root.bodies().map(NamedTable::span).collect(),
             contacts: root.table("simulation").span("contacts"),
             camera: root.key_span("camera"),
