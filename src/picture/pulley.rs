@@ -10,11 +10,16 @@ const PIECES: u32 = 10;
 /// The largest distance between a wheel's center and its corner of the rope, in radii of the wheel.
 const FARTHEST: f64 = 3.0;
 
-/// The path of a rope from one end over one or two wheels to the other end.
+/// The largest distance between the center of a wheel on a body and its corner of the rope, in radii of the wheel. The wheel touches the
+/// point of the body, so that it does not seem to float.
+const FARTHEST_ON_BODY: f64 = 1.0;
+
+/// The path of a rope from one end over wheels to the other end.
 pub(super) struct RopePath {
+    /// The ends of the rope, m.
     ends: [DVec3; 2],
-    /// The corners of the rope, as if the wheels had no size, m.
-    over: [DVec3; 2],
+    /// The length of the rope if the wheels had no size, in which the last part counts as often as in the rope's length, m.
+    taut: f64,
     /// The arcs around the wheels.
     pub(super) turns: Vec<WheelArc>,
 }
@@ -29,23 +34,36 @@ pub(super) struct WheelArc {
     points: Vec<DVec3>,
 }
 
+/// A point of a rope: an end or a corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RopePoint {
+    /// The position of the point, m.
+    pub(super) place: DVec3,
+    /// Whether the point is on a body.
+    pub(super) is_on_body: bool,
+}
+
 impl RopePath {
-    /// Computes the path from the first point over two corners to the last point, m, with wheels of the given radius. Coinciding corners
-    /// share one wheel.
-    pub(super) fn new([from, first, second, to]: [DVec3; 4], radius: f64) -> RopePath {
-        let turns = if first.distance(second) > 1e-9 * first.distance(from) {
-            vec![WheelArc::new(from, first, second, radius), WheelArc::new(first, second, to, radius)]
-        } else {
-            vec![WheelArc::new(from, first, to, radius)]
+    /// Computes the path from the first point over corners to the last point, with wheels of the given radius, m. Neighboring corners at
+    /// the same place share one wheel. The last part counts `ratio` times in the length of the rope.
+    pub(super) fn new(path: &[RopePoint], radius: f64, ratio: f64) -> RopePath {
+        let ways: Vec<f64> = path.windows(2).map(|ends| ends[0].place.distance(ends[1].place)).collect();
+        let taut = ways.iter().sum::<f64>() + (ratio - 1.0) * ways.last().unwrap_or(&0.0);
+        let mut corners = path.to_vec();
+        corners.dedup_by(|next, before| next.place.distance(before.place) <= 1e-9 * taut);
+        let turn = |way: &[RopePoint]| {
+            let farthest = if way[1].is_on_body { FARTHEST_ON_BODY } else { FARTHEST };
+            WheelArc::new([0, 1, 2].map(|i| way[i].place), radius, farthest)
         };
-        RopePath { ends: [from, to], over: [first, second], turns }
+        let turns = corners.windows(3).map(turn).collect();
+        let end = |end: Option<&RopePoint>| end.map_or(DVec3::ZERO, |end| end.place);
+        RopePath { ends: [end(path.first()), end(path.last())], taut, turns }
     }
 
     /// The points of the rope, m. Half of the slack hangs in each outer part. The last part counts `ratio` times in `length`, as in a
     /// block and tackle.
     pub(super) fn points(&self, length: f64, ratio: f64, down: Option<DVec3>) -> Vec<DVec3> {
-        let [first, last] = [0, 1].map(|i| self.ends[i].distance(self.over[i]));
-        let slack = 0.5 * (length - first - ratio * last).max(0.0);
+        let slack = 0.5 * (length - self.taut).max(0.0);
         // A very small slack is a rounding error.
         let slack = if slack > 1e-9 * length { slack } else { 0.0 };
         let part = |from: DVec3, to: DVec3, slack: f64| hanging([from, to], from.distance(to) + slack, down);
@@ -65,8 +83,9 @@ impl RopePath {
 }
 
 impl WheelArc {
-    /// Places a wheel into the corner of a rope from `from` over `corner` to `to`, so that it touches both parts of the rope.
-    fn new(from: DVec3, corner: DVec3, to: DVec3, radius: f64) -> WheelArc {
+    /// Places a wheel into the corner of a rope from `from` over `corner` to `to`, so that it touches both parts of the rope, at most
+    /// `farthest` radii from the corner.
+    fn new([from, corner, to]: [DVec3; 3], radius: f64, farthest: f64) -> WheelArc {
         let back = (from - corner).normalize_or(DVec3::NEG_Y);
         let on = (to - corner).normalize_or(DVec3::NEG_Y);
         let across = |way: DVec3| way.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
@@ -78,7 +97,7 @@ impl WheelArc {
             if side.y > 0.0 { -side } else { side }
         });
         let sine = inward.cross(back).length();
-        let centre = corner + inward * (radius / sine.max(1.0 / FARTHEST));
+        let centre = corner + inward * (radius / sine.max(1.0 / farthest));
         // Angles are measured about the axis from the direction `inward`. The rope touches the wheel first at `begin`, and goes around the
         // far side to `end`.
         let side = axis.cross(inward);
@@ -109,15 +128,19 @@ impl WheelArc {
 mod tests {
     use super::*;
 
+    fn fixed(place: DVec3) -> RopePoint {
+        RopePoint { place, is_on_body: false }
+    }
+
     #[test]
     fn a_rope_goes_straight_to_its_wheels_and_around_them() {
         // The rope goes up, across and down again. The wheels are inside its corners.
         let corners = [[-1.0, 0.0], [-1.0, 2.0], [1.0, 2.0], [1.0, -3.0]];
-        let course = RopePath::new(corners.map(|[x, y]| DVec3::new(x, y, 0.0)), 0.1);
+        let course = RopePath::new(&corners.map(|[x, y]| fixed(DVec3::new(x, y, 0.0))), 0.1, 1.0);
         let centres: Vec<DVec3> = course.turns.iter().map(|turn| turn.centre).collect();
         assert!(centres[0].abs_diff_eq(DVec3::new(-0.9, 1.9, 0.0), 1e-12), "{centres:?}");
         assert!(centres[1].abs_diff_eq(DVec3::new(0.9, 1.9, 0.0), 1e-12), "{centres:?}");
-        let points = course.points(2.0 + 5.0, 1.0, Some(DVec3::NEG_Y));
+        let points = course.points(2.0 + 2.0 + 5.0, 1.0, Some(DVec3::NEG_Y));
         for point in &points {
             let is_on = |centre: &DVec3| (point.distance(*centre) - 0.1).abs() < 1e-12;
             assert!(point.x.abs() <= 1.0 + 1e-12 && point.y <= 2.0 + 1e-12);
@@ -133,8 +156,9 @@ mod tests {
 
     #[test]
     fn what_there_is_too_much_of_a_rope_hangs() {
-        let corners = [[-1.0, 0.0], [0.0, 2.0], [0.0, 2.0], [1.0, 0.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
-        let course = RopePath::new(corners, 0.1);
+        let corners =
+            [[-1.0, 0.0], [0.0, 2.0], [0.0, 2.0], [1.0, 0.0]].map(|[x, y]| fixed(DVec3::new(x, y, 0.0)));
+        let course = RopePath::new(&corners, 0.1, 1.0);
         assert_eq!(course.turns.len(), 1);
         let length = |slack: f64| {
             let points = course.points(2.0 * 5.0_f64.sqrt() + slack, 1.0, Some(DVec3::NEG_Y));
@@ -142,5 +166,23 @@ mod tests {
         };
         let grown = length(0.5) - length(0.0);
         assert!((0.47..0.5).contains(&grown), "{grown}");
+    }
+
+    /// The rope of a block and tackle runs down to a wheel and up again. Its pieces are as long as the rope, apart from the wheels.
+    #[test]
+    fn a_rope_goes_over_any_number_of_wheels() {
+        let path = [[-1.0, 3.0], [-0.8, 0.0], [-0.4, 3.0], [0.0, 0.0], [0.4, 3.0], [1.0, 1.0]];
+        let path = path.map(|[x, y]| DVec3::new(x, y, 0.0));
+        let points = path.map(|place| RopePoint { place, is_on_body: place.y == 0.0 });
+        let course = RopePath::new(&points, 0.05, 1.0);
+        assert_eq!(course.turns.len(), 4);
+        let length = |path: &[DVec3]| path.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        let points = course.points(length(&path), 1.0, Some(DVec3::NEG_Y));
+        for (turn, corner) in course.turns.iter().zip(&path[1..]) {
+            let farthest = if corner.y == 0.0 { FARTHEST_ON_BODY } else { FARTHEST };
+            assert!(turn.centre.distance(*corner) <= 0.05 * farthest + 1e-12, "{}", turn.centre);
+        }
+        let missing = length(&path) - length(&points);
+        assert!((0.0..1.5).contains(&missing), "{missing}");
     }
 }

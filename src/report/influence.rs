@@ -119,8 +119,7 @@ fn of_joint(scene: &Scene, joint: &JointKind) -> OutsideInfluence {
         JointKind::Hinge(_) | JointKind::Slider(_) | JointKind::Fixed(_) => {
             when(joint.between().iter().any(is_held), OutsideInfluence::BOTH)
         }
-        // The rope of a pulley runs over two points of the world.
-        JointKind::Pulley(_) => OutsideInfluence::BOTH,
+        JointKind::Pulley(pulley) => when(pulley.path().iter().any(is_held), OutsideInfluence::BOTH),
         JointKind::Gear(gear) => {
             let ends = gear.joints.iter().flat_map(|joint| joint.between);
             when(ends.into_iter().any(|end| is_held(&end)), OutsideInfluence::BOTH)

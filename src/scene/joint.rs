@@ -43,7 +43,7 @@ pub enum JointKind {
     Rod(Rod),
     /// A rope: keeps the distance between two points from exceeding the length of the rope.
     Rope(Rope),
-    /// A pulley: a rope that runs over two points.
+    /// A pulley: a rope that runs over points.
     Pulley(Pulley),
     /// A gear: couples the coordinates of two hinges or sliders.
     Gear(Gear),
@@ -68,7 +68,7 @@ impl JointKind {
             JointKind::Fixed(fixed) => Arc::new(*fixed),
             JointKind::Rod(rod) => Arc::new(*rod),
             JointKind::Rope(rope) => Arc::new(*rope),
-            JointKind::Pulley(pulley) => Arc::new(*pulley),
+            JointKind::Pulley(pulley) => Arc::new(pulley.clone()),
             JointKind::Gear(gear) => Arc::new(*gear),
         }
     }
@@ -81,8 +81,8 @@ impl JointKind {
             | JointKind::Slider(Slider { between, .. })
             | JointKind::Fixed(Fixed { between, .. })
             | JointKind::Rod(Rod { between, .. })
-            | JointKind::Rope(Rope { between, .. })
-            | JointKind::Pulley(Pulley { between, .. }) => *between,
+            | JointKind::Rope(Rope { between, .. }) => *between,
+            JointKind::Pulley(pulley) => pulley.between(),
             JointKind::Gear(gear) => gear.joints.map(|joint| joint.between[1]),
         }
     }

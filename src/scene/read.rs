@@ -88,7 +88,17 @@ fn items<'a>(node: &'a Node, expected: &Kind, min: usize, max: usize) -> Result<
 /// Returns the items of a list of the given kind. Checks the number of items, but not the items themselves.
 pub(super) fn list<'a>(node: &'a Node, kind: &Kind) -> Result<&'a [Node], Diagnostic> {
     match kind {
-        Kind::List { min, max, .. } => items(node, kind, *min, *max),
+        Kind::List { of, min, max } => {
+            let items = items(node, kind, *min, *max)?;
+            // Three numbers are a point: the one item, without the list around it.
+            let is_item = items.len() == 3 && items.iter().all(|item| item.as_number().is_some());
+            if is_item && of.takes(&node.value) && !items.iter().any(|item| of.takes(&item.value)) {
+                let message =
+                    format!("expected {}, found such a value without a list around it", kind.in_words());
+                return Err(Diagnostic::error(Code::WrongType, message).at(node.span, ""));
+            }
+            Ok(items)
+        }
         _ => Err(wrong_type(node, kind)),
     }
 }

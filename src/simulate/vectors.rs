@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Frame;
-use crate::dynamics::{Anchor, BodySnapshot, Pulley, Shape};
+use crate::dynamics::{Anchor, BodySnapshot, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// Returns the vector of a body's velocity, acceleration or force, in world axes and SI units.
@@ -90,7 +90,7 @@ pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     });
     let joints = scene.joints.iter().filter(|joint| joint.look.is_some());
     let joints = joints.flat_map(|joint| match &joint.kind {
-        JointKind::Pulley(Pulley { between, over, .. }) => [*between, *over].concat(),
+        JointKind::Pulley(pulley) => pulley.path().to_vec(),
         kind => kind.between().to_vec(),
     });
     links.flatten().flat_map(|link| link.between).chain(joints).filter_map(|end| match end {

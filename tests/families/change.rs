@@ -202,7 +202,8 @@ impl Change {
                 Kind::Rope { between: ends(*between), length: length * self.unit(1, 0, 0) }
             }
             Kind::Pulley { between, over, ratio } => {
-                Kind::Pulley { between: ends(*between), over: ends(*over), ratio: *ratio }
+                let over = over.iter().map(|end| self.end(*end)).collect();
+                Kind::Pulley { between: ends(*between), over, ratio: *ratio }
             }
             Kind::Gear { joints, ratio } => {
                 let slides = joints.map(|joint| matches!(scene.joints[joint].kind, Kind::Slider { .. }));

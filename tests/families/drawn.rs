@@ -117,7 +117,7 @@ pub(crate) enum Kind {
     },
     Pulley {
         between: [End; 2],
-        over: [End; 2],
+        over: Vec<End>,
         ratio: f64,
     },
     /// A gear between two joints, which are given by their indices.
@@ -263,8 +263,9 @@ impl Drawn {
         }
     }
 
-    fn ends(&self, [a, b]: [End; 2]) -> String {
-        format!("[{}, {}]", self.end(a), self.end(b))
+    fn ends(&self, ends: &[End]) -> String {
+        let ends: Vec<String> = ends.iter().map(|end| self.end(*end)).collect();
+        format!("[{}]", ends.join(", "))
     }
 
     fn write_joint(&self, joint: &Joint, text: &mut String) -> std::fmt::Result {
@@ -288,7 +289,7 @@ impl Drawn {
         | Kind::Rope { between, .. }
         | Kind::Pulley { between, .. } = kind
         {
-            writeln!(text, "between = {}", self.ends(*between))?;
+            writeln!(text, "between = {}", self.ends(between))?;
         }
         match kind {
             Kind::Ball { at, .. }
@@ -302,7 +303,7 @@ impl Drawn {
             Kind::Rod { .. } => {}
             Kind::Rope { length, .. } => writeln!(text, "length = {length:?}")?,
             Kind::Pulley { over, ratio, .. } => {
-                writeln!(text, "over = {}\nratio = {ratio:?}", self.ends(*over))?;
+                writeln!(text, "over = {}\nratio = {ratio:?}", self.ends(over))?;
             }
             Kind::Gear { joints: [a, b], ratio } => {
                 let [a, b] = [a, b].map(|&joint| &self.joints[joint].name);
@@ -333,7 +334,7 @@ impl Drawn {
                 )
             }
             Law::Spring { between, stiffness, damping, rest_length } => {
-                writeln!(text, "[force.{name}.spring]\nbetween = {}", self.ends(*between))?;
+                writeln!(text, "[force.{name}.spring]\nbetween = {}", self.ends(between))?;
                 writeln!(
                     text,
                     "stiffness = {stiffness:?}\ndamping = {damping:?}\nrest_length = {rest_length:?}"

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
-    Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, Method, Motor, Pulley, RigidBody, Rod, Rope, Servo,
-    Shape, Slider, Target, UniformGravity, World,
+    Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, Method, Motor, RigidBody, Rod, Rope, Servo, Shape,
+    Slider, Target, UniformGravity, World,
 };
 
 use crate::common::{assert_orders, ball, method, that_keep_joints};
@@ -332,33 +332,6 @@ fn a_gear_couples_a_hinge_and_a_slider() {
     assert!((spin(&world, wheel) - expected / 0.3).abs() < 1e-12);
 }
 
-/// Checks Atwood's machine with a ratio: the tension is the same along the whole rope.
-#[test]
-fn a_pulley_is_atwoods_machine() {
-    for method in that_keep_joints() {
-        for ratio in [1.0, 2.0] {
-            let mut world = falling(method, 1e-3);
-            let sphere = |mass: f64| RigidBody::new(&Shape::Sphere { radius: 0.1 }, mass);
-            let light = world.add(sphere(1.0).with_location(DVec3::new(-1.0, -2.0, 0.0)));
-            let heavy = world.add(sphere(3.0).with_location(DVec3::new(1.0, -2.0, 0.0)));
-            world.add_constraint(Pulley {
-                between: [Anchor::centre(light), Anchor::centre(heavy)],
-                over: [Anchor::Point(DVec3::NEG_X), Anchor::Point(DVec3::X)],
-                ratio,
-                length: 2.0 + ratio * 2.0,
-            });
-            world.advance_to(0.5);
-            // The equations of motion are y₁'' = −r y₂''; m₁ (y₁'' + g) = T, m₂ (y₂'' + g) = r T.
-            let down = -G * (3.0 - ratio) / (3.0 + ratio * ratio);
-            let expected = [-ratio * down * 0.5, down * 0.5];
-            let found = [light, heavy].map(|id| world.velocity(id).y);
-            for (found, expected) in found.into_iter().zip(expected) {
-                assert!((found - expected).abs() < 1e-11, "{} {ratio}: {found} {expected}", method.name);
-            }
-        }
-    }
-}
-
 /// Checks motors whose torque is far too large for the time until they reach their speed to be resolved: each gives the speed at once, to
 /// itself and through a gear, and goes on with it. A motor at a stop stays there.
 #[test]
@@ -450,36 +423,6 @@ fn a_rope_beside_a_rod_does_no_harm() {
         assert!((world.location(bob).length() - 1.0).abs() < 1e-12, "{}", method.name);
         let slack = if method.order == 1 { 0.05 } else { 1e-4 };
         assert!(world.balance().drift.abs() < slack, "{}: {:?}", method.name, world.balance());
-    }
-}
-
-/// Checks that an Atwood machine stops when its light end reaches the wheel; the heavy end stops as well.
-#[test]
-fn a_pulley_ends_at_its_wheels() {
-    for method in that_keep_joints() {
-        let mut world = falling(method, 1e-3);
-        let sphere = |mass: f64| RigidBody::new(&Shape::Sphere { radius: 0.1 }, mass);
-        let light = world.add(sphere(1.0).with_location(DVec3::new(-1.0, -2.0, 0.0)));
-        let heavy = world.add(sphere(3.0).with_location(DVec3::new(1.0, -2.0, 0.0)));
-        let over = [Anchor::Point(DVec3::NEG_X), Anchor::Point(DVec3::X)];
-        let between = [Anchor::centre(light), Anchor::centre(heavy)];
-        world.add_constraint(Pulley { between, over, ratio: 1.0, length: 4.0 });
-        world.advance_to(3.0);
-        let expected = [-4.0 * Pulley::NEAREST, -4.0 + 4.0 * Pulley::NEAREST];
-        for (id, expected) in [light, heavy].into_iter().zip(expected) {
-            assert!(
-                (world.location(id).y - expected).abs() < 1e-12,
-                "{}: {}",
-                method.name,
-                world.location(id)
-            );
-            assert!(world.velocity(id).length() < 1e-12, "{}", method.name);
-        }
-        let balance = world.balance();
-        // The loss is the potential energy lost by the heavy end minus that gained by the light end.
-        let slack = if method.order == 1 { 0.1 } else { 1e-9 };
-        let lost = -2.0 * G * (2.0 - 4.0 * Pulley::NEAREST);
-        assert!((balance.accounts.limits - lost).abs() < slack, "{}: {balance:?} {lost}", method.name);
     }
 }
 

@@ -27,6 +27,7 @@ mod joints;
 mod laws;
 mod order;
 mod origin;
+mod pulleys;
 mod reactions;
 mod rotation;
 mod same_bits;

@@ -155,24 +155,35 @@ impl<'a> End<'a> {
     /// Computes the ends of a constraint at one moment. `members` are the bodies of the constraint, each once, in the order of the ends.
     #[inline(always)]
     pub(super) fn all<const N: usize>(anchors: &[Anchor; N], members: &'a Members<'_>) -> [End<'a>; N] {
-        let world = End { body: None, member: &WORLD, arm: DVec3::ZERO, is_off_centre: false };
-        let (mut ends, mut bodies) = ([world; N], 0);
+        let (mut ends, mut bodies) = ([End::of(Anchor::Point(DVec3::ZERO), None, members); N], 0);
         // A loop instead of `from_fn`: a closure call for each end would slow down rods.
         for (i, &anchor) in anchors.iter().enumerate() {
-            ends[i] = match anchor {
-                Anchor::Point(arm) => End { arm, ..world },
-                Anchor::Body { id, at } => {
-                    let same = (0..i).find(|&other| anchors[other].body() == Some(id));
-                    let body = same.and_then(|same| ends[same].body).unwrap_or(bodies);
-                    bodies = bodies.max(body + 1);
-                    let member = &members[body];
-                    let is_off_centre = at != DVec3::ZERO;
-                    let arm = if is_off_centre { member.orientation * at } else { at };
-                    End { body: Some(body), member, arm, is_off_centre }
-                }
-            };
+            let mut body = None;
+            if let Anchor::Body { id, .. } = anchor {
+                let same = (0..i).find(|&other| anchors[other].body() == Some(id));
+                let place = same.and_then(|same| ends[same].body).unwrap_or(bodies);
+                bodies = bodies.max(place + 1);
+                body = Some(place);
+            }
+            ends[i] = End::of(anchor, body, members);
         }
         ends
+    }
+
+    /// Computes an end of a constraint at one moment. `body` is the index of the end's body among `members`, and `None` for a point of the
+    /// world.
+    #[inline(always)]
+    pub(super) fn of(anchor: Anchor, body: Option<usize>, members: &'a Members<'_>) -> End<'a> {
+        match (anchor, body) {
+            (Anchor::Body { at, .. }, Some(body)) => {
+                let (member, is_off_centre) = (&members[body], at != DVec3::ZERO);
+                let arm = if is_off_centre { member.orientation * at } else { at };
+                End { body: Some(body), member, arm, is_off_centre }
+            }
+            (Anchor::Body { at: arm, .. } | Anchor::Point(arm), _) => {
+                End { body: None, member: &WORLD, arm, is_off_centre: false }
+            }
+        }
     }
 
     /// Returns the position of the end, world axes, m.

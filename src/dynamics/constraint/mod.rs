@@ -89,6 +89,12 @@ pub trait Constraint: std::fmt::Debug + Send + Sync {
 
     /// Writes all equations of the constraint at one moment. `members` holds the bodies in the order of [`bodies`](Self::bodies).
     fn measure(&self, members: &Members<'_>, equations: &mut Equations<'_>);
+
+    /// Returns the force on the last end, world axes, N, if the constraint also acts at other points of the end's body or of the world.
+    /// `multipliers` holds those of its equations. `None` by default: all that acts there acts on the last end.
+    fn force_on_last_end(&self, _members: &Members<'_>, _multipliers: &[f64]) -> Option<DVec3> {
+        None
+    }
 }
 
 /// The kind of a constraint equation: equality, inequality, friction, or motor.

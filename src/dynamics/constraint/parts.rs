@@ -60,6 +60,11 @@ impl<'a> EndToEndVector<'a> {
         EndToEndVector { length, bias, scale, u, ends }
     }
 
+    /// Returns the unit vector u from the first end to the second.
+    pub(super) fn direction(&self) -> DVec3 {
+        self.u
+    }
+
     /// Returns the unit vector u along the vector d between two ends, and 1/|d|.
     #[inline(always)]
     fn along(apart: DVec3, length: f64) -> (DVec3, f64) {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::{Anchor, Model};
 use super::modes::Mode;
 use super::solver::Solver;
-use super::{Law, Member};
+use super::{Law, Member, Members};
 
 /// The force and the torque of a constraint on its second end, in world axes. Those on the first end are opposite. Both are zero while a
 /// body of the constraint is absent. Redundant equations carry no load; the independent equations carry it all.
@@ -65,6 +65,20 @@ impl Solver {
             let member = |body: usize| -> &Member { &self.members[place.bodies[body]] };
             let ends = model.constraints()[place.constraint].ends();
             let Some(&second_end) = ends.last() else { continue };
+            let members = Members {
+                all: &self.members,
+                of: &place.bodies,
+                time: self.measured,
+                origin: &self.origin,
+                begun: self.begun,
+                is_aiming: self.is_aiming,
+            };
+            let multipliers = &self.unknown[place.row..place.row + place.rows];
+            let its = model.constraints()[place.constraint].force_on_last_end(&members, multipliers);
+            if let Some(force) = its {
+                all[place.constraint] = Reaction { force, ..Reaction::default() };
+                continue;
+            }
             all[place.constraint] = match second_end {
                 Anchor::Body { id, at } => {
                     let is_it = |member: &usize| structure.bodies[*member] == id.index();

@@ -4,12 +4,14 @@
 
 mod plan;
 
+use std::collections::BTreeMap;
+
 use glam::{DQuat, DVec3};
 
 use super::catenary::hanging;
-use super::pulley::{RopePath, WheelArc};
+use super::pulley::{RopePath, RopePoint, WheelArc};
 use crate::dynamics::{Anchor, Pulley, Shape};
-use crate::scene::{Body, Color, Scene};
+use crate::scene::{Body, Color, JointKind, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
 /// The radius of a coil's wire, relative to the radius of the coil.
@@ -123,6 +125,8 @@ pub(super) struct Links {
     shapes: Vec<Shape>,
     /// The factor by which each body is drawn larger, indexed by body.
     scales: Vec<f64>,
+    /// The pulleys among the joints, by the index of the joint.
+    pulleys: BTreeMap<usize, Pulley>,
     /// The direction of gravity, a unit vector in world axes. `None` without gravity.
     down: Option<DVec3>,
     /// All pairs of a body and a part fastened to it, sorted. Each pair has the index of the body and the index of the part.
@@ -165,10 +169,10 @@ enum PlannedShape {
     Bar { at: Anchor, along: DVec3, reach: [f64; 2], radius: f64 },
     /// A rope of a given length between two points. A slack rope hangs in a curve.
     Rope { between: [Anchor; 2], length: f64, radius: f64 },
-    /// The rope of a pulley, over wheels with the radius `wheel`.
-    OverWheels { pulley: Pulley, wheel: f64, radius: f64 },
+    /// The rope of the pulley with an index among joints, over wheels with the radius `wheel`.
+    OverWheels { joint: usize, wheel: f64, radius: f64 },
     /// One of the wheels of a pulley, with its radius `wheel` and half of its width.
-    Wheel { pulley: Pulley, number: usize, wheel: f64, half_width: f64 },
+    Wheel { joint: usize, number: usize, wheel: f64, half_width: f64 },
 }
 
 impl Links {
@@ -177,13 +181,25 @@ impl Links {
         let bodies = if parts.is_empty() { &[] } else { scene.bodies.as_slice() };
         let shapes = bodies.iter().map(Body::drawn).collect();
         let scales = bodies.iter().map(|body| body.look.scale).collect();
-        let ends = parts.iter().enumerate().flat_map(|(number, part): (usize, &Part)| {
-            part.between.into_iter().filter_map(Anchor::body).map(move |body| (body.index(), number))
+        let pulleys = scene.joints.iter().enumerate().filter_map(|(number, joint)| match &joint.kind {
+            JointKind::Pulley(pulley) => Some((number, pulley.clone())),
+            _ => None,
         });
-        let mut of_bodies: Vec<(usize, usize)> = ends.collect();
+        let pulleys: BTreeMap<usize, Pulley> = pulleys.collect();
+        let ends = |part: &Part| match part.form {
+            PlannedShape::OverWheels { joint, .. } | PlannedShape::Wheel { joint, .. } => {
+                pulleys.get(&joint).map_or_else(Vec::new, |pulley| pulley.path().to_vec())
+            }
+            _ => part.between.to_vec(),
+        };
+        let bodies = parts.iter().enumerate().flat_map(|(number, part): (usize, &Part)| {
+            ends(part).into_iter().filter_map(Anchor::body).map(move |body| (body.index(), number))
+        });
+        let mut of_bodies: Vec<(usize, usize)> = bodies.collect();
         of_bodies.sort_unstable();
+        of_bodies.dedup();
         let down = scene.simulation.gravity.try_normalize();
-        Links { parts, shapes, scales, down, of_bodies, springs: plan::springs(scene) }
+        Links { parts, shapes, scales, pulleys, down, of_bodies, springs: plan::springs(scene) }
     }
 
     /// The thickness of the drawn springs, in the order of the forces. A spring force may have several springs.
@@ -249,12 +265,14 @@ impl Links {
                 let points = hanging(between.map(|end| self.place(end, frame)), length, self.down);
                 LinkShape::Rope { points, radius }
             }
-            PlannedShape::OverWheels { pulley, wheel, radius } => {
-                let course = self.course(&pulley, wheel, frame);
+            PlannedShape::OverWheels { joint, wheel, radius } => {
+                let pulley = self.pulleys.get(&joint)?;
+                let course = self.course(pulley, wheel, frame)?;
                 LinkShape::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
             }
-            PlannedShape::Wheel { pulley, number, wheel, half_width } => {
-                let WheelArc { centre, axis, .. } = *self.course(&pulley, wheel, frame).turns.get(number)?;
+            PlannedShape::Wheel { joint, number, wheel, half_width } => {
+                let course = self.course(self.pulleys.get(&joint)?, wheel, frame)?;
+                let WheelArc { centre, axis, .. } = *course.turns.get(number)?;
                 LinkShape::Rod {
                     ends: [-half_width, half_width].map(|way| centre + way * axis),
                     radius: wheel,
@@ -264,11 +282,15 @@ impl Links {
         Some(Link { name: &part.name, form, color: part.color })
     }
 
-    /// The path of a pulley's rope over wheels with the given radius, m.
-    fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> RopePath {
-        let [from, to] = pulley.between.map(|end| self.place(end, frame));
-        let [first, second] = pulley.over.map(|end| self.place(end, frame));
-        RopePath::new([from, first, second, to], wheel)
+    /// The path of a pulley's rope over wheels with the given radius, m. `None` while one of its bodies is absent.
+    fn course(&self, pulley: &Pulley, wheel: f64, frame: &Frame) -> Option<RopePath> {
+        let place = |end: &Anchor| {
+            let is_there = end.body().is_none_or(|id| frame.body(id.index()).is_some());
+            let is_on_body = end.body().is_some();
+            is_there.then(|| RopePoint { place: self.place(*end, frame), is_on_body })
+        };
+        let path: Vec<RopePoint> = pulley.path().iter().map(place).collect::<Option<_>>()?;
+        Some(RopePath::new(&path, wheel, pulley.ratio))
     }
 
     /// The drawn position of an anchor in the world, m. On a body that is drawn larger, the anchor is proportionally farther from the

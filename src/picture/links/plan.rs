@@ -22,7 +22,7 @@ pub(super) fn parts(scene: &Scene, sizes: &RequestedSizes) -> Vec<Part> {
     for (number, its) in scene.joints.iter().enumerate() {
         let Some(look) = its.look else { continue };
         let travel = sizes.sliders.iter().find(|slider| slider.joint == number);
-        joint(scene, its, look, travel, &mut parts);
+        joint(scene, (number, its), look, travel, &mut parts);
     }
     parts
 }
@@ -101,7 +101,7 @@ fn usual_turns(usual: f64) -> u32 {
 /// Adds the parts of a joint. `travel` is the range over which a slider moves in the run.
 fn joint(
     scene: &Scene,
-    joint: &Joint,
+    (number, joint): (usize, &Joint),
     look: JointLook,
     travel: Option<&RequestedSlider>,
     parts: &mut Vec<Part>,
@@ -148,13 +148,16 @@ fn joint(
         }
         JointKind::Pulley(pulley) => {
             let radius = look.radius.unwrap_or_else(|| rope_radius(scene, between, pulley.length));
-            let apart = start(scene, pulley.over[0]).distance(start(scene, pulley.over[1]));
-            let wheel = if apart > 0.0 { (6.0 * radius).min(0.4 * apart) } else { 6.0 * radius };
+            let [_, over @ .., _] = pulley.path() else { return };
+            let apart = over.windows(2).map(|pair| start(scene, pair[0]).distance(start(scene, pair[1])));
+            let wheel =
+                apart.filter(|apart| *apart > 0.0).fold(6.0 * radius, |wheel, apart| wheel.min(0.4 * apart));
             knobs(between, 1.6 * radius).for_each(&mut add);
-            for number in 0..2 {
-                add(PlannedShape::Wheel { pulley: *pulley, number, wheel, half_width: 1.5 * radius });
+            for wheel_number in 0..over.len() {
+                let half_width = 1.5 * radius;
+                add(PlannedShape::Wheel { joint: number, number: wheel_number, wheel, half_width });
             }
-            add(PlannedShape::OverWheels { pulley: *pulley, wheel, radius });
+            add(PlannedShape::OverWheels { joint: number, wheel, radius });
         }
         // The wheels of a gear are drawn as bodies.
         JointKind::Gear(_) => {}

@@ -40,7 +40,11 @@ pub(super) static JOINT: TableSpec = TableSpec {
             .also(&["distance", "link", "bar", "stick"]),
         KeySpec::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
             .also(&["string", "cable", "thread", "cord"]),
-        KeySpec::new("pulley", Table(&PULLEY), "A rope that runs over two points from one end to the other"),
+        KeySpec::new(
+            "pulley",
+            Table(&PULLEY),
+            "A rope that runs over points, fixed or on bodies, from one end to the other",
+        ),
         KeySpec::new("gear", Table(&GEAR), "Couples two hinges or sliders at a ratio").also(&["gears"]),
         LINKS,
     ],
@@ -257,8 +261,8 @@ static PULLEY: TableSpec = TableSpec {
         between(POINTS),
         KeySpec::new(
             "over",
-            List { of: &AN_END, min: 2, max: 2 },
-            "The two points over which it runs: the first end's, then the second's",
+            List { of: &AN_END, min: 1, max: 1000 },
+            "The points over which it runs, from the first end to the second; a point on a body moves with it",
         )
         .unit("m")
         .required()
@@ -266,13 +270,13 @@ static PULLEY: TableSpec = TableSpec {
         KeySpec::new(
             "ratio",
             POSITIVE,
-            "How far the first end moves out for each meter that the second moves in",
+            "How much the last part counts: how far the first end moves out for each meter that the second moves in",
         )
         .default_number(1.0),
         KeySpec::new(
             "length",
             POSITIVE,
-            "The length of the first part plus `ratio` times that of the second",
+            "The length of all its parts, the last one counted `ratio` times",
         )
         .unit("m")
         .default("as at the start"),

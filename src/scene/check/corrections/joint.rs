@@ -34,19 +34,17 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// Corrects the value of the key `over` of a pulley, if the value is a single point instead of a list of two points.
-pub(super) fn both_over(node: &Node, context: &Context<'_>) -> Option<String> {
+/// Corrects the value of the key `over` of a pulley, if the value is a point instead of a list of points.
+pub(super) fn in_list(node: &Node, context: &Context<'_>) -> Option<String> {
     let point = match &node.value {
         Value::Array(items) => match items.as_slice() {
-            [only] => only,
             [_, _, _] if items.iter().all(|item| item.as_number().is_some()) => node,
             _ => return None,
         },
         Value::String(_) => node,
         _ => return None,
     };
-    let point = raw(point.span, context);
-    Some(format!("[{point}, {point}]"))
+    Some(format!("[{}]", raw(point.span, context)))
 }
 
 /// Corrects a hinge or a slider with a `stiffness` of its own: moves the stiffness and the damping into a new `motor` of the joint.

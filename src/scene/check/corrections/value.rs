@@ -126,7 +126,7 @@ fn better(node: &Node, kind: &'static Kind, key: &str, context: &Context<'_>) ->
         }
         (Kind::Table(spec), _) => table::as_table(spec, node, key, context),
         (Kind::List { min: 2, .. }, _) if key == "limits" => joint::limits(node, context),
-        (Kind::List { min: 2, .. }, _) if key == "over" => joint::both_over(node, context),
+        (Kind::List { .. }, _) if key == "over" => joint::in_list(node, context),
         (Kind::List { min: 2, .. }, Value::Array(items)) if key == "between" && items.len() > 2 => None,
         (Kind::List { min: 2, .. }, _) if key == "between" => ends::with_other_end(node, context),
         (Kind::List { of: Kind::Integer(..), min, max }, Value::String(text)) if min == max => {

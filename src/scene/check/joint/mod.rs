@@ -147,7 +147,7 @@ impl Reader<'_, '_> {
     }
 
     fn rod(&mut self, view: &View<'_>) -> Option<Rod> {
-        let (between, nodes) = self.ends(view)?;
+        let (between, nodes) = self.ends(view, &[])?;
         let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
         let distance = from.distance(to);
         let length = view.number("length").unwrap_or(distance);
@@ -171,7 +171,7 @@ impl Reader<'_, '_> {
     /// point comes from the key `at`, or else from the first end that gives a point. If neither exists and `needs_place` is false, the
     /// point is the center of the second end.
     fn joined(&mut self, view: &View<'_>, needs_place: bool) -> Option<([Anchor; 2], DVec3)> {
-        let (mut between, nodes) = self.ends(view)?;
+        let (mut between, nodes) = self.ends(view, &[])?;
         let bodies = self.bodies;
         let says: [bool; 2] =
             std::array::from_fn(|i| matches!(between[i], Anchor::Point(_)) || end::says_point(nodes[i]));
@@ -232,7 +232,9 @@ impl Reader<'_, '_> {
         }
     }
 
-    fn ends<'n>(&mut self, view: &View<'n>) -> Option<([Anchor; 2], [&'n Node; 2])> {
+    /// Reads the two ends of a joint. At least one of them, or of the points `over` which a rope runs, must be able to move, and not all of
+    /// them may be on one body.
+    fn ends<'n>(&mut self, view: &View<'n>, over: &[Anchor]) -> Option<([Anchor; 2], [&'n Node; 2])> {
         let [first, second] = view.list("between")? else { return None };
         let between = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
         let moves = |end: &Anchor| {
@@ -241,10 +243,11 @@ impl Reader<'_, '_> {
                 !body.start.fixed && body.motion.is_none()
             })
         };
-        let is_same = between[0].body().is_some() && between[0].body() == between[1].body();
+        let all = || between.iter().chain(over);
+        let is_same = between[0].body().is_some() && all().all(|end| end.body() == between[0].body());
         let (span, why, help) = if is_same {
             (second.span, "the same body as the end before it", "a joint has two different ends")
-        } else if !between.iter().any(moves) {
+        } else if !all().any(moves) {
             (first.span, "neither end can move", "one end at least must be a body that forces can move")
         } else {
             return Some((between, [first, second]));

@@ -2,7 +2,7 @@
 
 use super::{Reader, about};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Coordinate, Gear, Pulley, Rope};
+use crate::dynamics::{Anchor, Coordinate, Gear, Pulley, Rope};
 use crate::scene::check::end;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
@@ -14,7 +14,7 @@ const NEARLY: f64 = 1e-9;
 
 impl Reader<'_, '_> {
     pub(super) fn rope(&mut self, view: &View<'_>) -> Option<Rope> {
-        let (between, nodes) = self.ends(view)?;
+        let (between, nodes) = self.ends(view, &[])?;
         let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
         let distance = from.distance(to);
         let length = view.number("length").unwrap_or(distance);
@@ -29,27 +29,34 @@ impl Reader<'_, '_> {
     }
 
     pub(super) fn pulley(&mut self, view: &View<'_>) -> Option<Pulley> {
-        let (between, _) = self.ends(view)?;
-        let [first, second] = view.list("over")? else { return None };
-        let over = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
-        let ratio = view.number("ratio")?;
-        let way = |i: usize| end::place(between[i], self.bodies).distance(end::place(over[i], self.bodies));
-        let ways = [way(0), way(1)];
-        let needed = ways[0] + ratio * ways[1];
-        let length = view.number("length").unwrap_or(needed).max(needed);
-        for (way, node) in ways.into_iter().zip([first, second]) {
-            let nearest = Pulley::NEAREST * length;
-            if way < nearest {
-                let message = format!("the pulley `{}` has an end where its rope runs over", self.name);
-                let label = format!("an end is {} m from here", about(way));
-                let help =
-                    format!("an end stops {} m before the point over which its rope runs", about(nearest));
-                self.refuse(message, node.span, &label, &help);
-                return None;
-            }
+        let nodes = view.list("over")?;
+        let over = nodes.iter().map(|node| end::anchor(node, self.context)).collect::<Option<Vec<_>>>()?;
+        let (between, _) = self.ends(view, &over)?;
+        let mut pulley = Pulley::new(between, &over, view.number("ratio")?, 0.0);
+        let way = |ends: [Anchor; 2]| {
+            let [from, to] = ends.map(|end| end::place(end, self.bodies));
+            from.distance(to)
+        };
+        let needed = pulley.parts().map(|part| part.factor * way(part.ends)).sum();
+        pulley.length = view.number("length").unwrap_or(needed).max(needed);
+        let nearest = pulley.nearest();
+        let ways = pulley.parts().map(|part| (part.can_change, way(part.ends)));
+        let near = ways.enumerate().find(|(_, (can_change, way))| *can_change && *way < nearest);
+        if let Some((part, (_, way))) = near {
+            let is_outer = part == 0 || part == over.len();
+            let (what, label) = if is_outer {
+                ("has an end where its rope runs over", "an end")
+            } else {
+                ("runs over two points at one place", "the point before")
+            };
+            let message = format!("the pulley `{}` {what}", self.name);
+            let label = format!("{label} is {} m from here", about(way));
+            let help = format!("each part of the rope keeps at least {} m", about(nearest));
+            self.refuse(message, nodes[part.min(over.len() - 1)].span, &label, &help);
+            return None;
         }
         self.reaches(view, needed, "its parts are", "the rope of the pulley");
-        Some(Pulley { between, over, ratio, length })
+        Some(pulley)
     }
 
     /// Reports a rope whose `length` is less than the initial length `needed`, m.
