@@ -69,10 +69,10 @@ impl<'a> Lines<'a> {
             }
             self.ended = length == 0 && start == 0;
             self.read += usize::from(length > 0);
-            if self.read == 1 && self.line.starts_with(BYTE_ORDER_MARK) {
+            if start == 0 && self.read == 1 && self.line.starts_with(BYTE_ORDER_MARK) {
                 self.line.drain(..BYTE_ORDER_MARK.len());
             }
-            self.line.truncate(self.line.trim_ascii_end().len());
+            self.line.truncate(start + self.line[start..].trim_ascii_end().len());
             let is_whole = length == 0 || !self.is_continued || !self.line[start..].ends_with(b"\\");
             if is_whole || self.line.contains(&b'#') {
                 break;

@@ -113,6 +113,7 @@ fn every_format_gives_the_same_solid() {
         ("corner.obj", OBJ_TEXT.bytes().map(|byte| if byte > 127 { 0xe9 } else { byte }).collect()),
         ("corner.obj", continued(OBJ_TEXT, "\\\n").into_bytes()),
         ("corner.obj", continued(OBJ_TEXT, " \\\r\n\t").into_bytes()),
+        ("corner.obj", OBJ_TEXT.replace('\n', " \\\n\n").into_bytes()),
         ("corner.obj", marked(OBJ_TEXT.trim_start())),
         ("corner.obj", format!("# C:\\models\\\n{OBJ_TEXT}\n# the end \\").into_bytes()),
         ("corner.obj", format!("{}\\\n\\", OBJ_TEXT.trim_end()).into_bytes()),
@@ -157,6 +158,7 @@ fn what_cannot_be_read_says_why_and_where() {
     assert_eq!(obj("v 0 0 0\nf 0 1 1\n"), "a face names a vertex that is not there");
     assert_eq!(obj("v 0 0 0\nf 1 1 1\n"), "it has no triangles");
     assert_eq!(obj(""), "it has no triangles");
+    assert_eq!(obj("\u{feff}\u{feff}\\\n"), "it has no triangles");
     assert_eq!(obj("v nan 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 3"), "a vertex is at [NaN, 0, 0]");
     assert_eq!(obj("v 1e60 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 3").split(" at ").next(), Some("a vertex is"));
     let huge = format!("v 0 0 0\nf 1{}\n", " 1".repeat(9_000_000));

@@ -27,16 +27,16 @@ pub(super) fn recognize(text: &str) -> Option<Foreign> {
 /// The keys that lead to a value, and the value as TOML.
 type Leaf = (Vec<String>, String);
 
-/// Converts a scene in JSON. A list of tables becomes tables with names.
+/// Converts a scene in JSON. A list of tables becomes tables with names. `None` if there are no values.
 fn of_json(value: &Value) -> Option<String> {
     let mut leaves = Vec::new();
     json_leaves(value, &mut Vec::new(), &mut leaves)?;
-    Some(write(&leaves))
+    (!leaves.is_empty()).then(|| write(&leaves))
 }
 
 fn json_leaves(value: &Value, path: &mut Vec<String>, leaves: &mut Vec<Leaf>) -> Option<()> {
     match value {
-        Value::Object(entries) if !entries.is_empty() => {
+        Value::Object(entries) if !entries.is_empty() || path.is_empty() => {
             for (key, value) in entries {
                 path.push(key_of(key)?);
                 json_leaves(value, path, leaves)?;
@@ -259,6 +259,9 @@ mod tests {
             recognize(listed).and_then(|scene| scene.toml).as_deref(),
             Some("[body.ball]\nmass = 2\n")
         );
+        for nothing in ["{}", " { } ", r#"{ "body": null }"#, r#"{ "bodies": [{}] }"#] {
+            assert!(recognize(nothing).is_some_and(|scene| scene.format == "JSON"), "{nothing}");
+        }
     }
 
     #[test]
