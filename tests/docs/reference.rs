@@ -33,8 +33,7 @@ fn the_page_of_materials_is_up_to_date() {
         format!("| `{}` | {} | {color} |\n", m.name, m.meaning)
     };
     let rows: String = MATERIALS.iter().map(row).collect();
-    let page =
-        format!("{MATERIALS_HEAD}\n| name | what it looks like | its color |\n| --- | --- | --- |\n{rows}");
+    let page = format!("{MATERIALS_HEAD}\n| name | look | color |\n| --- | --- | --- |\n{rows}");
     is_up_to_date("materials.md", &page);
 }
 
@@ -47,12 +46,12 @@ fn is_up_to_date(name: &str, page: &str) {
     assert!(page == written, "docs/{name} is out of date: see the comment on this test");
 }
 
-const MATERIALS_HEAD: &str = r##"# The materials that every scene knows
+const MATERIALS_HEAD: &str = r##"# The built-in materials
 
 ![A ball and a box of every material, each with its name](materials.png)
 
-A body takes any of these by its name, without a declaration. A `[material.NAME]` of the scene with the same name comes
-first.
+A body takes any of these materials by its name. If the scene has a `[material.NAME]` with the same name, the body takes
+that one.
 
 ```toml
 [body.crate]
@@ -60,9 +59,9 @@ shape.box.size = [1, 1, 1]
 material = "wood"
 ```
 
-Or it has a material of its own, with the keys of a `[material.NAME]`: `material.color = "tomato"`.
+A body can also have a material of its own, with the same keys: `material.color = "tomato"`.
 
-With `like`, a material of the scene starts from one of these, and `color` tints it:
+With `like`, a material starts from a built-in one. `color` tints it:
 
 ```toml
 [body.table]
@@ -74,11 +73,11 @@ like = "dark_wood"
 color = "#7a2f22"
 ```
 
-A pattern turns with its body, and is as large as the body asks for: a crate has as many rings of wood as a matchbox. In
-numbers, it is made for a ball of radius 1, and on any body as large as on a ball of the same volume; on a plane it is as
-large as the tiles of the ground. Two bodies of wood are cut from different places of the tree, by their names.
-What shines by itself casts no shadow, so that a lamp inside a `luminous` ball lights the scene.
+A pattern turns with its body and scales with it: a crate has as many rings of wood as a matchbox. A body gets the
+pattern of a ball with the same volume. On a plane, the pattern is as large as the tiles of the ground. The name of a body
+decides from which part of the tree its wood is cut, so two crates look different. Materials that shine by themselves cast
+no shadow, so a lamp inside a `luminous` ball lights the scene.
 
-The picture is made by `docs/materials.sh`, and POV-Ray's words for each of these stand in
+`docs/materials.sh` renders the picture. The POV-Ray code of the materials is in
 [templates/library/](../templates/library).
 "##;

@@ -13,24 +13,24 @@ pub fn reference() -> String {
     let mut file_words: Vec<&str> = [&IMAGE_BLOCKS[..], &FILE_TYPES[..], &[FILE_EXISTS, "include"]].concat();
     file_words.sort_unstable();
     for (title, text, words) in [
-        ("Words that pass anywhere", "They touch no file.", &OTHERS[..]),
-        ("Directives", "They pass directly behind a `#`.", &DIRECTIVES),
+        ("Words that are allowed everywhere", "They access no file.", &OTHERS[..]),
+        ("Directives", "They follow a `#` directly.", &DIRECTIVES),
         (
             "Words with the name of a file",
-            "They pass with the name of an asset or of a file of POV-Ray's, written as a plain string: \
-             `#include \"parts.inc\"`,\n`image_map { png \"wood.png\" }`, `ttf \"timrom.ttf\"`. So do these macros, with the \
-             name of a font first:",
+            "They are allowed with the name of an asset or of a file of POV-Ray, as a plain string: \
+             `#include \"parts.inc\"`,\n`image_map { png \"wood.png\" }`, `ttf \"timrom.ttf\"`. So are these macros; their first \
+             argument is the name of a font:",
             &FONT_MACROS,
         ),
         ("", "The words:", &file_words),
         ("Words that need `--trust`", "They open, read or write files.", &REFUSED),
         (
             "Macros that need `--trust`",
-            "They write files. So do most macros of `makegrass.inc` and `meshmaker.inc`, so these two are refused as a \
-             whole.",
+            "They write files. Most macros of `makegrass.inc` and `meshmaker.inc` do so as well, so these two files are \
+             refused.",
             &WRITING_MACROS,
         ),
-        ("POV-Ray's include files", "They pass in `povray.include` and behind `#include`.", &includes),
+        ("POV-Ray's include files", "They are allowed in `povray.include` and after `#include`.", &includes),
         ("", "And these color maps:", &MAPS),
         ("POV-Ray's fonts and images", "Fonts:", &FONTS),
         ("", "Images and densities:", &IMAGES),
@@ -59,22 +59,22 @@ fn lines(words: &[&str]) -> String {
     text
 }
 
-const HEAD: &str = "# What POV-Ray's own words may do without `--trust`
+const HEAD: &str = "# SDL that is allowed without `--trust`
 
-This page is made from the lists that the check uses; the test `tests/docs/reference.rs` keeps it so.
+SDL is POV-Ray's scene language. It can open, overwrite and include any file of the user. A scene from somebody else must
+not do that. So jabuka reads the SDL word by word and allows only what this page lists. All other words are errors at
+their line and column. With `--trust`, jabuka allows all of SDL.
 
-POV-Ray opens, overwrites and includes any file of its user. A scene from somewhere else must not do that, so jabuka
-cuts its SDL into POV-Ray's tokens and lets pass only what stands below. That holds for `povray.sdl`, the SDL of
-materials, bodies and shapes, the files of `povray.include`, and for the assets that are SDL: those that end in `.inc`,
-`.pov`, `.mcr` or `.map`, and those that are included. Everything else is an error at its line and column, which names
-the word. With `--trust` all of SDL passes.
+jabuka checks `povray.sdl`, the SDL of materials, bodies and shapes, the files of `povray.include`, and assets that are
+SDL: files that end in `.inc`, `.pov`, `.mcr` or `.map`, and files that are included.
 
-- Identifiers pass, but for [some macros](#macros-that-need---trust). Numbers, strings and comments pass.
-- Where the name of a file belongs, only a plain string passes, with the name of a file that `povray.assets` lists, or
-  that comes with POV-Ray. A name that is computed, or that an identifier or a parameter of a macro holds, could be that
-  of any file.
-- Each `#` has its directive directly behind it, and each `#if`, `#while` or `#macro` its `#end` in the same text.
-- `#include` stands in `povray.sdl` or in an included file, outside of macros.
+- Identifiers are allowed, except for [some macros](#macros-that-need---trust). So are numbers, strings and comments.
+- The name of a file must be a plain string. It names a file in `povray.assets`, or one that comes with POV-Ray. A
+  computed name, an identifier or a parameter of a macro is refused, because it could name any file.
+- A directive follows its `#` directly. Each `#if`, `#while` or `#macro` has its `#end` in the same text.
+- `#include` is allowed in `povray.sdl` and in included files, but not in macros.
+
+The test `tests/docs/reference.rs` writes this page from the lists that the check uses.
 
 ```toml
 [povray]

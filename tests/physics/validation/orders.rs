@@ -95,7 +95,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
     Problem {
         name: "rotation",
         meaning: "a body with moments 1, 2, 3 that turns under a constant torque, 1 s (`gauss-radau`: 2 s); no closed form: \
-                  held against `gauss-radau` with 64 steps, to which `dop853` converges at its own order",
+                  compared with `gauss-radau` with 64 steps, to which `dop853` converges at its own order",
         durations: [1.0, 2.0],
         build: rotation,
         exact: |t, state| *state = finest(rotation(), t, 64),
@@ -130,7 +130,7 @@ pub(crate) const PROBLEMS: &[Problem] = &[
     },
     Problem {
         name: "planets",
-        meaning: "a star and two planets of a hundredth of its mass, 20 s; held against `gauss-radau` with 2,000 steps",
+        meaning: "a star and two planets of a hundredth of its mass, 20 s; compared with `gauss-radau` with 2,000 steps",
         durations: [20.0; 2],
         build: planets,
         exact: |t, state| *state = finest(planets(), t, 2000),

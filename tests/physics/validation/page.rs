@@ -42,7 +42,7 @@ pub(crate) fn page(solved: &[Solved]) -> String {
 
 fn table_of_references(page: &mut String) {
     page.push_str(
-        "| problem | known by | method | step or tolerance | steps | evaluations | error | of | allowed |\n",
+        "| problem | reference | method | step or tolerance | steps | evaluations | error | of | allowed |\n",
     );
     page.push_str("| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
     for reference in REFERENCES {
@@ -67,7 +67,7 @@ fn table_of_references(page: &mut String) {
 }
 
 fn table_of_orders(page: &mut String, solved: &[Solved]) {
-    page.push_str("\n| method | its order |");
+    page.push_str("\n| method | order |");
     solved.iter().for_each(|(problem, _)| page.push_str(&format!(" {} |", problem.name)));
     page.push_str("\n| --- | --- |");
     solved.iter().for_each(|_| page.push_str(" --- |"));
@@ -141,51 +141,51 @@ pub(crate) fn is_up_to_date(name: &str, text: &str) {
     assert!(text == written, "docs/{name} is out of date: see the comment on this module");
 }
 
-const HEAD: &str = "# How right the methods are
+const HEAD: &str = "# How accurate the methods are
 
-The tests make this page: `JABUKA_UPDATE_DOCS=1 cargo test --test physics validation`. On every machine they come to the same bytes, and they fail
-where a figure changes. Steps and evaluations of the forces are counted while the problem is solved; times are none of ours, but those of
-the records in [benches/peers/](../benches/peers).
+The tests write this page: `JABUKA_UPDATE_DOCS=1 cargo test --test physics validation`. It has the same bytes on every machine, and a test fails
+if a number changes. Steps and evaluations of the forces are counted during the runs. The only times on this page are those of other programs,
+from the records in [benches/peers/](../benches/peers).
 
-## Problems with a known end
+## Problems with known solutions
 
-Each is a scene that is run to its end. What is linked is a scene of the gallery; the others stand in
-[references.rs](../tests/physics/validation/references.rs). An error above the allowed one fails the test.
+Each problem is a scene. The linked scenes are in the gallery; the others are in
+[references.rs](../tests/physics/validation/references.rs). A test fails if an error exceeds the allowed one.
 
 ";
 
 const ORDERS: &str = "
-An evaluation sums up the forces on all bodies once. `gauss-radau` needs more of them for a step than `dop853`, and fewer steps. The methods of
-equal steps solve joints as well: a pendulum on a rod is one with a constraint.
+An evaluation computes the forces on all bodies once. `gauss-radau` needs more evaluations per step than `dop853`, and often fewer steps. The
+methods with a fixed step can also solve joints: each pendulum here hangs on a rod, which is a constraint.
 
 ## Orders
 
-A method of order p has 2ᵖ times less error at half the step. The table shows the slope of the logarithm of the error over that of the step, by least
-squares over the four finest steps whose error is larger than rounding (2e-14) and less than 0.2. The test asks for at least the order in the
-first column less 0.2, and for 13 of `gauss-radau`, whose error is only above rounding where its steps are so long that higher terms
-count. On ellipses the orders of `dop853` and `gauss-radau` are not asked for: the sign of their errors changes there with the length of the step.
+Half the step divides the error of a method of order p by 2ᵖ. The table shows the measured order: the slope of log(error) over log(step). It is
+a least-squares fit to the four finest steps with an error between rounding (2e-14) and 0.2. The test requires at least the nominal order minus
+0.2. For `gauss-radau` it requires 13: with shorter steps, its error is below rounding; with longer ones, higher terms count. For `dop853` and
+`gauss-radau` on ellipses it requires nothing, because there the sign of the error changes with the step.
 
 ![Errors of all methods over evaluations of the forces](validation_orders.svg)
 
-Each slope is a power law. For equal accuracy, the method farthest to the left is the cheapest; `wisdom-holman` is drawn over its steps.
+A straight line is a power law. For a given error, the leftmost method is the cheapest. For `wisdom-holman`, the axis shows steps.
 ";
 
 const PEERS: &str = "
-What is empty was not tried, or a step short enough to see the order was not among those that were tried.
+A cell is empty if the method was not tried on the problem, or if no step was short enough to show the order.
 
-## Beside other programs
+## Other programs
 
-REBOUND, SciPy and MuJoCo on the same problems, as the scripts in [benches/peers/](../benches/peers) have recorded them. The error is that of places in
-the units of the problem, and of an angular velocity for the wing nut. Seconds are of the machine of the record, and of the program alone.
+The scripts in [benches/peers/](../benches/peers) ran REBOUND, SciPy and MuJoCo on the same problems and recorded the results. The error is in the
+position, in units of the problem; for the wing nut, it is in the angular velocity. The times include only the program's own computation.
 
 ";
 
 const TAIL: &str = "
-IAS15 is the method that `gauss-radau` is, WHFast that of `wisdom-holman`, DOP853 that of `dop853`. The benches `kepler` and
-`planets` measure how long ours take, on the machine where REBOUND runs, too.
+`gauss-radau` is the same method as IAS15, `wisdom-holman` as WHFast, and `dop853` as DOP853. The benches `kepler` and `planets` measure
+jabuka's times on the machine on which REBOUND runs.
 
-## What is not here
+## Not on this page
 
-Impacts, friction and heaps have tests of their own, in [tests/physics/](../tests/physics): located impacts keep the order of the
-method, a ball with restitution 1 its height, a cradle its energy.
+Impacts, friction and heaps have their own tests in [tests/physics/](../tests/physics). For example, impacts between steps keep the order of the
+method, a ball with restitution 1 keeps its height, and a cradle keeps its energy.
 ";

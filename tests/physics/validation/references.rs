@@ -179,7 +179,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
     },
     Reference {
         name: "Dzhanibekov's wing nut, 60 s",
-        source: "it is kept",
+        source: "it is conserved",
         what: "angular momentum, relative",
         scene: "scenes/wing_nut.toml",
         runs: &[("gauss-radau", 1e-9, 1e-12), ("dop853", 1e-13, 1e-12), ("velocity-verlet", 2.5e-4, 1e-12), ("rk4", 2.5e-4, 1e-12)],
@@ -223,7 +223,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
     },
     Reference {
         name: "Kepler, e = 0.9, 100 orbits",
-        source: "it comes back; one ulp of its speed at the start makes 3e-11",
+        source: "it returns to its start; one ulp of the initial speed changes the end by 3e-11",
         what: "place, of half an axis",
         scene: "[simulation]\nduration = 630\n{method}\n[force.pull.gravitation]\nconstant = 1\n[body.star]\nshape.sphere.radius = 0.001\nmass = 1
             [body.planet]\nshape.sphere.radius = 0.001\nmass = 1e-20\nlocation = [0.1, 0, 0]\nvelocity = [0, 'sqrt(19)', 0]",
@@ -235,7 +235,7 @@ pub(crate) const REFERENCES: &[Reference] = &[
     },
     Reference {
         name: "L4 of Jupiter, 160 years",
-        source: "Lagrange 1772: it stays",
+        source: "Lagrange 1772: the triangle keeps its shape",
         what: "place, of 5.2 AU",
         scene: TROJAN,
         runs: &[("gauss-radau", 1e-9, 1e-11), ("dop853", 1e-12, 1e-7)],
