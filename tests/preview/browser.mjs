@@ -64,18 +64,25 @@ export async function tests(all) {
   const opened = async (options) => open(keep(await newPage(browser, options)), address);
   // Starts a browser that resolves a host name to this machine.
   const rebound = (name) => launch([`--host-resolver-rules=MAP ${name} 127.0.0.1`]);
+  const own = address.split("\n").flatMap((each) => [`${new URL(each).origin}/`, `blob:${new URL(each).origin}/`]);
+  const check = async (page) => {
+    assert.deepEqual(page.wrong, [], "what the page has complained of");
+    const foreign = page.asked.map((request) => request.url()).filter((url) => !own.some((own) => url.startsWith(own)));
+    assert.deepEqual(foreign, [], "what the page has asked others for");
+    const referers = await Promise.all(page.asked.map((request) => request.headerValue("referer").catch(() => null)));
+    assert.ok(referers.every((referer) => !referer?.includes("token")), "the token is in a Referer");
+  };
+  // Checks a page before the end of the test, and closes it.
+  const close = async (page) => {
+    await check(page);
+    pages.splice(pages.indexOf(page), 1);
+    await page.context().close();
+  };
   try {
-    await all[name]({ browser, address, scene, open: opened, keep, rebound });
-    const own = address.split("\n").flatMap((each) => [`${new URL(each).origin}/`, `blob:${new URL(each).origin}/`]);
-    for (const page of pages) {
-      assert.deepEqual(page.wrong, [], "what the page has complained of");
-      const foreign = page.asked.map((request) => request.url()).filter((url) => !own.some((own) => url.startsWith(own)));
-      assert.deepEqual(foreign, [], "what the page has asked others for");
-      const referers = await Promise.all(page.asked.map((request) => request.headerValue("referer").catch(() => null)));
-      assert.ok(referers.every((referer) => !referer?.includes("token")), "the token is in a Referer");
-    }
+    await all[name]({ browser, address, scene, open: opened, keep, close, rebound });
+    for (const page of pages) await check(page);
   } catch (error) {
-    console.error("The pages have complained of", pages.map((page) => page.wrong));
+    console.error("The pages have complained of", pages.map((page) => [page.url(), page.wrong]));
     throw error;
   } finally {
     await browser.close();

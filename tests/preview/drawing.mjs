@@ -1,7 +1,7 @@
 // Tests of the drawing of frames.
 
 import assert from "node:assert/strict";
-import { drawn, LONG, seek, tests, until } from "./browser.mjs";
+import { drawn, LONG, newPage, open, seek, tests, until } from "./browser.mjs";
 import { box, color, digest, isBlue, isRed, place } from "./picture.mjs";
 
 await tests({
@@ -56,18 +56,21 @@ await tests({
     assert.equal(await digest(page), before);
   },
 
-  async is_drawn_without_a_complaint({ open }) {
-    const page = await open({ size: { width: 480, height: 420 } });
-    await until(page, (jabuka) => jabuka.settled, null, 4 * LONG);
-    const title = await page.title();
-    const first = await digest(page);
-    const middle = await page.evaluate(() => Math.floor(window.jabuka.frames / 2));
-    await seek(page, middle);
-    const moved = await page.evaluate((middle) => {
-      const at = (frame) => JSON.stringify(window.jabuka.bodies.map((_, body) => window.jabuka.pose(body, frame)));
-      return at(0) !== at(middle);
-    }, middle);
-    assert.equal((await digest(page)) !== first, moved, `${title}: what moves is seen to move`);
-    assert.equal(await page.evaluate(() => window.jabuka.problem), null, title);
+  async is_drawn_without_a_complaint({ browser, address, keep, close }) {
+    for (const each of address.split("\n")) {
+      const page = await open(keep(await newPage(browser, { size: { width: 480, height: 420 } })), each);
+      const title = await page.title();
+      await until(page, (jabuka) => jabuka.settled, null, 4 * LONG);
+      const first = await digest(page);
+      const middle = await page.evaluate(() => Math.floor(window.jabuka.frames / 2));
+      await seek(page, middle);
+      const moved = await page.evaluate((middle) => {
+        const at = (frame) => JSON.stringify(window.jabuka.bodies.map((_, body) => window.jabuka.pose(body, frame)));
+        return at(0) !== at(middle);
+      }, middle);
+      assert.equal((await digest(page)) !== first, moved, `${title}: what moves is seen to move`);
+      assert.equal(await page.evaluate(() => window.jabuka.problem), null, title);
+      await close(page);
+    }
   },
 });

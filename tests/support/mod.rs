@@ -29,9 +29,11 @@ pub(crate) fn scene(name: &str) -> PathBuf {
     root().join("scenes").join(name).with_extension("toml")
 }
 
-/// Returns arguments that shorten the long scenes of the gallery, so that tests are fast.
+/// Returns arguments that shorten the long scenes of the gallery, so that tests are fast. Their snapshots are of the whole scenes.
 pub(crate) fn shorter(scene: &Path) -> &'static [&'static str] {
     match scene.file_stem().and_then(std::ffi::OsStr::to_str) {
+        Some("coins") => &["--set", "simulation.duration=1.2"],
+        Some("hourglass") => &["--set", "simulation.duration=2"],
         Some("domino_spiral") => &["--set", "simulation.duration=2"],
         Some("galton") => &["--set", "simulation.duration=2", "--set", "variables.balls=15"],
         Some("two_galaxies") => &["--set", "simulation.duration=2", "--set", "variables.stars=40"],
