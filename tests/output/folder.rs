@@ -141,6 +141,32 @@ fn a_run_that_diverges_writes_nothing() {
     assert!(!folder.path().join("out").exists());
 }
 
+/// Forces that are numbers, but drive a body beyond all bounds in the first steps. The error names the line of the force.
+#[test]
+fn a_force_beyond_all_bounds_is_an_error_at_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("huge.toml");
+    for (line, force) in [
+        (4, "[force.huge.formula]\nforce = ['1e300', 0, 0]"),
+        (4, "[force.huge.formula]\nforce = [0, '-1e308*cos(t)', 0]"),
+        (4, "[force.huge.constant]\ntorque = [0, 0, 1e100]"),
+        (4, "[force.huge.spring]\nbetween = ['ball', [0, 0, 0]]\nstiffness = 1e100\nrest_length = 0"),
+    ] {
+        fs::write(&path, format!("[body.ball]\nshape.sphere.radius = 0.2\nlocation = [1, 0, 0]\n{force}\n"))
+            .unwrap();
+        let output = jabuka().current_dir(folder.path()).args(["compile", "huge.toml"]).output().unwrap();
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.starts_with("error[diverged]: the run diverged: "), "{said}");
+        assert!(
+            said.contains(&format!("huge.toml:{line}:8\n")) && said.contains("`huge` acts on `ball`"),
+            "{said}"
+        );
+        assert_eq!(said.matches("error").count(), 1, "{said}");
+        assert!(!folder.path().join("out").exists(), "{force}");
+    }
+}
+
 /// A scene with a ball between two closing walls. The walls start 0.5 m from the ball and jam it at 0.5 s.
 const JAMMED: &str = "
     [simulation]

@@ -3,11 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
+use jabuka::Scene;
 use jabuka::dynamics::{
     BodyId, Buoyancy, Dipoles, Gravitation, J2, METHODS, RigidBody, Shape, UniformGravity, World,
 };
 
-use crate::common::{ball, method, tolerance, worlds};
+use crate::common::{ball, frames, method, tolerance, worlds};
 
 const G: f64 = 9.81;
 
@@ -37,6 +38,30 @@ fn a_box_heaves_as_on_a_spring() {
         assert!(off < allowed, "{}: {off:e} > {allowed:e}", method.name);
         let drift = world.balance().drift.abs();
         assert!(drift < 4.0 * tolerance(method, 1.25 * TAU, steps + steps / 4), "{}: {drift:e}", method.name);
+    }
+}
+
+/// Without gravity nothing is carried: a body stays, or keeps its velocity, and a warning says so.
+#[test]
+fn nothing_floats_without_gravity() {
+    for (extra, speed) in [("", 0.0), ("velocity = [0, 2, 0]", 2.0), ("angular_velocity = [1, 0, 0]", 0.0)] {
+        for shape in ["box.size = [1, 1, 1]", "sphere.radius = 0.5", "cylinder = { radius = 1, height = 1 }"]
+        {
+            let text = format!(
+                "simulation.duration = 1
+                [body.block]
+                shape.{shape}
+                {extra}
+                [force.lake.buoyancy]
+                density = 1000"
+            );
+            let warnings = Scene::parse(&text).unwrap().warnings.to_text(false);
+            assert!(warnings.contains("the force `lake` has no effect"), "{warnings}");
+            let last = frames(&text).pop().unwrap();
+            let off = (last.bodies[0].location - speed * DVec3::Y).length();
+            assert!(off < 1e-12 && last.bodies[0].force == DVec3::ZERO, "{text}: {off:e}");
+            assert!(last.balance.drift.abs() < 1e-12, "{text}: {:e}", last.balance.drift);
+        }
     }
 }
 
