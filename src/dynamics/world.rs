@@ -5,6 +5,7 @@ mod apart;
 mod change;
 mod crowd;
 mod event;
+mod jump;
 mod picture;
 mod piece;
 mod rest;
@@ -63,6 +64,8 @@ pub struct World {
     parts: Vec<Solver>,
     /// The number of steps for which all bodies are still advanced together, before the world looks for separate groups again.
     together: u32,
+    /// True if a given velocity changes suddenly within the current step.
+    is_sudden: bool,
     /// The state at the start of the present piece of a step. The piece is repeated from this state, and the states within it are computed
     /// from it.
     before: State,
@@ -104,6 +107,7 @@ impl World {
             is_decided: true,
             parts: Vec::new(),
             together: 0,
+            is_sudden: false,
             before: State::default(),
         }
     }

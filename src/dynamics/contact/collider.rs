@@ -83,6 +83,12 @@ impl Collider {
         self.fastest
     }
 
+    /// Returns how far a body reaches from its center, m; 0 if it does not end, or does not collide.
+    pub(in crate::dynamics) fn reach(&self, body: usize) -> f64 {
+        let solid = self.solids.get(body).and_then(Option::as_ref);
+        solid.map(|solid| solid.reach() + solid.size()).filter(|reach| reach.is_finite()).unwrap_or(0.0)
+    }
+
     /// Returns an upper bound of the surface speed that a body has from its rotation, m/s.
     pub(in crate::dynamics) fn spin(&self, body: usize, model: &Model, state: &State) -> f64 {
         let turning = model.angular_velocity(body, state).length();

@@ -90,7 +90,10 @@ impl Collider {
         state: &mut State,
         solver: &mut Solver,
     ) -> Result<Strike, Breakdown> {
-        let touching = self.touching(model, state);
+        // A body held at rest and a body with a given motion that does not approach it have nothing to pass on to each other.
+        let moves = |body: &usize| model.inverse_mass()[*body] != 0.0;
+        let mut touching = self.touching(model, state);
+        touching.retain(|pair| pair.bodies.iter().any(moves));
         let places: Vec<Vec<Place>> = touching
             .iter()
             .map(|pair| {

@@ -9,6 +9,12 @@ use super::picture::picture;
 /// errors, but 0.1 s must still be ten steps of 0.01 s.
 const STEP_TOLERANCE: f64 = 1e-9;
 
+/// A step ends at a sudden change of a given velocity if less than this fraction of it is left.
+const INSTANT: f64 = 1e-11;
+
+/// The largest number of sudden changes of given velocities in a step that end a piece of it.
+const JUMPS: u32 = 100;
+
 /// Returns the smallest number of equal steps that divide an interval (s), if no step may exceed `longest` (s). At least 1, at most
 /// `u32::MAX`.
 pub(in super::super) fn steps_of(interval: f64, longest: f64) -> u32 {
@@ -40,6 +46,7 @@ impl World {
         self.solver.expect_step(dt);
         self.solver.calm();
         self.check_rest(t);
+        self.is_sudden = self.next_jump(t, dt).is_some();
         if !self.step_apart(t, dt, moments, see) {
             self.decide_all(t);
             self.follow_events(t, dt, moments, see);
@@ -50,7 +57,7 @@ impl World {
     /// Makes a step of `dt` seconds in pieces that end at events, such as impacts. Calls `see` with a snapshot at each of `moments`.
     pub(super) fn follow_events(&mut self, t: f64, dt: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
         let (mut now, mut left, mut length) = (t, moments, dt);
-        let mut counts = Counts::default();
+        let (mut counts, mut jumps) = (Counts::default(), 0);
         if let Some(collider) = &mut self.collider {
             collider.set_out();
             if collider.is_crowded() {
@@ -64,7 +71,19 @@ impl World {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
             }
-            let (duration, event) = self.make_piece(now, length);
+            let jump = if self.is_sudden && jumps < JUMPS { self.next_jump(now, length) } else { None };
+            if let Some(jump) = jump.filter(|jump| jump.before <= 0.0) {
+                jumps += 1;
+                now += jump.after;
+                length = t + dt - now;
+                self.pass_jump(jump, now);
+                if length <= INSTANT * dt || self.solver.has_failed() {
+                    self.disperse(t + dt);
+                    return;
+                }
+                continue;
+            }
+            let (duration, event) = self.make_piece(now, jump.map_or(length, |jump| jump.before.min(length)));
             if self.is_unsolved(now + duration) && self.go_back(now) {
                 continue;
             }
@@ -74,6 +93,21 @@ impl World {
                 collider.note_rebounds(now + duration);
             }
             self.solver.blame_friction(&self.model, now + duration);
+            if let (None, Some(jump)) = (event, jump) {
+                let (within, later) =
+                    left.split_at(left.partition_point(|&moment| moment <= now + jump.after));
+                left = later;
+                self.look_within(now, duration, within, see);
+                jumps += 1;
+                now += jump.after;
+                length = t + dt - now;
+                self.pass_jump(jump, now);
+                if length <= INSTANT * dt || self.solver.has_failed() {
+                    self.disperse(t + dt);
+                    return;
+                }
+                continue;
+            }
             let Some(event) = event else {
                 self.look_within(now, duration, left, see);
                 self.disperse(t + dt);
