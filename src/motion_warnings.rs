@@ -1,6 +1,7 @@
 //! Warnings about the motion in a simulation, whatever is made of it.
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::dynamics::LawResidual;
 use crate::picture::number::rounded;
 use crate::scene::{ContactLaw, Scene, thinnest};
 use crate::simulate::{Corrected, Crossing, Overlap, StretchedJoint, Survey};
@@ -15,6 +16,7 @@ pub fn all(scene: &Scene, survey: &Survey) -> Vec<Diagnostic> {
         .chain(survey.stretched.iter().map(stretched))
         .chain(sunken(scene, survey))
         .chain(energy_added(scene, survey))
+        .chain(survey.broken_laws().map(|residual| broken(scene, residual)))
         .chain(first_order(scene, survey).or_else(|| drift(scene, survey)))
         .collect()
 }
@@ -124,6 +126,23 @@ fn sunken(scene: &Scene, survey: &Survey) -> Option<Diagnostic> {
     );
     let help = "take a smaller `simulation.step`, or make the bodies more alike in mass";
     (is_stepped && part > ALLOWED).then(|| Diagnostic::warning(Code::DeepOverlap, message).help(help))
+}
+
+/// Returns the warning that contacts have broken a law that no contact can break.
+fn broken(scene: &Scene, residual: &LawResidual) -> Diagnostic {
+    let LawResidual { law, time, bodies: [one, two], amount, part } = *residual;
+    let name = |body: usize| scene.bodies.get(body).map_or("ground", |body| &body.name);
+    let bodies =
+        if one == two { format!("`{}`", name(one)) } else { format!("`{}` and `{}`", name(one), name(two)) };
+    let message = format!(
+        "contacts of {bodies} change the {} by {} {} at t = {time} s, {:.1} % of it, which no contact can do",
+        law.name(),
+        rounded(amount),
+        law.unit(),
+        100.0 * part
+    );
+    Diagnostic::warning(Code::EnergyAdded, message)
+        .help("what follows is not right; take a smaller `simulation.step`")
 }
 
 /// Returns a warning if contacts or joints give much energy to the bodies under time-stepping.

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use jabuka::diagnostic::visible_path;
+use jabuka::dynamics::LawResidual;
 use jabuka::output::Written;
 use jabuka::scene::ContactLaw;
 use jabuka::simulate::{ContactTotals, EnergyScale};
@@ -48,6 +49,7 @@ pub(super) fn summary(
          timestep  {steps}, by {method}\n\
          {drift}\
          {contacts}\
+         {laws}\
          {unit}\
          {blur}\
          written   {bytes} in {seconds:.2} s\n\
@@ -72,6 +74,7 @@ pub(super) fn summary(
             .zip(scene.simulation.contacts)
             .map(|(totals, law)| contacts(totals, law, survey.drift_energy))
             .unwrap_or_default(),
+        laws = laws(&survey.laws),
         report = report(scene, path, survey.drift),
         bytes = bytes(written.bytes),
         seconds = took.as_secs_f64(),
@@ -120,6 +123,15 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
         _ => gap,
     };
     format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
+}
+
+/// Returns the line with the worst residual of the laws that no contact can break. Empty if there are none.
+fn laws(residuals: &[LawResidual]) -> String {
+    let worst = residuals.iter().filter(|residual| residual.amount > 0.0);
+    let Some(worst) = worst.max_by(|a, b| a.part.total_cmp(&b.part)) else { return String::new() };
+    let LawResidual { law, time, amount, .. } = *worst;
+    let (name, unit) = (law.name(), law.unit());
+    format!("laws      {name} kept within {} {unit}, at t = {} s\n", two_digits(amount), short(time))
 }
 
 /// Formats an energy in J that contacts have taken from the bodies. A negative energy is one that contacts have added.

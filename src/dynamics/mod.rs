@@ -99,7 +99,7 @@ mod world;
 pub use anchor::Anchor;
 pub use body::{BodyId, RigidBody};
 pub use constraint::*;
-pub use contact::{ContactProperties, ContactSnapshot, Contacts, Impact, Surface};
+pub use contact::{ContactProperties, ContactSnapshot, Contacts, Impact, LawResidual, MotionLaw, Surface};
 pub use energy::{Balance, EnergyLedger};
 pub use force::*;
 pub use frame_independent::Accuracy;
@@ -145,6 +145,11 @@ pub trait Dynamics: Send {
     /// Returns the impacts since the last call, in the order in which they happened. Empty for an engine without impacts.
     fn impacts(&mut self) -> Vec<Impact> {
         Vec::new()
+    }
+
+    /// Returns the worst residual of each law that no contact can break, in the run so far. Empty for an engine that does not check them.
+    fn law_residuals(&self) -> &[LawResidual] {
+        &[]
     }
 
     /// Returns the number of integration steps so far.

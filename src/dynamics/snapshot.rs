@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Balance, BodyId, ContactSnapshot, Loads, Model, Reaction, State, Undefined};
+use super::{Balance, BodyId, ContactSnapshot, LawResidual, Loads, Model, Reaction, State, Undefined};
 
 /// All bodies, reactions, contacts and energies at one moment of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Snapshot {
     pub contacts: Vec<ContactSnapshot>,
     /// The largest penetration depth of two bodies, m; 0 if no bodies touch, or if the engine lets no bodies penetrate each other.
     pub penetration: f64,
+    /// The worst residual so far of each law that no contact can break. Empty if the engine does not check them.
+    pub laws: Vec<LawResidual>,
     /// The energies, the momenta, and the drift of the energy.
     pub balance: Balance,
 }

@@ -21,8 +21,8 @@ use super::constraint::Solver;
 use super::contact::Collider;
 use super::presence::PresenceSchedule;
 use super::{
-    Balance, BodyId, Breakdown, ContactSnapshot, Dynamics, EnergyLedger, Impact, Integrator, Loads, METHODS,
-    Method, Model, PairCounter, RigidBody, Snapshot, State, System,
+    Balance, BodyId, Breakdown, ContactSnapshot, Dynamics, EnergyLedger, Impact, Integrator, LawResidual,
+    Loads, METHODS, Method, Model, PairCounter, RigidBody, Snapshot, State, System,
 };
 
 /// The default longest time step of a world, s.
@@ -289,9 +289,11 @@ impl Dynamics for World {
         let balance = self.balance();
         // The modes of the contacts are decided in a copy, because a snapshot must not change the world.
         let mut copy = self.decided();
-        let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
+        let World { model, state, solver, rest, crowd, collider, loads, time, .. } =
+            copy.as_mut().unwrap_or(self);
+        let laws = laws_of(collider.as_ref());
         let mut system = System::new(model, solver);
-        let snapshot = picture(&mut system, *time, state, (balance, rest, crowd), loads).checked();
+        let snapshot = picture(&mut system, *time, state, (balance, rest, crowd, laws), loads).checked();
         let snapshot = solver.take_failure().map_or(snapshot, Err);
         snapshot.map_err(|error| model.cause(error))
     }
@@ -300,9 +302,18 @@ impl Dynamics for World {
         self.collider.as_mut().map(Collider::take_impacts).unwrap_or_default()
     }
 
+    fn law_residuals(&self) -> &[LawResidual] {
+        laws_of(self.collider.as_ref())
+    }
+
     fn steps(&self) -> u64 {
         self.steps
     }
+}
+
+/// Returns the worst residual so far of each law that no contact can break.
+fn laws_of(collider: Option<&Collider>) -> &[LawResidual] {
+    collider.map_or(&[], Collider::law_residuals)
 }
 
 #[cfg(test)]

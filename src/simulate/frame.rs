@@ -2,7 +2,7 @@
 
 use super::simulation::Entry;
 use super::{ImpactCounts, Past, Swarm};
-use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Reaction, Snapshot, find};
+use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, LawResidual, Reaction, Snapshot, find};
 
 /// The state of a run at one moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Frame {
     pub contacts: Vec<ContactSnapshot>,
     /// The largest penetration between two bodies, m.
     pub penetration: f64,
+    /// The worst residual so far of each law that no contact can break. Empty without event-driven contacts.
+    pub laws: Vec<LawResidual>,
     /// The energies and momenta of the system, and its energy error.
     pub balance: Balance,
     /// The numbers of impacts from the start to this frame.
@@ -34,7 +36,7 @@ pub struct Frame {
 impl Frame {
     /// Creates a frame from a snapshot of the dynamics. Its impact counts, particles and past are empty.
     pub fn of(index: usize, moment: Snapshot) -> Frame {
-        let Snapshot { time, bodies, reactions, angles, contacts, penetration, balance } = moment;
+        let Snapshot { time, bodies, reactions, angles, contacts, penetration, laws, balance } = moment;
         let (impacts, past, particles) = (ImpactCounts::default(), Past::default(), Vec::new());
         Frame {
             index,
@@ -44,6 +46,7 @@ impl Frame {
             angles,
             contacts,
             penetration,
+            laws,
             balance,
             impacts,
             particles,

@@ -20,7 +20,7 @@ use super::requested_sizes::RequestedSizes;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
 use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, SimulateError, Span, world};
-use crate::dynamics::BodySnapshot;
+use crate::dynamics::{BodySnapshot, LawResidual};
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
 /// Statistics of a whole run.
@@ -51,6 +51,8 @@ pub struct Survey {
     pub drift_energy: f64,
     /// Statistics of the contacts up to the last frame. `None` in scenes without contacts.
     pub contacts: Option<ContactTotals>,
+    /// The worst residual in the run of each law that no contact can break. Empty without event-driven contacts.
+    pub laws: Vec<LawResidual>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
     pub stretched: Option<StretchedJoint>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
@@ -125,12 +127,18 @@ pub struct Surveyor<'a> {
     /// if given.
     joint_arrows: Vec<(JointEnd, Quantity, Option<f64>)>,
     contacts: Option<ContactTotals>,
+    laws: Vec<LawResidual>,
     gaps: Gaps,
     /// The largest energy error so far.
     error: EnergyError,
 }
 
 impl Survey {
+    /// The laws that no contact can break, but that the run has broken by more than rounding errors, with the worst time of each.
+    pub fn broken_laws(&self) -> impl Iterator<Item = &LawResidual> {
+        self.laws.iter().filter(|residual| residual.is_broken())
+    }
+
     /// The box around all bodies and particles in the whole run. `None` if all bodies are planes.
     pub fn bounds(&self) -> Option<Bounds> {
         self.spans.last().map(|span| span.bounds)
@@ -154,6 +162,7 @@ impl<'a> Surveyor<'a> {
             requested: RequestedSizes::new(scene),
             joint_arrows: joint_arrows(scene),
             contacts: scene.simulation.contacts.map(|_| ContactTotals::default()),
+            laws: Vec::new(),
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
         }
@@ -211,6 +220,7 @@ impl<'a> Surveyor<'a> {
                 taken_by_joints,
             };
         }
+        self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
     }
 
@@ -226,6 +236,7 @@ impl<'a> Surveyor<'a> {
             corrected,
             requested,
             contacts,
+            laws,
             gaps,
             error,
             ..
@@ -244,6 +255,7 @@ impl<'a> Surveyor<'a> {
             corrected,
             requested,
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
+            laws,
             stretched: gaps.finish(scene),
             drift: error.drift(law),
             drift_scale,

@@ -160,6 +160,28 @@ impl Solver {
         pushing.filter_map(move |place| place.constraint.checked_sub(joints))
     }
 
+    /// Returns the two bodies of the contact with the largest normal impulse in the last solution, and the sum of all normal impulses, N s.
+    /// `None` if no contact pushes.
+    pub(in crate::dynamics) fn hardest_contact(&self) -> Option<([usize; 2], f64)> {
+        let places = self.structure.iter().flat_map(|structure| &structure.places);
+        let pushing =
+            places.filter(|place| place.constraint >= self.joints() && self.unknown[place.row] > 0.0);
+        let sum = pushing.clone().map(|place| self.unknown[place.row]).sum();
+        let hardest = pushing.max_by(|a, b| self.unknown[a.row].total_cmp(&self.unknown[b.row]))?;
+        Some((self.contacts[hardest.constraint - self.joints()].bodies, sum))
+    }
+
+    /// Returns the typical length of the smallest body in contact, m.
+    pub(in crate::dynamics) fn least_size(&self) -> f64 {
+        self.contacts.iter().map(|contact| contact.size).fold(f64::MAX, f64::min)
+    }
+
+    /// Returns the largest error of the joints at the last measurement, m or rad.
+    pub(in crate::dynamics) fn widest_joint(&self) -> f64 {
+        let joints = self.rows.iter().zip(&self.laws).filter(|(_, law)| **law == Law::Equality);
+        joints.map(|(row, _)| row.violation.abs()).fold(0.0, f64::max)
+    }
+
     /// Computes the rate c' of each constraint row from the velocities of the members.
     fn rates_now(&self) -> Vec<f64> {
         (0..self.rows.len()).map(|row| self.rate_of(row)).collect()

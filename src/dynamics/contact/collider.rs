@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::{BodyId, Breakdown, Constraint, Model, State};
+use super::super::{BodyId, Breakdown, Constraint, LawResidual, Model, State};
 use super::approach::{Approach, TOUCH, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
 use super::lasting_contact::LastingContact;
+use super::laws::LawBook;
 use super::pairs::{Pairs, overlapping};
 use super::path::{Path, pose};
 use super::solid::{Pose, Solid};
@@ -52,6 +53,8 @@ pub(in crate::dynamics) struct Collider {
     pub(super) crowd: Crowd,
     /// The group of bodies that is being advanced; `None` while all bodies are advanced together.
     pub(super) focus: Option<Focus>,
+    /// How well the laws that no contact can break have been kept.
+    pub(super) laws: LawBook,
 }
 
 /// Two touching bodies with all their contact points.
@@ -69,13 +72,19 @@ impl Collider {
     pub(in crate::dynamics) fn new(contacts: Contacts) -> Collider {
         let (solids, pairs, paths) = (Vec::new(), Pairs::default(), Vec::new());
         let (impacts, hits, crowd) = (Vec::new(), BTreeMap::new(), Crowd::default());
-        let is_known = Vec::new();
-        Collider { contacts, solids, pairs, paths, is_known, fastest: 0.0, impacts, hits, crowd, focus: None }
+        let (is_known, laws) = (Vec::new(), LawBook::default());
+        let (fastest, focus) = (0.0, None);
+        Collider { contacts, solids, pairs, paths, is_known, fastest, impacts, hits, crowd, focus, laws }
     }
 
     /// Resets the counts of impacts at the beginning of a step.
     pub(in crate::dynamics) fn set_out(&mut self) {
         self.hits.clear();
+    }
+
+    /// Returns the worst residual so far of each law that no contact can break.
+    pub(in crate::dynamics) fn law_residuals(&self) -> &[LawResidual] {
+        self.laws.worst()
     }
 
     /// Returns the largest closing speed of two bodies so far, m/s.

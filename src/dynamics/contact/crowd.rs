@@ -17,6 +17,7 @@ use super::super::constraint::Solver;
 use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::collider::{Collider, Touching};
 use super::lasting_contact::LastingContact;
+use super::laws::LawBook;
 
 /// The largest number of further steps for which a body stays in the crowd (the bodies that Moreau's scheme advances). Without further
 /// steps, a settling heap would collect thousands of events in each step before it joins the crowd again.
@@ -37,6 +38,8 @@ pub(in crate::dynamics) struct Crowd {
     pushing: BTreeSet<[usize; 2]>,
     /// For each body that joined the crowd (the bodies that Moreau's scheme advances) recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
+    /// How well the laws that no contact can break have been kept.
+    laws: LawBook,
     /// The bodies that Moreau's scheme has advanced as part of a heap, that is, of many touching bodies.
     heaps: BTreeSet<usize>,
 }

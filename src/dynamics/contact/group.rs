@@ -10,6 +10,7 @@ use super::closest_points::nearest;
 use super::collider::{Collider, NEAR, SLIGHT, Scale, is_passive};
 use super::crowd::Crowd;
 use super::lasting_contact::LastingContact;
+use super::laws::LawBook;
 use super::pairs::{Pair, way};
 use super::path::{Path, pose};
 
@@ -37,6 +38,8 @@ pub(in crate::dynamics) struct Parting {
     /// The number of impacts before the step. `crowd` is the crowd before the step.
     impacts: usize,
     crowd: Crowd,
+    /// The record of the laws before the step.
+    laws: LawBook,
 }
 
 /// The group of bodies that is being advanced, while the other groups wait.
@@ -139,8 +142,8 @@ impl Collider {
                 [None, None] => {}
             }
         }
-        let (impacts, crowd) = (self.impacts.len(), self.crowd.without_course());
-        Parting { groups, between, taken: free.clone(), free, impacts, crowd }
+        let (impacts, crowd, laws) = (self.impacts.len(), self.crowd.without_course(), self.laws.clone());
+        Parting { groups, between, taken: free.clone(), free, impacts, crowd, laws }
     }
 
     /// Restricts the collider to one group, which is advanced next.
@@ -211,7 +214,7 @@ impl Collider {
         }
         self.impacts.truncate(parting.impacts);
         self.pairs.expect(parting.taken);
-        self.crowd = parting.crowd;
+        (self.crowd, self.laws) = (parting.crowd, parting.laws);
         Err(met)
     }
 }

@@ -209,6 +209,7 @@ impl Collider {
             restitution: if rests { 0.0 } else { pair.law.restitution },
             friction: pair.law.friction,
         };
+        let kinetic: f64 = pair.bodies.iter().map(|&body| kinetic(body, model, state)).sum();
         let context = (model, &*state);
         let middle = middle(pair.bodies, places, &before, bounce, context, joints.as_deref_mut());
         let (places, before, all) = match &middle {
@@ -220,6 +221,8 @@ impl Collider {
             }
         };
         let (mut impulse, mut place, mut normal, mut weight) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, 0.0);
+        let (mut moment, mut moments) = (DVec3::ZERO, 0.0);
+        let apart = state.location[pair.bodies[1]] - state.location[pair.bodies[0]];
         for (at, pushed) in places.iter().zip(&all) {
             let push = at.axes[0] * pushed.x + at.axes[1] * pushed.y + at.axes[2] * pushed.z;
             for (i, &body) in pair.bodies.iter().enumerate() {
@@ -236,6 +239,8 @@ impl Collider {
                     state.accounts.work -= push.dot(state.velocity[body]) + turning;
                 }
             }
+            moment += (apart + at.arms[1] - at.arms[0]).cross(push);
+            moments += push.length() * (at.arms[0].length() + at.arms[1].length());
             impulse += push;
             place += pushed.x * (at.arms[1] + state.location[pair.bodies[1]]);
             normal += pushed.x * at.axes[0];
@@ -252,6 +257,8 @@ impl Collider {
             .map(|((before, after), pushed)| 0.5 * pushed.dot(*before + after));
         let work: f64 = work.sum();
         state.accounts.impacts += work;
+        self.laws.note_work(work, kinetic, pair.bodies, time);
+        self.laws.note_moment(moment.length(), moments, pair.bodies, time);
         if (pair.law.restitution == 1.0 || speed > REST * self.fastest) && weight > 0.0 {
             let (place, normal) = (place / weight, normal.normalize_or_zero());
             let energy = (-work).max(0.0);
@@ -294,6 +301,13 @@ fn middle(
     let after = |at: usize| DVec3::new(changed(3 * at), changed(3 * at + 1), changed(3 * at + 2));
     let is_turned = (1..n / 3).any(|at| (after(at) - after(0)).length() > ALIKE * speed);
     (!is_turned).then_some((place, rate, impulse))
+}
+
+/// Computes the kinetic energy of a body that loads can move, J.
+pub(super) fn kinetic(body: usize, model: &Model, state: &State) -> f64 {
+    let mass = if model.inverse_mass()[body] == 0.0 { 0.0 } else { model.mass()[body] };
+    let turning = state.angular_momentum[body].dot(model.angular_velocity(body, state));
+    0.5 * (mass * state.velocity[body].length_squared() + if mass == 0.0 { 0.0 } else { turning })
 }
 
 fn twist(body: usize, model: &Model, state: &State) -> Twist {

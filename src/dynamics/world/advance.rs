@@ -1,9 +1,9 @@
 //! Advancing a world in time: steps, births and deaths of bodies, and snapshots within steps.
 
 use super::super::{Snapshot, State, Step, System};
-use super::World;
 use super::event::Counts;
 use super::picture::picture;
+use super::{World, laws_of};
 
 /// An interval that exceeds a whole number of steps by less than this fraction gets no further step. Decimal fractions have rounding
 /// errors, but 0.1 s must still be ten steps of 0.01 s.
@@ -217,8 +217,10 @@ impl World {
     fn peek(&mut self) -> Snapshot {
         let balance = self.ledger.peek(&self.model, self.time, &self.state);
         let mut copy = self.decided();
-        let World { model, state, solver, rest, crowd, loads, time, .. } = copy.as_mut().unwrap_or(self);
-        picture(&mut System::new(model, solver), *time, state, (balance, rest, crowd), loads)
+        let World { model, state, solver, rest, crowd, collider, loads, time, .. } =
+            copy.as_mut().unwrap_or(self);
+        let laws = laws_of(collider.as_ref());
+        picture(&mut System::new(model, solver), *time, state, (balance, rest, crowd, laws), loads)
     }
 
     fn advance_evenly(&mut self, t: f64, moments: &[f64], see: &mut dyn FnMut(Snapshot)) {
@@ -249,7 +251,9 @@ impl World {
         if moments.is_empty() {
             return;
         }
-        let Self { model, state, integrator, solver, ledger, loads, before, rest, crowd, .. } = self;
+        let Self { model, state, integrator, solver, ledger, loads, before, rest, crowd, collider, .. } =
+            self;
+        let laws = laws_of(collider.as_ref());
         let step = Step { model, start, duration, before, after: state };
         let mut system = System::new(model, solver);
         let dense = integrator.dense(&mut system, step);
@@ -260,7 +264,7 @@ impl World {
                 system.settle(time, &mut within);
             }
             let balance = ledger.peek(model, time, &within);
-            see(picture(&mut system, time, &within, (balance, rest, crowd), loads));
+            see(picture(&mut system, time, &within, (balance, rest, crowd, laws), loads));
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Snapshots of a world: the states of all bodies, reactions and contacts at one moment.
 
 use super::rest::Rest;
-use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Loads, Model, Snapshot, State, System};
+use crate::dynamics::{
+    Balance, BodySnapshot, ContactSnapshot, LawResidual, Loads, Model, Snapshot, State, System,
+};
 
 /// Creates the snapshot of a state at `time`, s. `crowd` holds the contacts of bodies in the crowd (the bodies that Moreau's scheme
 /// advances). `loads` is working memory.
@@ -9,7 +11,7 @@ pub(super) fn picture(
     system: &mut System<'_>,
     time: f64,
     state: &State,
-    (balance, rest, crowd): (Balance, &Rest, &[ContactSnapshot]),
+    (balance, rest, crowd, laws): (Balance, &Rest, &[ContactSnapshot], &[LawResidual]),
     loads: &mut Loads,
 ) -> Snapshot {
     let model = system.model();
@@ -23,7 +25,7 @@ pub(super) fn picture(
     contacts.extend(rest.contacts());
     contacts.extend(crowd);
     contacts.sort_by_key(|contact| contact.bodies);
-    Snapshot { time, bodies, reactions, contacts, balance, ..Snapshot::default() }
+    Snapshot { time, bodies, reactions, contacts, laws: laws.to_vec(), balance, ..Snapshot::default() }
 }
 
 /// Adds the contact forces on bodies in the crowd (the bodies that Moreau's scheme advances) to their loads.

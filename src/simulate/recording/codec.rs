@@ -12,6 +12,7 @@
 //! | with counted impacts: runs of masks, and counts, in the same way | |
 //! | with counted impacts: the number of contacts, and for each: two bodies, position, normal, force, friction | `u32`; `f64` |
 //! | with counted impacts: the number of new impacts, and for each: two bodies, time, position, normal, impulse, energy | `u32`; `f64` |
+//! | with counted impacts: the number of residuals of laws, and for each: the law, time, two bodies, amount, part | `u32`; `f64` |
 //!
 //! A run is a sequence of consecutive bodies (or joints, or counts) with the same mask. A bit of a mask marks a changed column: for a
 //! body, location, orientation, velocity, angular velocity, force; for a joint, force, torque, effort of

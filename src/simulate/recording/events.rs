@@ -1,13 +1,16 @@
-//! Converts contacts and impacts to and from lists of numbers.
+//! Converts contacts, impacts and residuals of laws to and from lists of numbers.
 
 use glam::DVec3;
 
-use crate::dynamics::{ContactSnapshot, Impact};
+use crate::dynamics::{ContactSnapshot, Impact, LawResidual, MotionLaw};
 
 /// The number of values that describe a contact: two bodies and four vectors.
 pub(super) const CONTACT_NUMBERS: usize = 14;
 /// The number of values that describe an impact: two bodies, time, three vectors and energy.
 pub(super) const IMPACT_NUMBERS: usize = 13;
+
+/// The number of values that describe the residual of a law.
+pub(super) const LAW_NUMBERS: usize = 6;
 
 pub(super) fn contact_numbers(contact: &ContactSnapshot) -> [f64; CONTACT_NUMBERS] {
     let ContactSnapshot { bodies: [one, two], place, normal, force, friction } = *contact;
@@ -33,6 +36,17 @@ pub(super) fn impact_of(n: &[f64; IMPACT_NUMBERS]) -> Impact {
     let vector = |at: usize| DVec3::new(n[at], n[at + 1], n[at + 2]);
     let bodies = [n[0], n[1]].map(id);
     Impact { time: n[2], bodies, place: vector(3), normal: vector(6), impulse: vector(9), energy: n[12] }
+}
+
+pub(super) fn law_numbers(residual: &LawResidual) -> [f64; LAW_NUMBERS] {
+    let LawResidual { law, time, bodies: [one, two], amount, part } = *residual;
+    let at = MotionLaw::ALL.iter().position(|other| *other == law).unwrap_or(0);
+    [number(at), time, number(one), number(two), amount, part]
+}
+
+pub(super) fn law_of(n: &[f64; LAW_NUMBERS]) -> LawResidual {
+    let law = MotionLaw::ALL.get(id(n[0])).copied().unwrap_or(MotionLaw::Energy);
+    LawResidual { law, time: n[1], bodies: [id(n[2]), id(n[3])], amount: n[4], part: n[5] }
 }
 
 /// Converts the index of a body to a floating-point number.

@@ -21,6 +21,7 @@ use super::super::lasting_contact::{LastingContact, heading};
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 use super::super::solid::Solid;
+use super::super::strike::kinetic;
 use super::super::touch::touches;
 use super::Crowd;
 
@@ -143,7 +144,8 @@ impl Collider {
 
     /// Reports the impacts of the crowd (the bodies that Moreau's scheme advances) up to `time`, s, to which the crowd has been advanced.
     pub(in crate::dynamics) fn note_rebounds(&mut self, time: f64) {
-        let Collider { crowd, impacts, .. } = self;
+        let Collider { crowd, impacts, laws, .. } = self;
+        laws.note_all(&crowd.laws);
         let Some(course) = &mut crowd.course else { return };
         let passed = course.impacts.partition_point(|impact| impact.time <= time);
         impacts.extend(course.impacts.drain(..passed));
@@ -397,6 +399,8 @@ impl Crowd {
             self.fly(model, 0.5 * part, now);
             return;
         }
+        let energy: f64 = self.bodies.iter().map(|&body| kinetic(body, model, now)).sum();
+        let taken = now.accounts.impacts + now.accounts.friction;
         let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
         solver.find_by_sweeps(model);
         solver.take_contacts(closed);
@@ -419,10 +423,18 @@ impl Crowd {
         }
         model.sum(t + 0.5 * part, now, loads);
         self.solver.prepare_sweeps(model, t + 0.5 * part, now);
+        let open = self.solver.widest_joint();
         let goals = self.solver.middle(&goals);
         self.kick(model, 0.5 * part, now, loads);
         let solver = &mut self.solver;
         solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
+        let work = now.accounts.impacts + now.accounts.friction - taken;
+        if let Some((bodies, impulses)) = self.solver.hardest_contact() {
+            self.laws.note_work(work, energy, bodies, t);
+            // An open joint between the bodies turns the impulses by their moments about its width.
+            let size = self.solver.least_size();
+            self.laws.note_moment(open * impulses, size * impulses, bodies, t);
+        }
         for (&i, (location, orientation)) in self.bodies.iter().zip(flown) {
             (now.location[i], now.orientation[i]) = (location, orientation);
         }

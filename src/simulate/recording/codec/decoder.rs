@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::super::ImpactCounts;
 use super::super::super::simulation::Entry;
-use super::super::events::{CONTACT_NUMBERS, IMPACT_NUMBERS, contact_of, impact_of};
+use super::super::events::{CONTACT_NUMBERS, IMPACT_NUMBERS, LAW_NUMBERS, contact_of, impact_of, law_of};
 use super::last::Last;
 use super::{
     ABSENT, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS, damaged,
@@ -35,7 +35,7 @@ impl Decoder {
 
     /// Decodes the next moment of the page.
     pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
-        let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts } =
+        let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts, laws } =
             parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
         let mut bodies = Vec::with_capacity(self.last.bodies.len());
         let mut id = 0;
@@ -69,6 +69,7 @@ impl Decoder {
         entry.snapshot.angles = self.last.joints.iter().map(|numbers| numbers[7]).collect();
         entry.snapshot.contacts = numbers_in(contacts, contact_of)?;
         entry.impacts = numbers_in(impacts, impact_of)?;
+        entry.snapshot.laws = numbers_in(laws, law_of)?;
         entry.counts = ImpactCounts(self.last.impacts.clone());
         Ok(entry)
     }
@@ -138,6 +139,7 @@ impl Head {
                 angles: Vec::new(),
                 contacts: Vec::new(),
                 penetration: n[HEAD - 1],
+                laws: Vec::new(),
                 balance,
             },
             impacts: Vec::new(),
@@ -158,6 +160,7 @@ struct Parts<'a> {
     counts: (Vec<Run>, &'a [u8]),
     contacts: &'a [u8],
     impacts: &'a [u8],
+    laws: &'a [u8],
 }
 
 /// Splits the moment at offset `at` of a page into its parts. `joints` and `counts` are the numbers of joints and impact counts in each
@@ -174,16 +177,17 @@ fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -
         (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
     }
     let mut of_counts = (Vec::new(), &rest[..0]);
-    let [mut contacts, mut impacts] = [&rest[..0]; 2];
+    let [mut contacts, mut impacts, mut laws] = [&rest[..0]; 3];
     if counts > 0 {
         (of_counts, rest) = runs_of(rest, &COUNT_COLUMNS)?;
         (contacts, rest) = list(rest, CONTACT_NUMBERS)?;
         (impacts, rest) = list(rest, IMPACT_NUMBERS)?;
+        (laws, rest) = list(rest, LAW_NUMBERS)?;
     }
     *at = page.len() - rest.len();
     let frame = (number != NO_FRAME).then_some(number as usize);
     let head = Head { frame, numbers };
-    Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts })
+    Ok(Parts { head, bodies, joints: of_joints, counts: of_counts, contacts, impacts, laws })
 }
 
 /// Splits bytes into the list at their start and the remaining bytes. Each item of the list consists of `numbers` values.

@@ -1,7 +1,7 @@
 //! Encodes moments as bytes.
 
 use super::super::super::simulation::Entry;
-use super::super::events::{contact_numbers, impact_numbers};
+use super::super::events::{contact_numbers, impact_numbers, law_numbers};
 use super::last::Last;
 use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
 use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
@@ -81,7 +81,7 @@ impl Encoder {
         put_runs(bytes, start, masks);
     }
 
-    /// Appends the impact counts, the contacts of the moment, and the impacts since the previous moment.
+    /// Appends the impact counts, the contacts of the moment, the impacts since the previous moment, and the worst residuals of laws.
     fn encode_contacts(&mut self, entry: &Entry, bytes: &mut Vec<u8>) {
         let Self { last: Last { impacts, .. }, masks } = self;
         masks.clear();
@@ -97,6 +97,9 @@ impl Encoder {
         contacts.iter().for_each(|contact| put(bytes, &contact_numbers(contact)));
         bytes.extend_from_slice(&u32_of(entry.impacts.len()).to_le_bytes());
         entry.impacts.iter().for_each(|impact| put(bytes, &impact_numbers(impact)));
+        let laws = &entry.snapshot.laws;
+        bytes.extend_from_slice(&u32_of(laws.len()).to_le_bytes());
+        laws.iter().for_each(|residual| put(bytes, &law_numbers(residual)));
     }
 }
 

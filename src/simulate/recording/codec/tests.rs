@@ -1,9 +1,11 @@
 use glam::{DQuat, DVec3};
 
 use super::super::super::simulation::Entry;
-use super::super::events::CONTACT_NUMBERS;
+use super::super::events::{CONTACT_NUMBERS, LAW_NUMBERS};
 use super::*;
-use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, Impact, Reaction, Snapshot};
+use crate::dynamics::{
+    Balance, BodySnapshot, ContactSnapshot, Impact, LawResidual, MotionLaw, Reaction, Snapshot,
+};
 
 const COUNTS: Counts = Counts { bodies: 3, joints: 2, impacts: 5 };
 
@@ -41,6 +43,8 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
     let contact =
         ContactSnapshot { bodies: [1, 2], place, normal, force: vector(3.0), friction: vector(4.0) };
     let impact = Impact { time, bodies: [0, 3], place, normal, impulse: vector(5.0), energy: 6.0 };
+    let law =
+        LawResidual { law: MotionLaw::AngularMomentum, time, bodies: [1, 2], amount: 0.5 * time, part: 1e-3 };
     Entry {
         frame,
         snapshot: Snapshot {
@@ -50,6 +54,7 @@ fn entry(time: f64, bodies: &[(usize, f64)]) -> Entry {
             angles: vec![0.0, 7.0 * time],
             contacts: vec![contact; usize::from(time > 0.5)],
             penetration: 0.25 * time,
+            laws: vec![law; usize::from(time > 0.5)],
             balance,
         },
         impacts: vec![impact; usize::from(time > 1.5) * 2],
@@ -74,12 +79,12 @@ fn moments_are_read_as_they_were_written() {
     }
     let head = 4 + 8 * HEAD + 4;
     let of_counts = 4 + 3 * 5 + 2 * 8;
-    let of_contacts = 4 + 8 * CONTACT_NUMBERS + 4;
+    let of_contacts = 4 + 8 * CONTACT_NUMBERS + 4 + 4 + 8 * LAW_NUMBERS;
     let bodies_and_joints = 3 * 5 + 4 + 2 * 5 + 2 * 8;
     assert_eq!(
         sizes[1],
         head + bodies_and_joints + of_counts + of_contacts,
-        "present, absent, present; of two joints, the motor and the angle of the second; of five counts, the first and the last; one contact"
+        "present, absent, present; of two joints, the motor and the angle of the second; of five counts, the first and the last; one contact, one law"
     );
     let mut decoder = Decoder::new(COUNTS);
     for entry in &entries {

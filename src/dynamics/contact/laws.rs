@@ -1,0 +1,110 @@
+//! Laws that no contact and no joint can break, and how well a run keeps them.
+//!
+//! Impulses between bodies conserve angular momentum. Friction, and restitution of at most 1, take energy and never add any. Each impact
+//! and each part of a step in Moreau's scheme is checked, in time proportional to the number of contacts. The worst residual of each law
+//! stays on record.
+
+/// A law that no contact and no joint can break.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionLaw {
+    /// Contacts, friction and joints without motors add no energy.
+    Energy,
+    /// Impulses between bodies do not change their total angular momentum.
+    AngularMomentum,
+}
+
+impl MotionLaw {
+    /// All laws, in the order in which they are reported.
+    pub const ALL: [MotionLaw; 2] = [MotionLaw::Energy, MotionLaw::AngularMomentum];
+
+    /// What breaks if this law does: the subject of a message such as "energy is off by 3 J".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            MotionLaw::Energy => "energy",
+            MotionLaw::AngularMomentum => "angular momentum",
+        }
+    }
+
+    /// The unit of a residual of this law.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            MotionLaw::Energy => "J",
+            MotionLaw::AngularMomentum => "kg m²/s",
+        }
+    }
+}
+
+/// A law is broken if its residual exceeds this fraction of its scale. Smaller residuals are what the sweeps over many contacts leave.
+const BROKEN: f64 = 1e-3;
+
+/// How far one solve of contacts was off a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawResidual {
+    /// The law.
+    pub law: MotionLaw,
+    /// The time of the solve, s.
+    pub time: f64,
+    /// The indices of two bodies of the solve, the smaller one first. Both are the same if only one body took part.
+    pub bodies: [usize; 2],
+    /// The size of the residual, in the [unit](MotionLaw::unit) of the law. It is not negative.
+    pub amount: f64,
+    /// The amount, relative to the scale of the law: the largest kinetic energy of the solved bodies so far, or the moments of the
+    /// impulses about the centers of their bodies.
+    pub part: f64,
+}
+
+impl LawResidual {
+    /// Returns true if the residual is larger than the errors that solvers leave.
+    #[must_use]
+    pub fn is_broken(&self) -> bool {
+        // A NaN is broken, too.
+        self.part > BROKEN || self.part.is_nan()
+    }
+}
+
+/// The worst residual of each law in a run so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct LawBook {
+    worst: Vec<LawResidual>,
+    /// The largest kinetic energy of the solved bodies so far, J.
+    energy: f64,
+}
+
+impl LawBook {
+    /// Records a residual, if it is the worst of its law so far.
+    pub(super) fn note(&mut self, new: LawResidual) {
+        match self.worst.iter_mut().find(|known| known.law == new.law) {
+            Some(known) if new.part.total_cmp(&known.part).is_gt() => *known = new,
+            Some(_) => {}
+            None => self.worst.push(new),
+        }
+    }
+
+    /// Records the work of contacts, J, on two bodies or more, whose kinetic energy was `kinetic`, J. Only a gain of energy breaks a law.
+    pub(super) fn note_work(&mut self, work: f64, kinetic: f64, bodies: [usize; 2], time: f64) {
+        self.energy = self.energy.max(kinetic);
+        let amount = work.max(0.0);
+        let part = if amount == 0.0 { 0.0 } else { amount / self.energy.max(f64::MIN_POSITIVE) };
+        self.note(LawResidual { law: MotionLaw::Energy, time, bodies, amount, part });
+    }
+
+    /// Records a moment, N m s, that impulses between bodies exert on all of them together. `moments` is the sum of the moments of the
+    /// impulses about the centers of their bodies, N m s.
+    pub(super) fn note_moment(&mut self, amount: f64, moments: f64, bodies: [usize; 2], time: f64) {
+        let part = if amount == 0.0 { 0.0 } else { amount / moments.max(f64::MIN_POSITIVE) };
+        self.note(LawResidual { law: MotionLaw::AngularMomentum, time, bodies, amount, part });
+    }
+
+    /// Records the residuals of another book.
+    pub(super) fn note_all(&mut self, other: &LawBook) {
+        other.worst.iter().for_each(|residual| self.note(*residual));
+        self.energy = self.energy.max(other.energy);
+    }
+
+    /// Returns the worst residual of each law.
+    pub(super) fn worst(&self) -> &[LawResidual] {
+        &self.worst
+    }
+}
