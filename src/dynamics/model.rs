@@ -199,6 +199,11 @@ impl Model {
         }
     }
 
+    /// Returns true if any load does work without a potential.
+    pub(super) fn does_work(&self) -> bool {
+        !self.torqued.is_empty() || self.forces.iter().any(|force| force.work_account().is_some())
+    }
+
     /// Returns the constraints between bodies, in the order in which they were added.
     #[must_use]
     pub fn constraints(&self) -> &[Arc<dyn Constraint>] {

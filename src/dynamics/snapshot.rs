@@ -107,6 +107,15 @@ pub enum Breakdown {
         /// The time at which the run stopped, s.
         time: f64,
     },
+    /// No impulses were found that do not add energy, as contacts never do.
+    AddsEnergy {
+        /// The two bodies that push each other most.
+        bodies: [BodyId; 2],
+        /// The time at which the run stopped, s.
+        time: f64,
+        /// The energy that the impulses would add, J.
+        energy: f64,
+    },
 }
 
 impl Snapshot {
@@ -184,6 +193,10 @@ impl std::fmt::Display for Breakdown {
             Breakdown::Jammed { bodies: [a, b], time } => {
                 let (a, b) = (a.index(), b.index());
                 write!(f, "at t = {time} s the impacts of bodies {a} and {b} do not end")
+            }
+            Breakdown::AddsEnergy { bodies: [a, b], time, energy } => {
+                let (a, b) = (a.index(), b.index());
+                write!(f, "at t = {time} s contacts of bodies {a} and {b} would add {energy:.3e} J")
             }
         }
     }

@@ -8,7 +8,7 @@ use super::measure::{ComparedBodies, Distance, union};
 use super::neighbours::displaced;
 use super::other_scheme::{Apart, Other};
 use super::setting::Setting;
-use crate::dynamics::{Accounts, Snapshot};
+use crate::dynamics::{Accounts, LawResidual, Snapshot};
 use crate::scene::Scene;
 use crate::simulate::EnergyError;
 
@@ -48,6 +48,8 @@ pub(super) struct Compared {
     pub(super) momenta: [f64; 2],
     /// The energy that each influence without a potential has brought in by the last frame of the run.
     pub(super) accounts: Accounts,
+    /// The worst residual in the run of each law that no contact can break.
+    pub(super) laws: Vec<LawResidual>,
     /// The breakdowns of the four runs: at the timestep, at its half, at its quarter, and of the run from a slightly different start.
     /// `None` for a run that reached its end.
     pub(super) ended: [Option<Ended>; 4],
@@ -133,6 +135,7 @@ impl Compared {
         let Some(run) = run else { return };
         let energy = self.energy.add(&run.balance);
         self.accounts = run.balance.accounts;
+        self.laws.clone_from(&run.laws);
         let mut moment = Moment { time: run.time, energy, ..Moment::default() };
         self.see_ways(measured, seen, run);
         if let Some(half) = half {

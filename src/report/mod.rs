@@ -44,7 +44,7 @@ pub use lockstep::{Ended, Watch};
 pub use neighbours::Separation;
 pub use other_scheme::{Agreement, OtherScheme};
 pub use trials::{Trial, Untested};
-pub use verdict::{AccurateUntil, BodyError, Conserved, Order};
+pub use verdict::{AccurateUntil, BodyError, BrokenLaw, Conserved, Order};
 
 /// The default accuracy, as a fraction of the size of the scene: about a pixel of an image.
 pub const ACCURACY: f64 = 1e-3;
@@ -76,8 +76,8 @@ pub struct Assessment {
     pub accuracy: f64,
     /// The results of the tested methods and timesteps.
     pub trials: Vec<Trial>,
-    /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it, or
-    /// if the two contact laws give different motions.
+    /// The index in `trials` of the trial that reaches the accuracy with the fewest force evaluations. `None` if no trial reaches it, if
+    /// the two contact laws give different motions, or if contacts have broken a law.
     pub recommended: Option<usize>,
     /// The methods that were not tested, or not at timesteps as small as necessary, with the reasons.
     pub untried: Vec<Untested>,
@@ -140,8 +140,7 @@ pub fn assess(
         done += cost;
         watch(Phase::Trying, (done / all).min(1.0))
     })?;
-    let is_contradicted =
-        verdict.other_scheme.as_ref().is_some_and(|other| other.contradicts(accuracy * verdict.size));
+    let is_contradicted = verdict.is_contradicted(accuracy * verdict.size);
     assessment.recommended = trials::cheapest(&trials.tried).filter(|_| !is_contradicted);
     assessment.verdict = Some(verdict);
     assessment.trials = trials.tried;

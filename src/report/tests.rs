@@ -205,6 +205,21 @@ fn runs_that_share_a_mistake_converge_but_are_not_called_good() {
     assert!(!said.contains("good") && verdict.other_scheme.unwrap().contradicts(0.1), "{said}");
 }
 
+/// Contacts that add energy or change angular momentum take the verdict away, whatever the comparisons say.
+#[test]
+fn a_broken_law_takes_the_verdict_away() {
+    let (mut assessment, mut verdict) = assessed(&oscillator("velocity-verlet", 0.01), 0.01);
+    assert!(verdict.is_confirmed() && !verdict.is_contradicted(1.0) && assessment.recommended.is_some());
+    let broken = BrokenLaw { law: "energy", amount: 0.5, unit: "J", time: 0.25 };
+    verdict.broken_laws.push(broken);
+    assert!(!verdict.is_confirmed() && verdict.is_contradicted(1.0));
+    (assessment.verdict, assessment.recommended) = (Some(verdict), None);
+    let said = assessment.to_text("scene");
+    assert!(said.contains("contacts change the energy by 0.5 J at t = 0.25 s"), "{said}");
+    assert!(said.contains("first find a step at which contacts break no law"), "{said}");
+    assert!(!said.contains("the estimate is good") && !said.contains("off by at most"), "{said}");
+}
+
 /// A block slides to rest over v²/2µg. Both schemes find this place, each within its own error.
 #[cfg(feature = "time-stepping")]
 #[test]

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::neighbours::APART;
 use super::other_scheme::{Agreement, OtherScheme};
-use super::verdict::{AccurateUntil, Conserved, Order, Verdict};
+use super::verdict::{AccurateUntil, BrokenLaw, Conserved, Order, Verdict};
 use super::{Assessment, Separation, Trial, Untested};
 use crate::dynamics::Method;
 
@@ -75,6 +75,12 @@ impl Assessment {
         line(out, "order", &order);
         if let Some(other) = &verdict.other_scheme {
             line(out, "contacts", &other.in_words(verdict));
+        }
+        for BrokenLaw { law, amount, unit, time } in &verdict.broken_laws {
+            let amount = digits(*amount, 2);
+            let text =
+                format!("contacts change the {law} by {amount} {unit} at t = {time} s, which no contact can");
+            line(out, "laws", &text);
         }
         line(out, "motion", &self.motion_in_words(verdict));
         self.say_convergence(out, verdict);
@@ -201,6 +207,9 @@ impl Assessment {
         let Some(best) = self.recommended.map(|place| &self.trials[place]) else {
             let is_contradicted = |other: &OtherScheme| other.contradicts(self.accuracy * verdict.size);
             let why = match verdict.neighbours {
+                _ if !verdict.broken_laws.is_empty() => {
+                    "first find a step at which contacts break no law: what follows from one is not right"
+                }
                 _ if verdict.other_scheme.as_ref().is_some_and(is_contradicted) => {
                     "first find out which contacts are right: try both on a simple case with a known result"
                 }

@@ -11,7 +11,7 @@ use super::neighbours::{Separation, parting};
 use super::other_scheme::{Other, OtherScheme};
 use super::setting::Setting;
 use super::trials::{Trial, factor};
-use crate::dynamics::{Accounts, Method};
+use crate::dynamics::{Accounts, LawResidual, Method};
 use crate::scene::{ContactLaw, Scene};
 use crate::simulate::{EnergyScale, evaluations};
 
@@ -24,6 +24,8 @@ pub struct Verdict {
     pub drift_scale: EnergyScale,
     /// The energy that each influence without a potential has brought in by the end, by name, J. Negligible amounts are left out.
     pub accounts: Vec<(&'static str, f64)>,
+    /// The laws that no contact can break, but that contacts of the run have broken.
+    pub broken_laws: Vec<BrokenLaw>,
     /// The conservation of the total linear momentum.
     pub linear_momentum: Conserved,
     /// The conservation of the total angular momentum about the origin.
@@ -65,6 +67,19 @@ pub(super) struct Curves {
     /// The distance to a run from a slightly different start at each frame, in phase space: positions relative to the size of the scene,
     /// velocities relative to the largest speed, and angles in rad.
     pub(super) neighbours: Vec<f64>,
+}
+
+/// A law that no contact can break, but that contacts of the run have broken.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BrokenLaw {
+    /// What is not kept: `energy` or `angular momentum`.
+    pub law: &'static str,
+    /// The size of the worst residual, in `unit`.
+    pub amount: f64,
+    /// The unit of the amount.
+    pub unit: &'static str,
+    /// The time of the worst residual, s.
+    pub time: f64,
 }
 
 /// The result of testing whether a run conserves its total momentum.
@@ -144,6 +159,13 @@ pub struct Broken {
     pub after: Option<f64>,
     /// The error message that tells why the run broke down.
     pub why: String,
+}
+
+impl BrokenLaw {
+    fn of(residual: &LawResidual) -> BrokenLaw {
+        let LawResidual { law, time, amount, .. } = *residual;
+        BrokenLaw { law: law.name(), amount, unit: law.unit(), time }
+    }
 }
 
 impl Broken {
@@ -246,6 +268,7 @@ impl Verdict {
             accounts: accounts
                 .filter(|(_, held)| held.abs() > 1e-11 * compared.energy.largest_kinetic)
                 .collect(),
+            broken_laws: compared.laws.iter().filter(|it| it.is_broken()).map(BrokenLaw::of).collect(),
             linear_momentum: conserved(compared, 0, outside.linear),
             angular_momentum: conserved(compared, 1, outside.angular),
             size,
@@ -263,9 +286,16 @@ impl Verdict {
     }
 
     /// Returns true if nothing is known that speaks against the estimated error: the scene has no contacts, or its run under the other
-    /// contact law agrees.
+    /// contact law agrees, and contacts have broken no law.
     pub(super) fn is_confirmed(&self) -> bool {
-        self.other_scheme.as_ref().is_none_or(OtherScheme::confirms)
+        self.broken_laws.is_empty() && self.other_scheme.as_ref().is_none_or(OtherScheme::confirms)
+    }
+
+    /// Returns true if the run is known to be wrong: contacts have broken a law, or the run under the other contact law differs by more
+    /// than `wanted`, m, and no error explains it. No method and no step can then be recommended.
+    pub(super) fn is_contradicted(&self, wanted: f64) -> bool {
+        let other = self.other_scheme.as_ref();
+        !self.broken_laws.is_empty() || other.is_some_and(|other| other.contradicts(wanted))
     }
 
     /// Returns true if the run is accurate enough to show the size of the scene.

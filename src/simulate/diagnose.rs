@@ -13,6 +13,7 @@ impl SimulateError {
             SimulateError::Undefined(undefined) => undefined.why.0,
             SimulateError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
             SimulateError::Broken(_) => Code::BrokenJoint,
+            SimulateError::Stuck(stuck) if stuck.gained.is_some() => Code::EnergyAdded,
             SimulateError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
             SimulateError::Stuck(_) => Code::Jammed,
             SimulateError::Stalled(_) => Code::Stalled,
@@ -83,6 +84,9 @@ impl SimulateError {
             SimulateError::Broken(_) => {
                 Some("other joints pull the bodies apart; or take a smaller `simulation.step`")
             }
+            SimulateError::Stuck(stuck) if stuck.gained.is_some() => Some(
+                "take a smaller `simulation.step`, or `contacts = \"time-stepping\"`, or end the scene before that time: `--set simulation.duration=…`",
+            ),
             SimulateError::Stuck(stuck) if stuck.depth.is_some() => Some(
                 "move them apart, or join them, or let them pass through each other: `collides = false`, or the same \
                  `collision_group`",

@@ -325,6 +325,8 @@ pub struct Stuck {
     pub time: f64,
     /// The overlap of the two bodies when their contact begins, m. `None` if the bodies are jammed: their impacts have no end.
     pub depth: Option<f64>,
+    /// The energy that the contact would add, J, where no impulses were found that add none; otherwise `None`.
+    pub gained: Option<f64>,
     /// The spans of the bodies' names, and the texts that the scene was read from.
     pub place: (Vec<diagnostic::Span>, Sources),
 }
@@ -332,7 +334,8 @@ pub struct Stuck {
 impl PartialEq for Stuck {
     /// Ignores the spans and the texts of the scene.
     fn eq(&self, other: &Stuck) -> bool {
-        (&self.bodies, self.time, self.depth) == (&other.bodies, other.time, other.depth)
+        (&self.bodies, self.time, self.depth, self.gained)
+            == (&other.bodies, other.time, other.depth, other.gained)
     }
 }
 
@@ -341,7 +344,7 @@ impl Stuck {
         let ids = ids.map(BodyId::index);
         let bodies = ids.map(|id| Some(scene.bodies.get(id)?.name.to_string()));
         let spans = ids.iter().filter_map(|&id| scene.places.bodies.get(id).copied()).collect();
-        Stuck { bodies, time, depth, place: (spans, scene.warnings.sources.clone()) }
+        Stuck { bodies, time, depth, gained: None, place: (spans, scene.warnings.sources.clone()) }
     }
 }
 
@@ -361,6 +364,10 @@ impl SimulateError {
             }
             Breakdown::Jammed { bodies, time } => {
                 SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, None)))
+            }
+            Breakdown::AddsEnergy { bodies, time, energy } => {
+                let stuck = Stuck { gained: Some(energy), ..Stuck::of(scene, bodies, time, None) };
+                SimulateError::Stuck(Box::new(stuck))
             }
             Breakdown::Stalled { body, time } => {
                 let span = scene.places.bodies.get(body.index()).copied();
@@ -417,9 +424,17 @@ impl std::fmt::Display for Stuck {
         let names =
             self.bodies.clone().map(|name| name.map_or("the ground".to_owned(), |name| format!("`{name}`")));
         let ([one, two], time) = (names, self.time);
+        let short = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+        if let Some(gained) = self.gained {
+            let gained = short(gained);
+            return write!(
+                f,
+                "contacts of {one} and {two} would add {gained} J at t = {time} s, which no contact can"
+            );
+        }
         match self.depth {
             Some(depth) => {
-                let depth: f64 = format!("{depth:.3e}").parse().unwrap_or(depth);
+                let depth = short(depth);
                 write!(f, "{one} and {two} overlap by {depth} m at t = {time} s, where their contact begins")
             }
             None => write!(f, "the impacts of {one} and {two} do not end: at t = {time} s they are jammed"),

@@ -264,6 +264,11 @@ impl Solver {
         free
     }
 
+    /// Returns the indices of the bodies with constraints, in ascending order.
+    pub(in crate::dynamics) fn bodies(&self) -> Vec<usize> {
+        self.structure.as_ref().map_or(Vec::new(), |structure| structure.bodies.clone())
+    }
+
     /// Returns the changes of velocity and of angular velocity of a body by the last impulses that [`respond`](Self::respond) applied;
     /// `None` for a body without joints.
     pub(in crate::dynamics) fn response_of(&self, body: usize) -> Option<(DVec3, DVec3)> {

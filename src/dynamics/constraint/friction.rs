@@ -144,6 +144,27 @@ impl Solver {
         self.slips = rates;
     }
 
+    /// Computes the slip velocities of sliding contacts as [`see_slips`](Self::see_slips) does, without velocities that violate the active
+    /// constraint rows of a mechanism. The equations must be measured and factorized. Within a step, velocities are predictions: they would
+    /// let parts of a rigid mechanism slip on each other, and friction would seem to do work there.
+    pub(super) fn see_slips_that_constraints_allow(&mut self) {
+        if self.joints() == 0 || !self.slides() {
+            self.see_slips();
+            return;
+        }
+        let predicted = self.members.clone();
+        if let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self {
+            jacobian::rates(structure, jacobian, members, rows, unknown);
+        }
+        self.unknown.iter_mut().for_each(|rate| *rate = -*rate);
+        self.solve();
+        if let Solver { structure: Some(structure), members, jacobian, unknown, .. } = self {
+            jacobian::move_members(structure, jacobian, unknown, members);
+        }
+        self.see_slips();
+        self.members = predicted;
+    }
+
     /// Stores the slip direction of each sliding contact at the start of a step.
     pub(super) fn head(&mut self) {
         self.see_slips();

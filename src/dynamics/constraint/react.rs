@@ -20,7 +20,7 @@ impl Solver {
         self.is_ready = false;
         if self.has_modes {
             self.push_drives(loads);
-            self.see_slips();
+            self.see_slips_that_constraints_allow();
         }
         self.solve_forces(t, state, loads);
         if self.has_modes {
@@ -137,7 +137,7 @@ impl Solver {
             return;
         }
         self.factorise(false);
-        self.see_slips();
+        self.see_slips_that_constraints_allow();
         self.solve_forces(t, state, loads);
         self.book_friction(loads);
         for i in 0..self.unknown.len() {

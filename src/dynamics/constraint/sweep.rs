@@ -8,6 +8,7 @@ use super::super::{Model, State};
 use super::anderson::Anderson;
 use super::friction::FrictionPair;
 use super::jacobian::push;
+use super::last_forces::LastForces;
 use super::solver::Solver;
 use super::{Direction, Law, Row};
 
@@ -26,6 +27,11 @@ const PATIENT_SWEEPS: usize = 20 * SWEEPS;
 
 /// Impulses add energy if their work is more than this many times the work that the remaining errors of the rates can do.
 const EXCUSED_WORK: f64 = 10.0;
+
+/// Accelerated sweeps have lost their way if this fraction of their largest extrapolation exceeds the tolerance. Where bodies are wedged
+/// between contacts and joints, impulses can grow together without changing any rate. The acceleration may then go far, and rounding errors
+/// of the velocities with it.
+const ASTRAY: f64 = 1e-12;
 
 /// How sweeps over contacts end.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +55,11 @@ impl Stopping {
         Stopping { tolerance, most: PATIENT_SWEEPS, is_fast: false }
     }
 
+    /// Returns the sweeps that replace accelerated ones whose largest extrapolation changed a rate by `farthest`, if that is too far.
+    pub(super) fn instead(self, farthest: f64) -> Option<Stopping> {
+        (ASTRAY * farthest > self.tolerance).then_some(Stopping::patient(self.tolerance))
+    }
+
     /// Returns true if sweep number `sweep`, counted from 1, is the last, after a change of a rate by `change`.
     pub(super) fn ends(self, sweep: usize, change: f64) -> bool {
         change <= self.tolerance || sweep >= self.most
@@ -60,8 +71,8 @@ impl Stopping {
 pub(in crate::dynamics) enum Purpose {
     /// An impact: approaching bodies stop. The work of the impulses is booked as lost at impacts.
     Impact,
-    /// Forces that act during this time, s: the first half of a substep. The resulting velocities are those in the middle of the substep,
-    /// and the booked work is that of the whole substep.
+    /// Forces that act during this time, s: the first half of a substep. The resulting velocities are those in the middle of the substep.
+    /// The work of the whole substep is twice the booked work, since the second half repeats the impulses at the same velocities.
     Forces(f64),
 }
 
@@ -101,7 +112,7 @@ impl Solver {
                 let work = self.unknown[row]
                     * match purpose {
                         Purpose::Impact => 0.5 * (before[row] + after[row]) - moved,
-                        Purpose::Forces(_) => 2.0 * (after[row] - moved),
+                        Purpose::Forces(_) => after[row] - moved,
                     };
                 let account = match self.laws[row] {
                     Law::Friction { .. } if purpose != Purpose::Impact => &mut state.accounts.friction,
@@ -169,6 +180,11 @@ impl Solver {
         let sum = pushing.clone().map(|place| self.unknown[place.row]).sum();
         let hardest = pushing.max_by(|a, b| self.unknown[a.row].total_cmp(&self.unknown[b.row]))?;
         Some((self.contacts[hardest.constraint - self.joints()].bodies, sum))
+    }
+
+    /// Forgets the last forces, from which the next sweeps would start.
+    pub(in crate::dynamics) fn start_cold(&mut self) {
+        self.warm = LastForces::default();
     }
 
     /// Returns the typical length of the smallest body in contact, m.
@@ -270,10 +286,12 @@ impl Solver {
 
     /// Repeats Gauss–Seidel sweeps. `sweep` returns the largest change of a rate.
     pub(super) fn sweep_until(&mut self, stopping: Stopping, mut sweep: impl FnMut(&mut Self) -> f64) {
+        let (first, members) = (self.unknown.clone(), self.members.clone());
         let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
+        let mut farthest = 0.0_f64;
         for number in 1.. {
             if stopping.ends(number, sweep(self)) {
-                return;
+                break;
             }
             if !stopping.is_fast {
                 continue;
@@ -281,6 +299,14 @@ impl Solver {
             for (row, &further) in anderson.go_further(&self.unknown).iter().enumerate() {
                 self.unknown[row] += further;
                 self.columns.apply(row, further, &mut self.members);
+                farthest = farthest.max(further.abs() * self.columns.weights()[row] / self.unit(row));
+            }
+        }
+        if let Some(patient) = stopping.instead(farthest) {
+            (self.unknown, self.members) = (first, members);
+            let mut number = 1;
+            while !patient.ends(number, sweep(self)) {
+                number += 1;
             }
         }
     }

@@ -4,6 +4,8 @@
 //! and each part of a step in Moreau's scheme is checked, in time proportional to the number of contacts. The worst residual of each law
 //! stays on record.
 
+use super::super::{BodyId, Breakdown};
+
 /// A law that no contact and no joint can break.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionLaw {
@@ -39,6 +41,10 @@ impl MotionLaw {
 /// A law is broken if its residual exceeds this fraction of its scale. Smaller residuals are what the sweeps over many contacts leave.
 const BROKEN: f64 = 1e-3;
 
+/// A substep whose impulses add more energy than this fraction of the scale is repeated in smaller parts. Sweeps over contacts end when
+/// they change rates by less than 1e-7 of the largest, so what they leave is less.
+const EXCESS: f64 = 1e-6;
+
 /// How far one solve of contacts was off a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawResidual {
@@ -56,6 +62,24 @@ pub struct LawResidual {
 }
 
 impl LawResidual {
+    /// Returns the residual of impulses that have given bodies the energy `gain`, J, beyond that of motors and guides. A loss breaks no law.
+    /// `kinetic` is the kinetic energy of the bodies, J.
+    pub(super) fn of_energy(gain: f64, kinetic: f64, bodies: [usize; 2], time: f64) -> LawResidual {
+        let amount = if gain.is_nan() { gain } else { gain.max(0.0) };
+        let part = if amount == 0.0 { 0.0 } else { amount / kinetic.max(f64::MIN_POSITIVE) };
+        LawResidual { law: MotionLaw::Energy, time, bodies, amount, part }
+    }
+
+    /// Returns the reason why a run stops if this residual is broken.
+    pub(super) fn breakdown(&self) -> Breakdown {
+        Breakdown::AddsEnergy { bodies: self.bodies.map(BodyId::new), time: self.time, energy: self.amount }
+    }
+
+    /// Returns true if a substep with this residual is repeated in smaller parts.
+    pub(super) fn is_excess(&self) -> bool {
+        self.part > EXCESS || self.part.is_nan()
+    }
+
     /// Returns true if the residual is larger than the errors that solvers leave.
     #[must_use]
     pub fn is_broken(&self) -> bool {
@@ -82,12 +106,11 @@ impl LawBook {
         }
     }
 
-    /// Records the work of contacts, J, on two bodies or more, whose kinetic energy was `kinetic`, J. Only a gain of energy breaks a law.
-    pub(super) fn note_work(&mut self, work: f64, kinetic: f64, bodies: [usize; 2], time: f64) {
+    /// Returns the residual of impulses that have given bodies the energy `gain`, J, beyond that of motors and guides. The scale is the
+    /// largest kinetic energy of solved bodies so far; `kinetic` is that of these bodies, J.
+    pub(super) fn weigh(&mut self, gain: f64, kinetic: f64, bodies: [usize; 2], time: f64) -> LawResidual {
         self.energy = self.energy.max(kinetic);
-        let amount = work.max(0.0);
-        let part = if amount == 0.0 { 0.0 } else { amount / self.energy.max(f64::MIN_POSITIVE) };
-        self.note(LawResidual { law: MotionLaw::Energy, time, bodies, amount, part });
+        LawResidual::of_energy(gain, self.energy, bodies, time)
     }
 
     /// Records a moment, N m s, that impulses between bodies exert on all of them together. `moments` is the sum of the moments of the

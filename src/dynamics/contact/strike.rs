@@ -16,6 +16,7 @@ use super::closest_points::ClosestPoints;
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
 use super::lasting_contact::{LastingContact, heading};
+use super::laws::LawResidual;
 use super::touch::Touch;
 
 /// A rebound speed below this fraction of the largest closing speed is suppressed, because it would be invisible.
@@ -39,6 +40,10 @@ const TOGETHER: u32 = 1_000;
 
 /// Velocities count as equal if they differ by less than this fraction.
 const ALIKE: f64 = 1e-13;
+
+/// An impact adds energy if its work exceeds this fraction of the work that stops the approach. Rounding errors are smaller. The
+/// restitution that adds none is found to this accuracy.
+const GAIN: f64 = 1e-12;
 
 /// The largest number of impacts in one instant, per touching pair.
 const ROUNDS: usize = 2_000;
@@ -82,7 +87,7 @@ impl Collider {
     ///
     /// # Errors
     ///
-    /// Returns a breakdown if elastic impacts at one instant do not end.
+    /// Returns a breakdown if elastic impacts at one instant do not end, or if an impact adds energy.
     pub(in crate::dynamics) fn strike(
         &mut self,
         model: &Model,
@@ -139,7 +144,11 @@ impl Collider {
                 break;
             }
             let joints = if jointed[i] { Some(&mut *solver) } else { None };
-            self.strike_pair(&touching[i], &places[i], speeds[i], (model, time, state), joints);
+            let residual =
+                self.strike_pair(&touching[i], &places[i], speeds[i], (model, time, state), joints);
+            if residual.is_broken() {
+                return Err(residual.breakdown());
+            }
             struck.extend(touching[i].bodies);
             for (j, speed) in speeds.iter_mut().enumerate() {
                 let shares = |body: &usize| touching[j].bodies.contains(body);
@@ -191,7 +200,8 @@ impl Collider {
         size(bodies[0]).min(size(bodies[1])).min(f64::MAX)
     }
 
-    /// Applies the impact of two bodies that approach each other at `speed`, m/s, and records it.
+    /// Applies the impact of two bodies that approach each other at `speed`, m/s, and records it. Returns the energy that it has added, as
+    /// no impact can.
     fn strike_pair(
         &mut self,
         pair: &Touching,
@@ -199,7 +209,7 @@ impl Collider {
         speed: f64,
         (model, time, state): (&Model, f64, &mut State),
         mut joints: Option<&mut Solver>,
-    ) {
+    ) -> LawResidual {
         let twists = |state: &State| pair.bodies.map(|body| twist(body, model, state));
         let before: Vec<DVec3> = places.iter().map(|place| place.rate(twists(state))).collect();
         let rest = REST * self.fastest * self.haste(pair);
@@ -209,14 +219,17 @@ impl Collider {
             restitution: if rests { 0.0 } else { pair.law.restitution },
             friction: pair.law.friction,
         };
-        let kinetic: f64 = pair.bodies.iter().map(|&body| kinetic(body, model, state)).sum();
+        let mut moved = joints.as_deref().map_or(Vec::new(), Solver::bodies);
+        moved.extend(pair.bodies.iter().filter(|body| !moved.contains(body)).collect::<Vec<_>>());
+        let energy = |state: &State| moved.iter().map(|&body| kinetic(body, model, state)).sum::<f64>();
+        let (kinetic, given) = (energy(state), state.accounts.work + state.accounts.motors);
         let context = (model, &*state);
         let middle = middle(pair.bodies, places, &before, bounce, context, joints.as_deref_mut());
         let (places, before, all) = match &middle {
             Some((place, rate, impulse)) => (std::slice::from_ref(place), vec![*rate], vec![*impulse]),
             None => {
                 let response = response(pair.bodies, places, context, joints.as_deref_mut());
-                let all = impulses(&vec![bounce; places.len()], &before, &response);
+                let all = without_gain(bounce, &before, &response);
                 (places, before, all)
             }
         };
@@ -257,14 +270,47 @@ impl Collider {
             .map(|((before, after), pushed)| 0.5 * pushed.dot(*before + after));
         let work: f64 = work.sum();
         state.accounts.impacts += work;
-        self.laws.note_work(work, kinetic, pair.bodies, time);
+        let given = state.accounts.work + state.accounts.motors - given;
+        let residual = self.laws.weigh(energy(state) - kinetic - given, kinetic, pair.bodies, time);
+        self.laws.note(residual);
         self.laws.note_moment(moment.length(), moments, pair.bodies, time);
         if (pair.law.restitution == 1.0 || speed > REST * self.fastest) && weight > 0.0 {
             let (place, normal) = (place / weight, normal.normalize_or_zero());
             let energy = (-work).max(0.0);
             self.impacts.push(Impact { time, bodies: pair.bodies, place, normal, impulse, energy });
         }
+        residual
     }
+}
+
+/// Computes the impulses of an impact, as [`impulses`] does. With friction, Newton's law of restitution can add energy (Kane's paradox);
+/// the restitution is then the largest that adds none. Source: W. J. Stronge, Proc. R. Soc. Lond. A 431 (1990) 169.
+fn without_gain(bounce: Bounce, before: &[DVec3], response: &[f64]) -> Vec<DVec3> {
+    let n = 3 * before.len();
+    let find = |restitution: f64| {
+        let all = impulses(&vec![Bounce { restitution, ..bounce }; before.len()], before, response);
+        let change = |row: usize| -> f64 {
+            let terms = (0..n).map(|column| response[row * n + column] * all[column / 3][column % 3]);
+            terms.sum()
+        };
+        let (mut work, mut size) = (0.0, 0.0);
+        for row in 0..n {
+            let (impulse, before) = (all[row / 3][row % 3], before[row / 3][row % 3]);
+            work += impulse * (before + 0.5 * change(row));
+            size += (impulse * before).abs();
+        }
+        (all, work > GAIN * size)
+    };
+    let (all, gains) = find(bounce.restitution);
+    if !gains {
+        return all;
+    }
+    let (mut least, mut most) = (0.0, bounce.restitution);
+    while most - least > GAIN {
+        let middle = 0.5 * (least + most);
+        *if find(middle).1 { &mut most } else { &mut least } = middle;
+    }
+    find(least).0
 }
 
 /// Returns the number of bounces in which a coefficient of restitution reduces the fastest approach to rest.

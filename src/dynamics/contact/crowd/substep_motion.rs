@@ -13,11 +13,12 @@ use glam::DVec3;
 use super::super::super::constraint::{Purpose, Solver};
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
-use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
+use super::super::super::{Accounts, BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
 use super::super::collider::{Collider, Scale};
 use super::super::lasting_contact::{LastingContact, heading};
+use super::super::laws::LawResidual;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 use super::super::solid::Solid;
@@ -45,6 +46,9 @@ const REPAIRS: usize = 50;
 /// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
 /// smaller body's size. Lower bounces do not count as free flight.
 const LEAN: f64 = 0.01;
+
+/// How often a substep is halved because its impulses add energy. If they still do, the run fails.
+const HALVINGS: u32 = 6;
 
 /// Times within a substep are equal if they differ by less than this fraction of the substep.
 const SAME: f64 = 1e-12;
@@ -100,6 +104,11 @@ impl Collider {
             Some(known) => known,
             None => (self.course(model, (t, dt + rest), (before, after), loads), before.accounts),
         };
+        // The loads have worked along the motion that the integration method gave the crowd (the bodies that Moreau's scheme advances).
+        // The motion of the crowd takes its place, and so does its work.
+        for power in [self.crowd.power(model, t, before), self.crowd.power(model, t + dt, after)] {
+            after.accounts.add(-0.5 * dt, power);
+        }
         let new = self.moment(&mut course, t + dt, model, loads);
         for (at, &body) in self.crowd.bodies.iter().enumerate() {
             after.location[body] = new.location[at];
@@ -185,6 +194,7 @@ impl Collider {
         loads: &mut Loads,
     ) -> State {
         let mut crowd = std::mem::take(&mut self.crowd);
+        crowd.laws.note_all(&self.laws);
         let passed = k as f64 * course.part;
         let time = course.start + passed;
         let mut now = course.first.clone();
@@ -199,17 +209,52 @@ impl Collider {
             now.angular_momentum[body] = course.states[k].angular_momentum[at];
         }
         now.accounts = course.states[k].accounts;
-        model.place(time, &mut now);
-        let closed = self.crowd_places(model, &now, &course.pairs, part);
-        crowd.advance(closed, model, (time, part), &mut now, loads);
-        if !model.constraints().is_empty() {
-            crowd.solver.take_contacts(Vec::new());
-            crowd.solver.hold_joints(model, time + part, &now);
-            crowd.solver.settle(model, time + part, &mut now);
-        }
+        self.advance_part(&mut crowd, course, model, (time, part, 0), &mut now, loads);
         let part = crowd.part_of(&now);
         self.crowd = crowd;
         part
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) by `part` seconds from `time`. A substep whose impulses add energy,
+    /// which no contact can, is repeated in two halves. `halvings` is the number of halvings so far.
+    fn advance_part(
+        &self,
+        crowd: &mut Crowd,
+        course: &SubstepMotion,
+        model: &Model,
+        (time, part, halvings): (f64, f64, u32),
+        now: &mut State,
+        loads: &mut Loads,
+    ) {
+        model.place(time, now);
+        let (before, impacts) = (now.clone(), crowd.impacts.len());
+        let closed = self.crowd_places(model, now, &course.pairs, part);
+        let residual = crowd.advance(closed, model, (time, part), now, loads);
+        if residual.is_some_and(|residual| residual.is_excess()) && halvings < HALVINGS {
+            now.clone_from(&before);
+            crowd.impacts.truncate(impacts);
+            crowd.solver.start_cold();
+            let half = 0.5 * part;
+            self.advance_part(crowd, course, model, (time, half, halvings + 1), now, loads);
+            for (i, location) in now.location.iter_mut().enumerate() {
+                if !crowd.bodies.contains(&i) {
+                    *location += half * course.velocity[i];
+                }
+            }
+            self.advance_part(crowd, course, model, (time + half, half, halvings + 1), now, loads);
+            return;
+        }
+        if let Some(residual) = residual {
+            crowd.laws.note(residual);
+            if residual.is_broken() {
+                crowd.solver.fail(residual.breakdown());
+            }
+        }
+        if !model.constraints().is_empty() {
+            crowd.solver.take_contacts(Vec::new());
+            crowd.solver.hold_joints(model, time + part, now);
+            crowd.solver.settle(model, time + part, now);
+        }
     }
 
     /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
@@ -379,7 +424,7 @@ impl Crowd {
     }
 
     /// Advances the crowd (the bodies that Moreau's scheme advances) by one substep of `part` seconds from time `t`. `closed` holds its
-    /// possible contacts.
+    /// possible contacts. Returns the energy that the impulses have added, which breaks a law; `None` without impulses.
     fn advance(
         &mut self,
         closed: Vec<Arc<LastingContact>>,
@@ -387,21 +432,25 @@ impl Crowd {
         (t, part): (f64, f64),
         now: &mut State,
         loads: &mut Loads,
-    ) {
-        let solver = &mut self.solver;
+    ) -> Option<LawResidual> {
         let joints = model.constraints().len();
         self.pushing.clear();
         if closed.is_empty() && joints == 0 {
-            solver.take_contacts(closed);
+            self.solver.take_contacts(closed);
             self.fly(model, 0.5 * part, now);
             model.sum(t + 0.5 * part, now, loads);
+            if model.does_work() {
+                let mut middle = now.clone();
+                self.kick(model, 0.5 * part, &mut middle, loads);
+                now.accounts.add(part, self.power(model, t + 0.5 * part, &middle));
+            }
             self.kick(model, part, now, loads);
             self.fly(model, 0.5 * part, now);
-            return;
+            return None;
         }
-        let energy: f64 = self.bodies.iter().map(|&body| kinetic(body, model, now)).sum();
-        let taken = now.accounts.impacts + now.accounts.friction;
+        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
         let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
+        let solver = &mut self.solver;
         solver.find_by_sweeps(model);
         solver.take_contacts(closed);
         solver.forget();
@@ -411,6 +460,7 @@ impl Crowd {
         model.sum(t, now, loads);
         let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
         self.impacts.extend(struck.impacts);
+        let mut gain = self.kinetic(model, now) - energy;
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
         model.place(t + 0.5 * part, now);
@@ -422,15 +472,25 @@ impl Crowd {
             self.solver.settle_places(t + 0.5 * part, now);
         }
         model.sum(t + 0.5 * part, now, loads);
+        let until_middle = now.accounts;
         self.solver.prepare_sweeps(model, t + 0.5 * part, now);
         let open = self.solver.widest_joint();
         let goals = self.solver.middle(&goals);
         self.kick(model, 0.5 * part, now, loads);
+        let kicked = self.kinetic(model, now);
         let solver = &mut self.solver;
         solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
-        let work = now.accounts.impacts + now.accounts.friction - taken;
+        // The second half of the substep repeats the impulses, at the same velocities.
+        let booked = now.accounts;
+        now.accounts.add(1.0, booked);
+        now.accounts.add(-1.0, until_middle);
+        gain += self.given(model, 0.5 * part, (&first, now), loads);
+        let power = self.power(model, t + 0.5 * part, now);
+        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
+        now.accounts.add(part, power);
+        let mut residual = None;
         if let Some((bodies, impulses)) = self.solver.hardest_contact() {
-            self.laws.note_work(work, energy, bodies, t);
+            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
             // An open joint between the bodies turns the impulses by their moments about its width.
             let size = self.solver.least_size();
             self.laws.note_moment(open * impulses, size * impulses, bodies, t);
@@ -447,6 +507,47 @@ impl Crowd {
         model.place(t + part, now);
         shift(struck.early, model, t + part, now);
         separate(&mut self.solver, model, t + part, now);
+        residual
+    }
+
+    /// Computes the kinetic energy of the crowd (the bodies that Moreau's scheme advances), J.
+    fn kinetic(&self, model: &Model, now: &State) -> f64 {
+        self.bodies.iter().map(|&body| kinetic(body, model, now)).sum()
+    }
+
+    /// Computes the work of all impulses but those of the loads in a substep, J. `first` holds the momenta at the start of the substep, as
+    /// velocities and angular momenta, and `now` those in the middle, `half` seconds later.
+    fn given(
+        &self,
+        model: &Model,
+        half: f64,
+        (first, now): (&[(DVec3, DVec3)], &State),
+        loads: &Loads,
+    ) -> f64 {
+        let work = |(&i, (velocity, angular_momentum)): (&usize, &(DVec3, DVec3))| {
+            let inverse_mass = model.inverse_mass()[i];
+            let impulse = (now.velocity[i] - *velocity) / inverse_mass - half * loads.force[i];
+            let turn = now.angular_momentum[i] - *angular_momentum - half * loads.torque[i];
+            2.0 * (impulse.dot(now.velocity[i]) + turn.dot(model.angular_velocity(i, now)))
+        };
+        self.bodies.iter().zip(first).map(work).sum()
+    }
+
+    /// Computes the power of the loads without a potential on the crowd (the bodies that Moreau's scheme advances), W: the power that these
+    /// loads would lose if the bodies stood still.
+    fn power(&self, model: &Model, t: f64, now: &State) -> Accounts {
+        if !model.does_work() {
+            return Accounts::default();
+        }
+        let (mut loads, mut still) = (Loads::default(), now.clone());
+        for &i in &self.bodies {
+            (still.velocity[i], still.angular_momentum[i]) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        model.sum(t, &still, &mut loads);
+        let others = loads.power;
+        model.sum(t, now, &mut loads);
+        loads.power.add(-1.0, others);
+        loads.power
     }
 
     /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
