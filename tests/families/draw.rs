@@ -124,6 +124,7 @@ pub(crate) fn contacts(random: &mut Random, kind: &'static str) -> Drawn {
         }
         body.friction = random.chance(0.5).then(|| random.between(0.0, 1.0));
         body.restitution = random.chance(0.5).then(|| random.between(0.0, 0.9));
+        body.rolling_friction = random.chance(0.2).then(|| own * random.between(0.0, 0.1));
         scene.bodies.push(body);
     }
     if count > 1 && random.chance(0.3) {

@@ -2,18 +2,28 @@
 //!
 //! Runs before and after such a change differ by rounding errors only. How fast these grow is measured: the same scene is run with places
 //! and velocities changed at random by 1e-12. A changed scene may differ by a multiple of what such a nudge does, and of what the rounding
-//! of its larger coordinates does.
+//! of its larger coordinates does. In contact, the tolerance of events adds to this.
 
 use glam::DVec3;
 
 use super::change::Change;
 use super::drawn::{Drawn, Shape};
-use super::motion::{Course, Failure, NUDGE, differences, nudged, run, size};
+use super::motion::{Course, Failure, differences, nudged, run, size};
 use super::random::Random;
 use super::{Tried, draw, family};
 
 /// The largest growth of a nudge, as a factor, up to which two runs are compared. Afterwards the motion is chaotic.
 const CHAOS: f64 = 1e6;
+
+/// The relative size of the nudges by which the growth of rounding errors is measured.
+const NUDGE: f64 = 1e-12;
+
+/// The relative tolerance of events in contact: slower closing speeds count as rest, and the force at which a contact opens or begins to
+/// slide is met to within this fraction. Errors of this size also decide which of two corners hits first, so their growth is measured, too.
+const OF_EVENTS: f64 = 1e-9;
+
+/// A run may differ by this many times what such a tolerance does.
+const EVENTS: f64 = 3.0;
 
 /// A run may differ by this many times what a nudge or a rounding error of the same size does.
 const MULTIPLE: f64 = 100.0;
@@ -32,7 +42,7 @@ fn least(scene: &Drawn, base: &Course) -> Result<Vec<f64>, Failure> {
     // The error of a method of first order is about that by which a run with half the step differs.
     let finer = run(&Drawn { step: 0.5 * scene.step, ..scene.clone() })?;
     let errors = differences(scene, base, &finer, &Change::default());
-    Ok(errors.into_iter().map(|error| least + OF_METHOD * error).collect())
+    Ok(errors.into_iter().map(|(error, _)| least + OF_METHOD * error).collect())
 }
 
 /// Draws one change of each kind.
@@ -88,13 +98,18 @@ pub(crate) fn compare(scene: &Drawn, changes: &[Change], random: &mut Random) ->
         }
     };
     let mut growth = vec![1.0_f64; base.0.len()];
-    for _ in 0..3 {
-        let nudged = match run(&nudged(scene, random)) {
+    let has_events = scene.contacts == Some("event-driven");
+    let nudges = [NUDGE; 3].into_iter().chain([OF_EVENTS; 3].into_iter().filter(|_| has_events));
+    for nudge in nudges {
+        let nudged = match run(&nudged(scene, nudge, random)) {
             Ok(nudged) => nudged,
             Err(Failure::Scene(error) | Failure::Run(error)) => return Tried::Refused(error),
         };
         let differences = differences(scene, &base, &nudged, &Change::default());
-        growth.iter_mut().zip(&differences).for_each(|(growth, apart)| *growth = growth.max(apart / NUDGE));
+        growth
+            .iter_mut()
+            .zip(&differences)
+            .for_each(|(growth, (apart, _))| *growth = growth.max(apart / nudge));
     }
     let least = match least(scene, &base) {
         Ok(least) => least,
@@ -108,17 +123,18 @@ pub(crate) fn compare(scene: &Drawn, changes: &[Change], random: &mut Random) ->
                 return Tried::Broken(format!("does not run {}: {error}\n{}", change.name, scene.text()));
             }
         };
-        let error = rounding(scene, change, &base) + 1e-13;
+        let error = MULTIPLE * (rounding(scene, change, &base) + 1e-13);
+        let error = if has_events { error + EVENTS * OF_EVENTS } else { error };
         let apart = differences(scene, &base, &changed, change);
-        for (frame, ((apart, growth), least)) in apart.iter().zip(&growth).zip(&least).enumerate() {
-            let tolerance = least + MULTIPLE * growth * error;
+        for (frame, (((apart, what), growth), least)) in apart.iter().zip(&growth).zip(&least).enumerate() {
+            let tolerance = least + growth * error;
             if *growth > CHAOS || tolerance > 1e-3 {
                 break;
             }
             if apart.is_nan() || *apart > tolerance {
                 let (name, text, other) = (&change.name, scene.text(), change.of(scene).text());
                 return Tried::Broken(format!(
-                    "{name}: at frame {frame} of {} differs by {apart:.1e} instead of {tolerance:.1e}; a nudge grows by {growth:.1e}\n{text}\n# {name}:\n{other}",
+                    "{name}: at frame {frame} of {} the {what} differs by {apart:.1e} instead of {tolerance:.1e}; a nudge grows by {growth:.1e}\n{text}\n# {name}:\n{other}",
                     base.0.len() - 1
                 ));
             }
@@ -146,15 +162,14 @@ fn free_bodies() {
     });
 }
 
-/// The place, the mirror image, the names and the order. The direction and the units are left out: some motions in contact still depend on
-/// them, by up to 0.1 of their size in one of five scenes.
+/// All changes, as for free bodies. In long runs, about one scene in fourteen still breaks: there, whether Moreau's scheme takes over bodies
+/// that bounce lower than rounding errors depends on these errors.
 #[test]
 fn event_driven_contacts() {
-    family("event-driven contacts", 25, 0.6, |random| {
+    family("event-driven contacts", 23, 0.6, |random| {
         let scene = draw::contacts(random, "event-driven");
-        let changes =
-            [shifts(random).to_vec(), vec![Change::mirrored(), Change::shuffled(scene.bodies.len(), random)]];
-        compare(&scene, &changes.concat(), random)
+        let changes = changes(&scene, random);
+        compare(&scene, &changes, random)
     });
 }
 

@@ -64,19 +64,24 @@ pub(crate) fn size(scene: &Drawn) -> f64 {
 }
 
 /// Returns, for each frame, how far two runs have parted: the largest difference of places, as a fraction of the size of `scene`; of directions, rad; of
-/// velocities and of angular velocities, as fractions of the largest speeds of the run so far. `change` leads from the first run to the
+/// velocities and of angular velocities, as fractions of the largest speeds of the run; and what differs so much. `change` leads from the first run to the
 /// second.
-pub(crate) fn differences(scene: &Drawn, one: &Course, other: &Course, change: &Change) -> Vec<f64> {
+pub(crate) fn differences(
+    scene: &Drawn,
+    one: &Course,
+    other: &Course,
+    change: &Change,
+) -> Vec<(f64, String)> {
     let size = size(scene);
     let all = || one.0.iter().flatten().flatten();
     let speed = all().map(|seen| seen.velocity.length().max(size * seen.angular_velocity.length()));
     let speed = speed.fold(SLOW * size / scene.duration, f64::max);
-    let mut most = 0.0_f64;
+    let mut most = (0.0_f64, String::new());
     let mut differences = Vec::new();
     for (one, other) in one.0.iter().zip(&other.0) {
         for (i, first) in one.iter().enumerate() {
-            most = match (first, &other[change.index(i)]) {
-                (None, None) => most,
+            match (first, &other[change.index(i)]) {
+                (None, None) => {}
                 (Some(first), Some(second)) => {
                     let second = change.undone(*second);
                     let turned = (first.orientation - second.orientation).length();
@@ -84,15 +89,26 @@ pub(crate) fn differences(scene: &Drawn, one: &Course, other: &Course, change: &
                     let faster = (first.velocity - second.velocity).length();
                     let spin = size * (first.angular_velocity - second.angular_velocity).length();
                     let apart = first.location.distance(second.location) / size;
-                    [apart, 2.0 * turned, faster / speed, spin / speed].into_iter().fold(most, f64::max)
+                    let all = [
+                        ("place", apart),
+                        ("direction", 2.0 * turned),
+                        ("velocity", faster / speed),
+                        ("rotation", spin / speed),
+                    ];
+                    for (what, apart) in all {
+                        let apart = if apart.is_nan() { f64::INFINITY } else { apart };
+                        if apart > most.0 {
+                            most = (apart, format!("{what} of {}", scene.bodies[i].name));
+                        }
+                    }
                 }
-                _ => f64::INFINITY,
-            };
+                _ => most = (f64::INFINITY, format!("presence of {}", scene.bodies[i].name)),
+            }
         }
-        differences.push(most);
+        differences.push(most.clone());
     }
     if one.0.len() != other.0.len() {
-        differences.push(f64::INFINITY);
+        differences.push((f64::INFINITY, "number of frames".to_owned()));
     }
     differences
 }
@@ -100,22 +116,19 @@ pub(crate) fn differences(scene: &Drawn, one: &Course, other: &Course, change: &
 /// Speeds below this part of the scene's size in its duration count as rest.
 const SLOW: f64 = 0.1;
 
-/// The relative size of the random changes by which [`nudged`] tells how fast rounding errors grow.
-pub(crate) const NUDGE: f64 = 1e-12;
-
-/// Returns the scene with all places and velocities changed at random, by the fraction [`NUDGE`] of the scene's size and of the largest
-/// speed.
-pub(crate) fn nudged(scene: &Drawn, random: &mut Random) -> Drawn {
+/// Returns the scene with all places and velocities changed at random, by the fraction `nudge` of the scene's size and of the largest
+/// speed. It tells how fast errors of this size grow.
+pub(crate) fn nudged(scene: &Drawn, nudge: f64, random: &mut Random) -> Drawn {
     let mut nudged = scene.clone();
     let size = size(scene);
     let speed = scene.bodies.iter().map(|body| body.velocity.length()).fold(0.0, f64::max);
     let moves =
         |body: &&mut Body| !body.fixed && body.motion.is_none() && !matches!(body.shape, Shape::Plane { .. });
     for body in nudged.bodies.iter_mut().filter(moves) {
-        body.location += random.vector(NUDGE * size);
-        body.orientation = DQuat::from_scaled_axis(random.vector(NUDGE)) * body.orientation;
-        body.velocity += random.vector(NUDGE * speed);
-        body.angular_velocity += random.vector(NUDGE * (speed / size + body.angular_velocity.length()));
+        body.location += random.vector(nudge * size);
+        body.orientation = DQuat::from_scaled_axis(random.vector(nudge)) * body.orientation;
+        body.velocity += random.vector(nudge * speed);
+        body.angular_velocity += random.vector(nudge * (speed / size + body.angular_velocity.length()));
     }
     nudged
 }

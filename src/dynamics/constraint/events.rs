@@ -38,12 +38,12 @@ impl Solver {
         self.measure(t, state);
         let n = self.rows.len();
         let mut rates = vec![0.0; n];
-        let size = match &self.structure {
-            Some(structure) => {
-                jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates)
-            }
-            None => return (f64::INFINITY, 0),
-        };
+        let Some(structure) = &self.structure else { return (f64::INFINITY, 0) };
+        jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut rates);
+        let size =
+            jacobian::magnitude((structure, &self.jacobian, &self.members), &self.rows, &self.grips, |row| {
+                row.rate
+            });
         self.seen = [size, 0.0];
         let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Equality;
         if self.modes.iter().zip(&self.laws).any(pulls) {
@@ -79,7 +79,7 @@ impl Solver {
             Mode::Held if grip.is_restless => f64::INFINITY,
             Mode::Held => {
                 let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();
-                part(left * self.weight(grip.row), force * self.unit(grip.row), PULLED)
+                part(left * self.pair_weight(grip.row), force * self.unit(grip.row), PULLED)
             }
             Mode::Slid => part(grip.of(&rates).dot(grip.heading), size * self.unit(grip.row), PASSED),
             Mode::Open | Mode::Pushed(_) => f64::INFINITY,

@@ -3,6 +3,7 @@
 //! Source: T. A. Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31 (2005) 587. No crate is used, for
 //! two reasons. Redundant and inactive rows must be left out at run time. And the order of the sums must not depend on the processor.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::structure::Structure;
@@ -80,6 +81,12 @@ struct Crossing {
 const SOFT: f64 = 1e-7;
 
 const NONE: usize = usize::MAX;
+
+/// Returns the largest singular value of a 2 × 2 matrix.
+fn norm([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+    let (even, odd) = (libm::hypot(a + d, b - c), libm::hypot(a - d, b + c));
+    0.5 * (even + odd)
+}
 
 impl Factor {
     /// Allocates the sparse matrix J M⁻¹ Jᵀ for a layout of constraints. The blocks of each column are in the order of the neighbors.
@@ -235,16 +242,34 @@ impl Factor {
         self.soft.iter().any(Option::is_some)
     }
 
-    /// Computes, for each row of the matrix, the sum of the absolute values of its entries in the columns that `counts` selects.
-    pub(super) fn row_sizes(&self, counts: impl Fn(usize) -> bool) -> Vec<f64> {
-        let mut sizes = vec![0.0; self.lines.len()];
-        for (k, line) in self.lines.iter().enumerate() {
-            for entry in &self.matrix[line.column.clone()] {
-                if counts(entry.row) {
-                    sizes[k] += entry.value.abs();
+    /// Computes, for each pair of rows, the sum of the norms of its 2 × 2 blocks with all pairs. A pair is given by its first row and the
+    /// [unit](super::solver::Solver::unit) of its rates; the pairs are in ascending order. Since a norm (the largest singular value) counts,
+    /// the result does not depend on the directions of the two tangents to which a pair of rows belongs.
+    pub(super) fn pair_sizes(&self, pairs: &[(usize, f64)]) -> Vec<f64> {
+        let mut sizes = vec![0.0; pairs.len()];
+        for (i, &(first, unit)) in pairs.iter().enumerate() {
+            let mut blocks = BTreeMap::<usize, [[f64; 2]; 2]>::new();
+            for (side, line) in self.lines[first..first + 2].iter().enumerate() {
+                for entry in &self.matrix[line.column.clone()] {
+                    let Some(j) = pairs.partition_point(|&(other, _)| other <= entry.row).checked_sub(1)
+                    else {
+                        continue;
+                    };
+                    let at = entry.row - pairs[j].0;
+                    if at < 2 {
+                        let block = blocks.entry(j).or_default();
+                        block[side][at] = entry.value;
+                        if i == j {
+                            block[at][side] = entry.value;
+                        }
+                    }
                 }
-                if entry.row != k && counts(k) {
-                    sizes[entry.row] += entry.value.abs();
+            }
+            for (j, block) in blocks {
+                let (norm, other) = (norm(block), pairs[j].1);
+                sizes[i] += norm * unit / other;
+                if i != j {
+                    sizes[j] += norm * other / unit;
                 }
             }
         }

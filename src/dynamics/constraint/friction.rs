@@ -54,8 +54,7 @@ pub(super) struct FrictionPair {
     /// True if the contact has switched between sticking and sliding too often in this step. It then sticks until the end of the step,
     /// with any friction force that this needs.
     pub(super) is_restless: bool,
-    /// The strongest coupling of this pair with all friction rows. Each row of the pair has a sum: that of the absolute values of its
-    /// entries for friction rows in A = J M⁻¹ Jᵀ. The larger of the two sums counts.
+    /// The strongest coupling of this pair with all friction rows: the sum of the norms of its 2 × 2 blocks in A = J M⁻¹ Jᵀ.
     pub(super) stiffness: f64,
     /// The largest acceleration of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
     pub(super) strength: f64,
@@ -241,7 +240,7 @@ impl Solver {
         match self.modes[row] {
             Mode::Held => {
                 let most = grip.coefficient * self.unknown[grip.normal].max(0.0);
-                (grip.of(&self.unknown).length() - most) * self.weight(row)
+                (grip.of(&self.unknown).length() - most) * self.pair_weight(row)
             }
             Mode::Slid if grip.is_beginning => grip.of(accelerations).dot(grip.push),
             _ => 0.0,
@@ -276,10 +275,9 @@ impl Solver {
 
     /// Computes the `stiffness` of each pair of friction rows: its strongest coupling with all friction rows.
     pub(super) fn see_stiffness(&mut self) {
-        let sizes = self.factor.row_sizes(|row| matches!(self.laws[row], Law::Friction { .. }));
-        for grip in &mut self.grips {
-            grip.stiffness = sizes[grip.row].max(sizes[grip.row + 1]);
-        }
+        let pairs: Vec<_> = self.grips.iter().map(|grip| (grip.row, self.unit(grip.row))).collect();
+        let sizes = self.factor.pair_sizes(&pairs);
+        self.grips.iter_mut().zip(sizes).for_each(|(grip, size)| grip.stiffness = size);
     }
 
     /// Computes the `strength` of each sliding pair: the largest change of slip velocities by its friction.

@@ -11,7 +11,7 @@ use super::super::sets::Sets;
 use super::Law;
 use super::anderson::Anderson;
 use super::solver::Solver;
-use super::sweep::Stopping;
+use super::sweep::{Stopping, even_out, stiffest};
 
 /// A constraint row of a contact (normal or tangent) in the form that Gauss–Seidel sweeps need.
 struct Line {
@@ -111,18 +111,19 @@ impl Island {
         change
     }
 
-    /// Returns the absolute change of the rate of `other` under a unit impulse along `line`. Both contact rows have the same members.
+    /// Returns the change of the rate of `other` under a unit impulse along `line`. Both contact rows have the same members.
     fn coupling(&self, line: &Line, other: &Line) -> f64 {
         let of = |term: &Term| {
             let same = self.terms[other.terms.clone()].iter().find(|same| same.velocity == term.velocity);
             same.map_or(0.0, |same| term.change.dot(same.along))
         };
-        self.terms[line.terms.clone()].iter().map(of).sum::<f64>().abs()
+        self.terms[line.terms.clone()].iter().map(of).sum()
     }
 
     /// Repeats Gauss–Seidel sweeps.
     fn settle(&mut self, stopping: Stopping, velocities: &mut [DVec3]) {
-        let weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
+        let mut weights: Vec<f64> = self.lines.iter().map(|line| line.weight).collect();
+        self.pairs.iter().for_each(|pair| even_out(&mut weights[pair.first..pair.first + 2]));
         let mut anderson = Anderson::from(&self.impulses, &weights);
         for number in 1.. {
             if stopping.ends(number, self.sweep(velocities)) {
@@ -199,9 +200,7 @@ impl Solver {
                 if with_friction {
                     let first = normal + grip.row - place.row;
                     let [u, w] = [&island.lines[first], &island.lines[first + 1]];
-                    // The coupling of the two contact rows is added to the weight; it is weak, since the tangents are perpendicular.
-                    let weight = u.weight.max(w.weight);
-                    let weight = if weight > 0.0 { weight + island.coupling(u, w) } else { 0.0 };
+                    let weight = stiffest([u.weight, w.weight], island.coupling(u, w));
                     island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
                 }
             }

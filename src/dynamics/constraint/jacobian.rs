@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::super::{Model, State};
+use super::friction::FrictionPair;
 use super::member::Member;
 use super::structure::Structure;
 use super::{Direction, Row};
@@ -60,6 +61,44 @@ pub(super) fn rates(
         }
     }
     largest
+}
+
+/// Returns the magnitude of the terms of all rates c', m/s: the largest sum of absolute values in a row. Rates of angles count times the
+/// size of the mechanism. If the members hold accelerations in place of velocities, the result is that of c'', m/s². `more` returns what c'
+/// or c'' of a row has in addition to J v. The two rows of friction at a contact count together, by the lengths of vectors: the result does
+/// not depend on the directions of the tangents.
+pub(super) fn magnitude(
+    (structure, jacobian, members): (&Structure, &[Direction], &[Member]),
+    rows: &[Row],
+    grips: &[FrictionPair],
+    more: impl Fn(&Row) -> f64,
+) -> f64 {
+    let mut pairs = grips.iter().map(|grip| grip.row).peekable();
+    let (mut largest, mut i) = (0.0_f64, 0);
+    while i < rows.len() {
+        let unit = if rows[i].scale.is_length { 1.0 } else { structure.length };
+        let (size, more) = if pairs.next_if_eq(&i).is_some() {
+            i += 1;
+            let both = [i - 1, i].map(|row| &jacobian[structure.directions_of(row)]);
+            (pair_size(both, members), libm::hypot(more(&rows[i - 1]), more(&rows[i])))
+        } else {
+            (product(structure, jacobian, members, i).1, more(&rows[i]).abs())
+        };
+        largest = largest.max(unit * size).max(unit * more);
+        i += 1;
+    }
+    largest
+}
+
+/// Returns the largest rate of two rows of friction that the speeds of their bodies can cause, from the directions of both rows.
+fn pair_size([first, second]: [&[Direction]; 2], members: &[Member]) -> f64 {
+    let mean = |a: DVec3, b: DVec3| (0.5 * (a.length_squared() + b.length_squared())).sqrt();
+    let size = |(a, b): (&Direction, &Direction)| {
+        let member = &members[a.member];
+        mean(a.linear, b.linear) * member.velocity.length()
+            + mean(a.angular, b.angular) * member.angular_velocity.length()
+    };
+    first.iter().zip(second).map(size).sum()
 }
 
 /// Computes J v for each constraint row from the velocities of the members. If the members hold accelerations in place of velocities, the

@@ -21,9 +21,9 @@ impl LastForces {
     }
 
     /// Returns the stored forces along the constraint rows of the same contact; `None` if there are none.
-    pub(super) fn find(&self, contact: &LastingContact) -> Option<&[f64]> {
+    pub(super) fn find(&self, contact: &LastingContact) -> Option<Vec<f64>> {
         let known = self.0.get(&contact.bodies)?.iter();
         let mut same = known.filter(|(other, _)| other.is(contact));
-        same.next().map(|(_, forces)| &forces[..])
+        same.next().map(|(other, forces)| other.carried(forces, contact))
     }
 }

@@ -194,7 +194,7 @@ impl<'a> End<'a> {
     /// Returns the size of the end, m: its lever and the size of its body. 0 if forces cannot move the body.
     #[inline(always)]
     pub(super) fn size(&self) -> f64 {
-        if self.member.inverse_mass == 0.0 { 0.0 } else { self.arm.abs().max_element().max(self.member.size) }
+        if self.member.inverse_mass == 0.0 { 0.0 } else { self.arm.length().max(self.member.size) }
     }
 
     /// Returns the rotation from the axes of the end's body to the world axes.

@@ -187,12 +187,12 @@ impl Solver {
         for (i, mode) in self.modes.iter_mut().enumerate() {
             *mode = Mode::first(&self.laws[i]);
         }
-        let size = match &self.structure {
-            Some(structure) => {
-                jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut before)
-            }
-            None => return 0.0,
-        };
+        let Some(structure) = &self.structure else { return 0.0 };
+        jacobian::rates(structure, &self.jacobian, &self.members, &self.rows, &mut before);
+        let size =
+            jacobian::magnitude((structure, &self.jacobian, &self.members), &self.rows, &self.grips, |row| {
+                row.rate
+            });
         self.largest_rate = self.largest_rate.max(size);
         let size = self.largest_rate;
         let slight = SLIGHT * size;

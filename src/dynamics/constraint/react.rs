@@ -2,7 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::Law;
-use super::jacobian::{for_each_direction, move_members, product, products};
+use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
 use super::modes::Mode;
 use super::solver::Solver;
 
@@ -85,14 +85,10 @@ impl Solver {
         self.push_drives(loads);
         self.see_slips();
         self.solve_forces(t, state, loads);
-        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, grips, .. } = self else {
             return 0.0;
         };
-        let mut size = 0.0_f64;
-        for (i, row) in rows.iter().enumerate() {
-            let unit = if row.scale.is_length { 1.0 } else { structure.length };
-            size = size.max(unit * product(structure, jacobian, members, i).1).max(unit * row.bias.abs());
-        }
+        let size = magnitude((structure, jacobian, members), rows, grips, |row| row.bias);
         move_members(structure, jacobian, unknown, members);
         products(structure, jacobian, members, accelerations);
         for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {

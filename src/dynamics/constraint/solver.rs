@@ -166,6 +166,12 @@ impl Solver {
         self.factor.diagonal(row)
     }
 
+    /// Returns the mean of the diagonal entries of A = J M⁻¹ Jᵀ for a pair of friction rows, which does not depend on the directions of the
+    /// two tangents. `row` is the first row of the pair.
+    pub(super) fn pair_weight(&self, row: usize) -> f64 {
+        0.5 * (self.weight(row) + self.weight(row + 1))
+    }
+
     /// Reports the constraint with the largest error of an active row as broken, if this error exceeds the tolerance.
     pub(super) fn blame(&mut self, model: &Model, time: f64) {
         let Some(structure) = &self.structure else { return };

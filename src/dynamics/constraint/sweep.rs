@@ -287,7 +287,9 @@ impl Solver {
     /// Repeats Gauss–Seidel sweeps. `sweep` returns the largest change of a rate.
     pub(super) fn sweep_until(&mut self, stopping: Stopping, mut sweep: impl FnMut(&mut Self) -> f64) {
         let (first, members) = (self.unknown.clone(), self.members.clone());
-        let mut anderson = Anderson::from(&self.unknown, self.columns.weights());
+        let mut weights = self.columns.weights().to_vec();
+        self.grips.iter().for_each(|grip| even_out(&mut weights[grip.row..grip.row + 2]));
+        let mut anderson = Anderson::from(&self.unknown, &weights);
         let mut farthest = 0.0_f64;
         for number in 1.. {
             if stopping.ends(number, sweep(self)) {
@@ -377,12 +379,11 @@ impl Solver {
         if most == 0.0 && before == DVec2::ZERO {
             return 0.0;
         }
-        // The coupling of the two constraint rows is added to the weight; it is weak, since the tangents are perpendicular.
-        let weight = self.columns.weights()[row].max(self.columns.weights()[row + 1]);
+        let weights = self.columns.weights();
+        let weight = stiffest([weights[row], weights[row + 1]], self.coupling(row));
         if weight <= 0.0 {
             return 0.0;
         }
-        let weight = weight + self.coupling(row);
         let slip = DVec2::new(self.rate_of(row) - goals[row], self.rate_of(row + 1) - goals[row + 1]);
         let next = (before - slip / weight).clamp_length_max(most);
         (self.unknown[row], self.unknown[row + 1]) = (next.x, next.y);
@@ -391,7 +392,7 @@ impl Solver {
         (next - before).length() * weight / self.unit(row)
     }
 
-    /// Returns the absolute change of the next constraint row's rate under a unit impulse along this row.
+    /// Returns the change of the next constraint row's rate under a unit impulse along this row.
     fn coupling(&self, row: usize) -> f64 {
         let Some(structure) = &self.structure else { return 0.0 };
         let directions = &self.jacobian[structure.directions_of(row + 1)];
@@ -402,6 +403,18 @@ impl Solver {
                 direction.linear.dot(change.velocity) + direction.angular.dot(change.angular_velocity)
             })
         };
-        directions.iter().map(of).sum::<f64>().abs()
+        directions.iter().map(of).sum()
     }
+}
+
+/// Returns the largest response to a unit impulse along any tangent of a contact, from the responses along two of its tangents and their
+/// coupling: the larger eigenvalue of a symmetric 2 × 2 matrix. It does not depend on which two tangents these are. 0 without a response.
+pub(super) fn stiffest([u, w]: [f64; 2], coupling: f64) -> f64 {
+    if u.max(w) > 0.0 { 0.5 * (u + w) + libm::hypot(0.5 * (u - w), coupling) } else { 0.0 }
+}
+
+/// Replaces the responses along the two tangents of a contact by their mean, which does not depend on which two tangents these are.
+pub(super) fn even_out(pair: &mut [f64]) {
+    let mean = pair.iter().sum::<f64>() / pair.len() as f64;
+    pair.fill(mean);
 }

@@ -5,8 +5,6 @@
 //! a bound of its own: one corner can leave the floor while another comes down. Source: B. V. Mirtich, *Impulse-based dynamic simulation
 //! of rigid body systems* (1996), chapter 2 (conservative advancement).
 
-use glam::DVec3;
-
 use super::closest_points::{ClosestPoints, nearest};
 use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
@@ -67,13 +65,21 @@ pub(super) fn close(solids: [&Solid; 2]) -> f64 {
     CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
 }
 
+/// Computes the rate of the gap at one pair of points of two moving bodies, m/s. It is negative while the bodies approach.
+fn rate(place: &ClosestPoints, moving: &[Moving; 2]) -> f64 {
+    let at = |i: usize| {
+        let arm = place.on[i] - moving[i].pose.location;
+        moving[i].velocity + moving[i].turning.cross(arm)
+    };
+    place.normal.dot(at(1) - at(0))
+}
+
 impl Approach<'_> {
     /// Returns the first time before `end` at which the bodies touch and approach, in seconds after the beginning of the step. `None` if
     /// they do not.
     pub(super) fn first(&self, end: f64) -> Option<f64> {
         let close = close(self.solids);
-        let turns = self.paths.map(|path| path.turning != DVec3::ZERO || path.first_turning != DVec3::ZERO);
-        let is_shift = are_convex(self.solids) && turns == [false; 2];
+        let is_shift = are_convex(self.solids) && !self.paths.iter().any(|path| path.turns());
         let mut time = 0.0;
         for step in 0.. {
             let moving = self.paths.map(|path| path.at(time));
@@ -86,7 +92,7 @@ impl Approach<'_> {
             if is_shift || near.gap <= close {
                 let near = if is_shift { vec![near] } else { places(self.solids, poses, near, close) };
                 for place in near {
-                    let rate = self.rate(&place, &moving, time);
+                    let rate = rate(&place, &moving);
                     let is_touched = place.gap <= self.touch;
                     if is_touched && rate < -self.slight {
                         return Some(time);
@@ -104,25 +110,14 @@ impl Approach<'_> {
         None
     }
 
-    /// Computes the rate of the gap at one pair of points, m/s. It is negative while the bodies approach.
-    fn rate(&self, place: &ClosestPoints, moving: &[Moving; 2], time: f64) -> f64 {
-        let at = |i: usize| {
-            let arm = place.on[i] - moving[i].pose.location;
-            let path = self.paths[i];
-            let turning = if time == 0.0 { path.first_turning } else { path.turning };
-            moving[i].velocity + turning.cross(arm)
-        };
-        place.normal.dot(at(1) - at(0))
-    }
-
     /// Computes the largest rate at which the gap of any pair of points can close, m/s, and a bound of the gap's second derivative, m/s².
     fn bounds(&self, near: &ClosestPoints, moving: &[Moving; 2]) -> (f64, f64) {
         let velocity = moving[1].velocity - moving[0].velocity;
         let mut shrink = -near.normal.dot(velocity);
         let mut bend = self.paths[0].bend(self.paths[1]);
         for (i, body) in moving.iter().enumerate() {
-            let turning = self.paths[i].turning;
-            if turning.length_squared() > 0.0 {
+            if self.paths[i].turns() {
+                let (fastest, changing) = self.paths[i].spin();
                 // A body of infinite size can touch far from its center, so the contact point bounds its reach.
                 let reach = self.solids[i].reach();
                 let reach = if reach.is_finite() {
@@ -130,9 +125,9 @@ impl Approach<'_> {
                 } else {
                     2.0 * (near.on[i] - body.pose.location).length() + self.solids[1 - i].reach()
                 };
-                shrink += turning.cross(near.normal).length() * reach;
+                shrink += body.turning.cross(near.normal).length() * reach;
                 // The contact normal rotates with the body as well.
-                bend += turning.length_squared() * reach + 2.0 * turning.length() * velocity.length();
+                bend += (fastest * fastest + changing) * reach + 2.0 * fastest * velocity.length();
             }
         }
         (shrink, bend)

@@ -25,20 +25,11 @@ pub(in crate::dynamics) struct LastingContact {
     pub(in crate::dynamics) size: f64,
     /// The bodies count as at rest at this contact if they separate more slowly than this, m/s.
     pub(in crate::dynamics) still: f64,
-    /// The world axis from which the first tangent is derived. It is fixed because tangents must not jump during a contact.
-    pub(in crate::dynamics) heading: DVec3,
 }
 
-/// Limits for the absolute cosine of the angle between the normal and the axis `heading`. Beyond the first limit, the step ends and the
-/// tangents are chosen again. At events with another cause, the tangents are chosen again beyond the second.
-const TURNED: [f64; 2] = [0.95, 0.9];
-
-/// Returns the world axis that is most nearly perpendicular to a contact normal.
-pub(super) fn heading(normal: DVec3) -> DVec3 {
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let nearness = |axis: &DVec3| axis.dot(normal).abs();
-    axes.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(DVec3::X)
-}
+/// Limits for the cosine of the angle by which the normal has turned since the contact was found. Below the first limit, the step ends and
+/// the tangents are chosen again. At events with another cause, the tangents are chosen again below the second.
+const TURNED: [f64; 2] = [0.0, 0.25];
 
 impl LastingContact {
     /// Returns true if one of the contact's bodies is in this set.
@@ -55,19 +46,34 @@ impl LastingContact {
     /// valid.
     pub(in crate::dynamics) fn is(&self, new: &LastingContact) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
-        is_same && self.heading.dot(new.touch.meeting.normal).abs() <= TURNED[1]
+        is_same && self.touch.meeting.normal.dot(new.touch.meeting.normal) >= TURNED[1]
     }
 
     /// Returns how far the contact normal is from the limit at which the tangents become invalid, as a difference of cosines. If the
     /// result is negative, the tangents must be chosen again.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
-        TURNED[0] - self.heading.dot(self.meet(poses).normal).abs()
+        self.touch.meeting.normal.dot(self.meet(poses).normal) - TURNED[0]
     }
 
-    /// Returns two unit tangents, perpendicular to the normal and to each other. They depend on the normal smoothly.
+    /// Returns two unit tangents, perpendicular to the normal and to each other. They turn with the normal by the shortest way from those
+    /// at the beginning of the contact. Which these are is arbitrary: no result depends on them.
     fn tangents(&self, normal: DVec3) -> [DVec3; 2] {
-        let first = self.heading.reject_from_normalized(normal).normalize();
+        let begun = self.touch.meeting.normal;
+        let first = begun.any_orthonormal_vector();
+        let first = first - first.dot(normal) / (1.0 + begun.dot(normal)) * (begun + normal);
+        let first = first.reject_from_normalized(normal).normalize();
         [first, normal.cross(first)]
+    }
+
+    /// Returns the components of a force along the rows of the same contact found later, from those along the rows of this one.
+    pub(in crate::dynamics) fn carried(&self, forces: &[f64], new: &LastingContact) -> Vec<f64> {
+        let [old, new] = [self, new].map(|contact| contact.tangents(contact.touch.meeting.normal));
+        let mut carried = forces.to_vec();
+        for pair in carried.get_mut(1..).into_iter().flat_map(|pairs| pairs.chunks_exact_mut(2)) {
+            let force = pair[0] * old[0] + pair[1] * old[1];
+            (pair[0], pair[1]) = (force.dot(new[0]), force.dot(new[1]));
+        }
+        carried
     }
 
     fn meet(&self, poses: [Pose; 2]) -> ClosestPoints {
@@ -118,7 +124,7 @@ impl Constraint for LastingContact {
         let turning = |i: usize| both[i].angular_velocity.cross(change.place - both[i].velocity);
         let drift = turning(1) - turning(0);
         let terms = on[0].abs().max(on[1].abs()).max(arms[0].abs()).max(arms[1].abs()).max_element();
-        let levers = [0, 1].map(|i| if both[i].can_move() { arms[i].abs().max_element() } else { 0.0 });
+        let levers = [0, 1].map(|i| if both[i].can_move() { arms[i].length() } else { 0.0 });
         let scale = Scale::length(self.size, terms).max(Scale::length(levers[0].max(levers[1]), terms));
         let mut write = |row: usize, violation: f64, bias: f64, linear: DVec3| {
             equations.row(row, violation, bias, scale);

@@ -167,14 +167,24 @@ pub(super) fn meet_placed(a: &Patch, b: &Patch) -> ClosestPoints {
     }
 }
 
+/// Returns the unit vector along the part of `direction` that is perpendicular to the unit vector `axis`. `None` if there is no such part.
+///
+/// If the two vectors are nearly parallel, much of that part is a rounding error along the axis. Hence the axis is taken out twice. Source:
+/// L. Giraud, J. Langou & M. Rozložník, *The loss of orthogonality in the Gram–Schmidt orthogonalization process*, Computers & Mathematics
+/// with Applications 50 (2005) 1069.
+pub(super) fn radial(direction: DVec3, axis: DVec3) -> Option<DVec3> {
+    let once = (direction - direction.dot(axis) * axis).try_normalize()?;
+    let twice = once - once.dot(axis) * axis;
+    if twice.length_squared() > 0.25 { twice.try_normalize() } else { None }
+}
+
 /// Computes the closest points of a plane and a patch. The closest point of a line is its nearer end.
 fn on_plane(at: DVec3, normal: DVec3, other: &Patch) -> ClosestPoints {
     let lowest = match *other {
         Patch::Plane { at, .. } => at,
         Patch::Circle { centre, axis, radius } => {
-            let across = normal - normal.dot(axis) * axis;
             // If the rim is parallel to the plane, all its points are equally low, so any point will do.
-            centre - radius * across.try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
+            centre - radius * radial(normal, axis).unwrap_or_else(|| axis.any_orthonormal_vector())
         }
         _ => match other.spine() {
             Some(spine) => spine.lowest(normal),

@@ -8,8 +8,11 @@ use super::solid::Pose;
 /// Deviations below this fraction of the coordinates count as rounding errors.
 const ROUNDING: f64 = 2e-15;
 
-/// The path of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a uniform rotation. This
-/// accuracy is sufficient: if a touch is found on the path, steps of the integrator then locate it exactly.
+/// Rotations that differ by less than this count as equal, rad: some rounding errors of orientations.
+const TURNING: f64 = 1e-14;
+
+/// The path of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a rotation whose angular
+/// velocity changes evenly. This accuracy is sufficient: if a touch is found on the path, steps of the integrator then locate it exactly.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     start: Pose,
@@ -18,8 +21,8 @@ pub(super) struct Path {
     /// The acceleration at the beginning and at the end of the step, m/s². It is linear in time.
     acceleration: [DVec3; 2],
     /// The mean angular velocity in the step; `first_turning` is that at its beginning. World axes, rad/s.
-    pub(super) turning: DVec3,
-    pub(super) first_turning: DVec3,
+    turning: DVec3,
+    first_turning: DVec3,
     /// Upper bounds of the motion in the step: the distance of the center of mass, m, and the angle of rotation (`turn`), rad.
     pub(super) reach: f64,
     pub(super) turn: f64,
@@ -30,6 +33,8 @@ pub(super) struct Path {
 pub(super) struct Moving {
     pub(super) pose: Pose,
     pub(super) velocity: DVec3,
+    /// The angular velocity, world axes, rad/s.
+    pub(super) turning: DVec3,
 }
 
 impl Path {
@@ -45,16 +50,20 @@ impl Path {
         let (steady, rest) = ((w - v) / h, rest * (6.0 / (h * h)));
         let acceleration = [steady + rest, steady - rest];
         let turned = turned(i, model, before, after, duration);
+        let first_turning = model.angular_velocity(i, before);
+        let turning = 0.5 * (first_turning + model.angular_velocity(i, after));
+        // In short steps, a rounding error of the orientation would look like a large angular velocity.
+        let turning = if (turned - h * turning).length() <= TURNING { turning } else { turned / h };
         let bend = acceleration[0].length().max(acceleration[1].length());
         Path {
             start: pose(i, model, before),
             duration,
             velocity: v,
             acceleration,
-            turning: turned / h,
-            first_turning: model.angular_velocity(i, before),
+            turning,
+            first_turning,
             reach: h * (v.length() + 0.5 * h * bend),
-            turn: turned.length(),
+            turn: turned.length() + h * (turning - first_turning).length(),
         }
     }
 
@@ -64,12 +73,27 @@ impl Path {
         let bend = (b - a) / self.duration;
         let location = self.start.location + time * (self.velocity + time * (0.5 * a + time * bend / 6.0));
         let velocity = self.velocity + time * (a + 0.5 * time * bend);
-        let orientation = if self.turning == DVec3::ZERO {
-            self.start.orientation
+        let orientation = if self.turns() {
+            let part = time / self.duration;
+            let turn = time * self.first_turning.lerp(self.turning, part);
+            (DQuat::from_scaled_axis(turn) * self.start.orientation).normalize()
         } else {
-            (DQuat::from_scaled_axis(time * self.turning) * self.start.orientation).normalize()
+            self.start.orientation
         };
-        Moving { pose: Pose { location, orientation }, velocity }
+        let turning = self.first_turning + 2.0 * time / self.duration * (self.turning - self.first_turning);
+        Moving { pose: Pose { location, orientation }, velocity, turning }
+    }
+
+    /// Returns true if the body rotates in the step.
+    pub(super) fn turns(&self) -> bool {
+        self.turning != DVec3::ZERO || self.first_turning != DVec3::ZERO
+    }
+
+    /// Returns the largest angular velocity of the body in the step, rad/s, and its angular acceleration, rad/s².
+    pub(super) fn spin(&self) -> (f64, f64) {
+        let change = 2.0 * (self.turning - self.first_turning);
+        let last = self.first_turning + change;
+        (self.first_turning.length().max(last.length()), change.length() / self.duration)
     }
 
     /// Returns the largest acceleration of another body relative to this one, m/s².
@@ -103,7 +127,7 @@ impl Path {
     pub(super) fn stop(&mut self) {
         self.velocity = DVec3::ZERO;
         self.acceleration = [DVec3::ZERO; 2];
-        self.turning = DVec3::ZERO;
+        (self.turning, self.first_turning) = (DVec3::ZERO, DVec3::ZERO);
         (self.reach, self.turn) = (0.0, 0.0);
     }
 }

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use super::feature::{
     Feature, features_of_box, features_of_capsule, features_of_frustum, features_of_ground,
 };
-use super::patch::Patch;
+use super::patch::{Patch, radial};
 use super::tree::Tree;
 use super::triangles::triangles;
 use crate::dynamics::shape::{Part as Piece, Shape, cone_base};
@@ -232,8 +232,7 @@ impl Core {
                 best.1
             }
             Core::Frustum { ends, axis, radii } => {
-                let across = direction - direction.dot(*axis) * *axis;
-                let rim = across.normalize_or_zero();
+                let rim = radial(direction, *axis).unwrap_or(DVec3::ZERO);
                 let places = [ends[0] + radii[0] * rim, ends[1] + radii[1] * rim];
                 if places[1].dot(direction) > places[0].dot(direction) { places[1] } else { places[0] }
             }

@@ -15,7 +15,7 @@ use super::Impact;
 use super::closest_points::ClosestPoints;
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
-use super::lasting_contact::{LastingContact, heading};
+use super::lasting_contact::LastingContact;
 use super::laws::LawResidual;
 use super::touch::Touch;
 
@@ -168,8 +168,8 @@ impl Collider {
                 |touch: &&Touch| Place::of(&touch.meeting, pair.bodies, state).rate(twists).x.abs() <= still;
             let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
             for touch in near.iter().copied().chain(snug) {
-                let (bodies, law, heading) = (pair.bodies, pair.law, heading(touch.meeting.normal));
-                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, heading, still }));
+                let (bodies, law) = (pair.bodies, pair.law);
+                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, still }));
             }
         }
         Ok(Strike { closed, struck })
@@ -370,9 +370,9 @@ fn response(
     response_to(bodies, places, places.len(), (model, state), joints)
 }
 
-/// Computes the columns of J M⁻¹ Jᵀ that belong to impulses at the first `pushed` contact points. Where joints block all motion along an
-/// axis, the response would be only a rounding error. Instead, such an axis responds as without joints, and is not coupled to others: since
-/// its rate is 0, its impulse is 0, too.
+/// Computes the columns of J M⁻¹ Jᵀ that belong to impulses at the first `pushed` contact points. Where joints block all motion along the
+/// normal, or along all tangents, the response would be only a rounding error. Instead, such axes respond as without joints, and are not
+/// coupled to others: since their rates are 0, their impulses are 0, too.
 fn response_to(
     bodies: [usize; 2],
     places: &[Place],
@@ -382,7 +382,7 @@ fn response_to(
 ) -> Vec<f64> {
     let n = 3 * pushed;
     let mut response = vec![0.0; 3 * places.len() * n];
-    let mut blocked: Vec<(usize, f64)> = Vec::new();
+    let mut all_free = Vec::with_capacity(n);
     for column in 0..n {
         let place = &places[column / 3];
         let push = place.axes[column % 3];
@@ -398,15 +398,20 @@ fn response_to(
                 response[(3 * row + axis) * n + column] = rate[axis];
             }
         }
-        let free = place.rate(free)[column % 3];
-        if joints.is_some() && response[column * n + column] <= IMPLIED * free {
-            blocked.push((column, free));
-        }
+        all_free.push(place.rate(free)[column % 3]);
     }
-    for (axis, free) in blocked {
-        response.iter_mut().skip(axis).step_by(n).for_each(|coupling| *coupling = 0.0);
-        response[axis * n..(axis + 1) * n].fill(0.0);
-        response[axis * n + axis] = free;
+    // The two tangents count together, since their directions are arbitrary.
+    let along = (0..n).step_by(3).flat_map(|first| [first..first + 1, first + 1..first + 3]);
+    for axes in along.filter(|_| joints.is_some()) {
+        let own: f64 = axes.clone().map(|axis| response[axis * n + axis]).sum();
+        if own > IMPLIED * all_free[axes.clone()].iter().sum::<f64>() {
+            continue;
+        }
+        for axis in axes {
+            response.iter_mut().skip(axis).step_by(n).for_each(|coupling| *coupling = 0.0);
+            response[axis * n..(axis + 1) * n].fill(0.0);
+            response[axis * n + axis] = all_free[axis];
+        }
     }
     response
 }

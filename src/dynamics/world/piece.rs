@@ -9,6 +9,11 @@ use crate::dynamics::{BodyId, Breakdown, System};
 /// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.
 const TRIALS: usize = 120;
 
+/// The margin of an event in the middle of its tolerance; how near to it the search comes; and the largest number of steps for that.
+const MIDDLE: f64 = -0.5;
+const SHARP: f64 = 1e-3;
+const SHARPENINGS: usize = 3;
+
 /// Times count as equal if they differ by less than this fraction of the step.
 const INSTANT: f64 = 1e-13;
 
@@ -224,6 +229,7 @@ impl World {
         // If a trial leaves the same end of the interval unchanged as the trial before, the weight of this end is halved.
         let mut weights = [1.0; 2];
         let mut later: Option<(f64, f64)> = None;
+        let mut tried = f64::NAN;
         for trial in 0..TRIALS {
             // The search ends when the margin is within the tolerance.
             if late_margin >= -1.0 {
@@ -249,6 +255,7 @@ impl World {
                 break;
             }
             let (margin, at) = self.try_piece(t, length);
+            tried = length;
             let is_late = margin < 0.0;
             if is_late {
                 later = Some((late, late_margin));
@@ -261,9 +268,34 @@ impl World {
             weights[usize::from(!is_late)] *= halved;
             was_late = Some(is_late);
         }
+        // Any moment within the tolerance would do, but which one the search meets depends on rounding errors. In the middle of the tolerance,
+        // the moment of the event is as exact as the margin.
+        let mut other = later.filter(|(_, margin)| early == 0.0 || -margin < early_margin);
+        if other.is_none() && early > 0.0 {
+            other = Some((early, early_margin));
+        }
+        for _ in 0..SHARPENINGS {
+            let Some((length, margin)) = other.filter(|_| late_margin >= -1.0 && late > INSTANT * end.0)
+            else {
+                break;
+            };
+            let next = late + (MIDDLE - late_margin) * (late - length) / (late_margin - margin);
+            if (late_margin - MIDDLE).abs() < SHARP || !(next > early && next < end.0) {
+                break;
+            }
+            let (margin, at) = self.try_piece(t, next);
+            tried = next;
+            if !(-1.0..0.0).contains(&margin) {
+                break;
+            }
+            other = Some((late, late_margin));
+            (late, late_margin, row) = (next, margin, at);
+        }
         // An event at the start of the step ends a piece of length 0.
         let length = if late <= INSTANT * end.0 { 0.0 } else { late };
-        self.try_piece(t, length);
+        if tried != length {
+            self.try_piece(t, length);
+        }
         (length, row)
     }
 

@@ -17,7 +17,7 @@ use super::super::super::{Accounts, BodyId, Breakdown, Impact, Loads, Model, Sta
 use super::super::approach::close;
 use super::super::closest_points::nearest;
 use super::super::collider::{Collider, Scale};
-use super::super::lasting_contact::{LastingContact, heading};
+use super::super::lasting_contact::LastingContact;
 use super::super::laws::LawResidual;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
@@ -343,7 +343,6 @@ impl Collider {
             touch,
             law: pair.law,
             size: self.size(pair.bodies),
-            heading: heading(touch.meeting.normal),
             still: 0.0,
         };
         touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()

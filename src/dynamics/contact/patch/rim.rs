@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::super::closest_points::ClosestPoints;
-use super::{PARALLEL, Spine, balls};
+use super::{PARALLEL, Spine, balls, radial};
 
 /// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
 const STARTS: u32 = 24;
@@ -33,9 +33,7 @@ impl Rim {
     /// Returns the radial unit vector that points from the rim's axis to a given point. For a point on the axis, any radial direction will
     /// do.
     fn towards(&self, place: DVec3) -> DVec3 {
-        let from = place - self.centre;
-        let across = from - from.dot(self.axis) * self.axis;
-        across.try_normalize().unwrap_or_else(|| self.axis.any_orthonormal_vector())
+        radial(place - self.centre, self.axis).unwrap_or_else(|| self.axis.any_orthonormal_vector())
     }
 }
 
