@@ -59,8 +59,9 @@ impl SimulateError {
             }
             SimulateError::Diverged(diverged) => {
                 let (span, sources) = &diverged.place;
-                let label = diverged.cause.as_ref().map_or(String::new(), |Cause { force, size }| {
-                    format!("at the start, {force} acts on `{}` with {size:.1e} N or N m", diverged.body)
+                let label = diverged.cause.as_ref().map_or(String::new(), |Cause { force, size, time }| {
+                    let when = if *time == 0.0 { "the start".to_owned() } else { format!("t = {time} s") };
+                    format!("at {when}, {force} acts on `{}` with {size:.1e} N or N m", diverged.body)
                 });
                 let at = |diagnostic: Diagnostic, span: &_| diagnostic.at(*span, label.clone());
                 (span.iter().fold(diagnostic, at), sources.clone())

@@ -86,7 +86,7 @@ pub struct Diverged {
     pub body: String,
     /// The time of the frame with this state, s.
     pub time: f64,
-    /// What pushes the body far more than all others at the start.
+    /// What pushes the body far more than all others, at the start or after the first step.
     pub cause: Option<Cause>,
     /// What a shorter step changes.
     pub shorter: ShorterStep,
@@ -99,8 +99,10 @@ pub struct Diverged {
 pub struct Cause {
     /// The force, as a message names it, such as "the force `wind`" or "gravity".
     pub force: String,
-    /// The size of the force at the start, N, or of its torque, N m, if that is the larger number.
+    /// The size of the force at the time, N, or of its torque, N m, if that is the larger number.
     pub size: f64,
+    /// The time at which the force has this size, s: 0, or the end of the first step.
+    pub time: f64,
 }
 
 /// What a shorter step changes for a run that diverges.
@@ -128,7 +130,11 @@ impl Diverged {
     const TRIAL: f64 = 1e5;
 
     fn of(scene: &Scene, body: BodyId, time: f64) -> Diverged {
-        let (cause, name) = Diverged::cause(scene, body.index()).unzip();
+        // Forces such as springs at rest are zero at the start.
+        let step = Some(scene.simulation.step).filter(|step| *step < time);
+        let cause =
+            [Some(0.0), step].into_iter().flatten().find_map(|at| Diverged::cause(scene, body.index(), at));
+        let (cause, name) = cause.unzip();
         let of_force = name.and_then(|name: String| scene.places.forces.get(&name));
         let span = of_force.or(scene.places.bodies.get(body.index()));
         let place = (span.copied(), scene.warnings.sources.clone());
@@ -136,10 +142,13 @@ impl Diverged {
         Diverged { body: scene.bodies[body.index()].name.to_string(), time, cause, shorter, place }
     }
 
-    /// Returns what alone moves a body at the start, with its name among the forces.
-    fn cause(scene: &Scene, body: usize) -> Option<(Cause, String)> {
-        let world = build::world(scene);
-        let moment = dynamics::Moment { time: 0.0, state: world.state(), model: world.model() };
+    /// Returns what alone moves a body at a time, s, with its name among the forces.
+    fn cause(scene: &Scene, body: usize, time: f64) -> Option<(Cause, String)> {
+        let mut world = build::world(scene);
+        if time > 0.0 {
+            dynamics::Dynamics::advance(&mut world, time, &[], &mut |_| {}).ok()?;
+        }
+        let moment = dynamics::Moment { time, state: world.state(), model: world.model() };
         let size = |force: &crate::scene::Force| {
             let room = vec![glam::DVec3::ZERO; world.len()];
             let mut loads = dynamics::Loads { force: room.clone(), torque: room, ..Default::default() };
@@ -161,7 +170,7 @@ impl Diverged {
         all.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
         let others: f64 = all[1..].iter().map(|(_, _, size)| size).sum();
         let (force, name, size) = all.swap_remove(0);
-        (size > Diverged::ALONE * others).then_some((Cause { force, size }, name))
+        (size.is_finite() && size > Diverged::ALONE * others).then_some((Cause { force, size, time }, name))
     }
 }
 

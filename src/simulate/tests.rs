@@ -124,6 +124,16 @@ fn a_run_that_diverges_says_why() {
     assert!(report.contains("a smaller `simulation.step` helps: with "), "{report}");
     let report = said(&format!("{head}{ball}[force.s]\n{spring} 1e50 }}"));
     assert!(report.contains("the force `s`") && !report.contains("step"), "{report}");
+    // A spring at rest pulls only after the first step.
+    let report = said(&format!(
+        "{head}{}[force.s]\n{} 1e50 }}",
+        ball.replace("radius = 1", "radius = 1\nvelocity = [1, 0, 0]"),
+        spring.replace("rest_length = 0, ", "")
+    ));
+    assert!(
+        report.contains("at t = 0.01 s, the force `s` acts") && !report.contains("simulation.step"),
+        "{report}"
+    );
     // Such a force sends the ball beyond all bounds in a finite time.
     let report = said(&format!("{head}{ball}[force.s.formula]\nforce = ['1e3 * x^3', 0, 0]"));
     assert!(!report.contains("helps"), "{report}");
