@@ -162,8 +162,8 @@ fn free_bodies() {
     });
 }
 
-/// All changes, as for free bodies. In long runs, about one scene in fourteen still breaks: there, whether Moreau's scheme takes over bodies
-/// that bounce lower than rounding errors depends on these errors.
+/// All changes, as for free bodies. In long runs, about one scene in twenty still breaks. One known cause: whether Moreau's scheme takes
+/// over bodies that bounce lower than rounding errors depends on these errors.
 #[test]
 fn event_driven_contacts() {
     family("event-driven contacts", 23, 0.6, |random| {
