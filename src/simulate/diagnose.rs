@@ -1,6 +1,6 @@
 //! Converts a simulation error into a diagnostic.
 
-use super::{Cause, Diverged, ShorterStep, SimulateError};
+use super::{SimulateError, Why};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
 use crate::dynamics::Motor;
 use crate::scene::{JointKind, Scene};
@@ -13,9 +13,11 @@ impl SimulateError {
             SimulateError::Undefined(undefined) => undefined.why.0,
             SimulateError::Broken(broken) if broken.time == 0.0 => Code::JointApart,
             SimulateError::Broken(_) => Code::BrokenJoint,
-            SimulateError::Stuck(stuck) if stuck.gained.is_some() => Code::EnergyAdded,
-            SimulateError::Stuck(stuck) if stuck.depth.is_some() => Code::OverlapAtStart,
-            SimulateError::Stuck(_) => Code::Jammed,
+            SimulateError::Stuck(stuck) => match stuck.why {
+                Why::Overlaps(_) => Code::OverlapAtStart,
+                Why::Jams => Code::Jammed,
+                Why::AddsEnergy(_) => Code::EnergyAdded,
+            },
             SimulateError::Stalled(_) => Code::Stalled,
             SimulateError::Recording(_) => Code::NoRecording,
         }
@@ -59,11 +61,7 @@ impl SimulateError {
             }
             SimulateError::Diverged(diverged) => {
                 let (span, sources) = &diverged.place;
-                let label = diverged.cause.as_ref().map_or(String::new(), |Cause { force, size, time }| {
-                    let when = if *time == 0.0 { "the start".to_owned() } else { format!("t = {time} s") };
-                    format!("at {when}, {force} acts on `{}` with {size:.1e} N or N m", diverged.body)
-                });
-                let at = |diagnostic: Diagnostic, span: &_| diagnostic.at(*span, label.clone());
+                let at = |diagnostic: Diagnostic, span: &_| diagnostic.at(*span, diverged.label());
                 (span.iter().fold(diagnostic, at), sources.clone())
             }
             SimulateError::Recording(_) => (diagnostic, Sources::default()),
@@ -85,16 +83,17 @@ impl SimulateError {
             SimulateError::Broken(_) => {
                 Some("other joints pull the bodies apart; or take a smaller `simulation.step`")
             }
-            SimulateError::Stuck(stuck) if stuck.gained.is_some() => Some(
-                "take a smaller `simulation.step`, or `contacts = \"time-stepping\"`, or end the scene before that time: `--set simulation.duration=…`",
-            ),
-            SimulateError::Stuck(stuck) if stuck.depth.is_some() => Some(
-                "move them apart, or join them, or let them pass through each other: `collides = false`, or the same \
-                 `collision_group`",
-            ),
-            SimulateError::Stuck(_) => Some(
-                "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`",
-            ),
+            SimulateError::Stuck(stuck) => Some(match stuck.why {
+                Why::Overlaps(_) => {
+                    "move them apart, or join them, or let them pass through each other: `collides = false`, or the same `collision_group`"
+                }
+                Why::Jams => {
+                    "give wedged bodies more room or a smaller `restitution`, or end the scene before that time: `--set simulation.duration=…`"
+                }
+                Why::AddsEnergy(_) => {
+                    "take a smaller `simulation.step`, or `contacts = \"time-stepping\"`, or end the scene before that time: `--set simulation.duration=…`"
+                }
+            }),
             SimulateError::Stalled(_) => Some(
                 "two point-like bodies may meet there: give `gravitation` or `coulomb` a `softening`, move them, or end the scene before that \
                  time: `--set simulation.duration=…`",
@@ -105,26 +104,6 @@ impl SimulateError {
             SimulateError::Undefined(_) => None,
         };
         help.map(str::to_owned)
-    }
-}
-
-impl Diverged {
-    /// Recommends a shorter step where that helps.
-    fn help(&self) -> Option<String> {
-        match (self.shorter, &self.cause) {
-            (ShorterStep::Helps(step), _) => Some(format!(
-                "a smaller `simulation.step` helps: with {step:e} s, the motion stays in bounds until then"
-            )),
-            (ShorterStep::IsUntried, _) => Some(
-                "take a smaller `simulation.step`: below √(mass / stiffness) for a stiff spring, and below 2 mass / damping for a strong damper"
-                    .to_owned(),
-            ),
-            (ShorterStep::IsUseless, Some(_)) => None,
-            (ShorterStep::IsUseless, None) => Some(
-                "a smaller `simulation.step` does not help: look for a value in another unit, or a force that grows with the motion"
-                    .to_owned(),
-            ),
-        }
     }
 }
 

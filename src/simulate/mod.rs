@@ -13,10 +13,12 @@
 //! | the frames in order, without a recording | `snapshots` |
 //! | the particles of emitters | `particles`, `swarms` |
 //! | the moments while a shutter is open | `exposure` |
+//! | errors of a run, and their diagnostics | this file, `diverged`, `diagnose` |
 //! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `energy_error`, `requested_sizes` |
 
 mod build;
 mod diagnose;
+mod diverged;
 mod energy_error;
 mod exposure;
 mod frame;
@@ -51,6 +53,7 @@ use crate::scene::law::quantities_at;
 use crate::scene::{ForceKind, Scene, in_string};
 
 pub use build::world;
+pub use diverged::{Cause, Diverged, ShorterStep};
 pub(crate) use energy_error::EnergyError;
 pub use energy_error::EnergyScale;
 pub use exposure::Exposure;
@@ -78,131 +81,6 @@ pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};
 pub use workload::{Workload, evaluations};
-
-/// The error of a run whose motion leaves the range of numbers: the timestep is too long for the method, or the forces are too large.
-#[derive(Clone, Debug)]
-pub struct Diverged {
-    /// The name of the first body with such a position or velocity.
-    pub body: String,
-    /// The time of the frame with this state, s.
-    pub time: f64,
-    /// What pushes the body far more than all others, at the start or after the first step.
-    pub cause: Option<Cause>,
-    /// What a shorter step changes.
-    pub shorter: ShorterStep,
-    /// The span of the name of the force that causes the motion, or else of the body, and the texts that the scene was read from.
-    pub place: (Option<diagnostic::Span>, Sources),
-}
-
-/// What pushes a body, alone.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cause {
-    /// The force, as a message names it, such as "the force `wind`" or "gravity".
-    pub force: String,
-    /// The size of the force at the time, N, or of its torque, N m, if that is the larger number.
-    pub size: f64,
-    /// The time at which the force has this size, s: 0, or the end of the first step.
-    pub time: f64,
-}
-
-/// What a shorter step changes for a run that diverges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ShorterStep {
-    /// With this step, s, the run keeps its energy until then.
-    Helps(f64),
-    /// The run diverges also with far shorter steps.
-    IsUseless,
-    /// The trial would take too long.
-    IsUntried,
-}
-
-impl PartialEq for Diverged {
-    /// Ignores the span and the texts of the scene.
-    fn eq(&self, other: &Diverged) -> bool {
-        (&self.body, self.time, &self.cause) == (&other.body, other.time, &other.cause)
-    }
-}
-
-impl Diverged {
-    /// A force that is this many times as large as all others together causes the motion alone.
-    const ALONE: f64 = 10.0;
-    /// A trial with a shorter step may take this number of steps, times the number of bodies.
-    const TRIAL: f64 = 1e5;
-
-    fn of(scene: &Scene, body: BodyId, time: f64) -> Diverged {
-        // Forces such as springs at rest are zero at the start.
-        let step = Some(scene.simulation.step).filter(|step| *step < time);
-        let cause =
-            [Some(0.0), step].into_iter().flatten().find_map(|at| Diverged::cause(scene, body.index(), at));
-        let (cause, name) = cause.unzip();
-        let of_force = name.and_then(|name: String| scene.places.forces.get(&name));
-        let span = of_force.or(scene.places.bodies.get(body.index()));
-        let place = (span.copied(), scene.warnings.sources.clone());
-        let shorter = ShorterStep::of(scene, time);
-        Diverged { body: scene.bodies[body.index()].name.to_string(), time, cause, shorter, place }
-    }
-
-    /// Returns what alone moves a body at a time, s, with its name among the forces.
-    fn cause(scene: &Scene, body: usize, time: f64) -> Option<(Cause, String)> {
-        let mut world = build::world(scene);
-        if time > 0.0 {
-            dynamics::Dynamics::advance(&mut world, time, &[], &mut |_| {}).ok()?;
-        }
-        let moment = dynamics::Moment { time, state: world.state(), model: world.model() };
-        let size = |force: &crate::scene::Force| {
-            let room = vec![glam::DVec3::ZERO; world.len()];
-            let mut loads = dynamics::Loads { force: room.clone(), torque: room, ..Default::default() };
-            force.kind.acting().iter().for_each(|force| force.apply(&moment, &mut loads));
-            loads.force[body].abs().max_element().max(loads.torque[body].abs().max_element())
-        };
-        let own = &scene.bodies[body].start;
-        let mut all = vec![
-            ("gravity".to_owned(), String::new(), (own.mass * scene.simulation.gravity).abs().max_element()),
-            ("its own `force`".to_owned(), String::new(), own.force.abs().max_element()),
-            ("its own `torque`".to_owned(), String::new(), own.torque.abs().max_element()),
-        ];
-        all.extend(
-            scene
-                .forces
-                .iter()
-                .map(|force| (format!("the force `{}`", force.name), force.name.clone(), size(force))),
-        );
-        all.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
-        let others: f64 = all[1..].iter().map(|(_, _, size)| size).sum();
-        let (force, name, size) = all.swap_remove(0);
-        (size.is_finite() && size > Diverged::ALONE * others).then_some((Cause { force, size, time }, name))
-    }
-}
-
-impl ShorterStep {
-    /// Repeats a run that diverges at `time`, s, with shorter steps.
-    fn of(scene: &Scene, time: f64) -> ShorterStep {
-        let simulation = &scene.simulation;
-        // A method that chooses its steps has chosen them short enough, and no step changes the start.
-        if !simulation.step.is_finite() || time == 0.0 {
-            return ShorterStep::IsUseless;
-        }
-        let mut trial = scene.clone();
-        let mut shorter = ShorterStep::IsUntried;
-        for part in [1e1, 1e2, 1e3, 1e4] {
-            // One digit is enough.
-            let step = format!("{:.0e}", simulation.step / part).parse().unwrap_or(simulation.step / part);
-            #[allow(clippy::cast_precision_loss, reason = "no scene has 2^53 bodies")]
-            if time / step * scene.bodies.len() as f64 > Diverged::TRIAL {
-                return shorter;
-            }
-            trial.simulation.step = step;
-            let mut dynamics = build::dynamics(&trial, &dynamics::PairCounter::default());
-            let reached = dynamics.advance(time, &[], &mut |_| {}).and_then(|()| dynamics.snapshot());
-            let is_kept = |snapshot: &dynamics::Snapshot| snapshot.balance.drift.abs() < 1.0;
-            if reached.and_then(dynamics::Snapshot::checked).is_ok_and(|snapshot| is_kept(&snapshot)) {
-                return ShorterStep::Helps(step);
-            }
-            shorter = ShorterStep::IsUseless;
-        }
-        shorter
-    }
-}
 
 /// The reason why a run cannot be simulated or read.
 #[derive(Clone, Debug, PartialEq)]
@@ -325,6 +203,17 @@ impl PartialEq for Broken {
     }
 }
 
+/// The reason why a contact cannot be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Why {
+    /// The bodies overlap by this depth, m, when their contact begins.
+    Overlaps(f64),
+    /// The bodies are jammed: their impacts have no end.
+    Jams,
+    /// No impulses were found that do not add energy. The number is the energy that they would add, J.
+    AddsEnergy(f64),
+}
+
 /// The error of a contact that cannot be computed.
 #[derive(Clone, Debug)]
 pub struct Stuck {
@@ -332,10 +221,8 @@ pub struct Stuck {
     pub bodies: [Option<String>; 2],
     /// The time at which the contact failed, s.
     pub time: f64,
-    /// The overlap of the two bodies when their contact begins, m. `None` if the bodies are jammed: their impacts have no end.
-    pub depth: Option<f64>,
-    /// The energy that the contact would add, J, where no impulses were found that add none; otherwise `None`.
-    pub gained: Option<f64>,
+    /// Why the contact cannot be computed.
+    pub why: Why,
     /// The spans of the bodies' names, and the texts that the scene was read from.
     pub place: (Vec<diagnostic::Span>, Sources),
 }
@@ -343,17 +230,16 @@ pub struct Stuck {
 impl PartialEq for Stuck {
     /// Ignores the spans and the texts of the scene.
     fn eq(&self, other: &Stuck) -> bool {
-        (&self.bodies, self.time, self.depth, self.gained)
-            == (&other.bodies, other.time, other.depth, other.gained)
+        (&self.bodies, self.time, self.why) == (&other.bodies, other.time, other.why)
     }
 }
 
 impl Stuck {
-    fn of(scene: &Scene, ids: [BodyId; 2], time: f64, depth: Option<f64>) -> Stuck {
+    fn of(scene: &Scene, ids: [BodyId; 2], time: f64, why: Why) -> Stuck {
         let ids = ids.map(BodyId::index);
         let bodies = ids.map(|id| Some(scene.bodies.get(id)?.name.to_string()));
         let spans = ids.iter().filter_map(|&id| scene.places.bodies.get(id).copied()).collect();
-        Stuck { bodies, time, depth, gained: None, place: (spans, scene.warnings.sources.clone()) }
+        Stuck { bodies, time, why, place: (spans, scene.warnings.sources.clone()) }
     }
 }
 
@@ -369,14 +255,13 @@ impl SimulateError {
                 None => SimulateError::of(scene, Breakdown::Diverged { body: at.body, time: at.time }),
             },
             Breakdown::Overlapping { bodies, time, depth } => {
-                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Some(depth))))
+                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Why::Overlaps(depth))))
             }
             Breakdown::Jammed { bodies, time } => {
-                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, None)))
+                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Why::Jams)))
             }
             Breakdown::AddsEnergy { bodies, time, energy } => {
-                let stuck = Stuck { gained: Some(energy), ..Stuck::of(scene, bodies, time, None) };
-                SimulateError::Stuck(Box::new(stuck))
+                SimulateError::Stuck(Box::new(Stuck::of(scene, bodies, time, Why::AddsEnergy(energy))))
             }
             Breakdown::Stalled { body, time } => {
                 let span = scene.places.bodies.get(body.index()).copied();
@@ -394,18 +279,6 @@ impl SimulateError {
         }
     }
 }
-
-impl std::fmt::Display for Diverged {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Diverged { body, time, .. } = self;
-        write!(
-            f,
-            "the run diverged: at t = {time} s `{body}` is at no finite place, or beyond 1e100 m, m/s or rad/s"
-        )
-    }
-}
-
-impl std::error::Error for Diverged {}
 
 impl std::fmt::Display for Stalled {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -434,19 +307,21 @@ impl std::fmt::Display for Stuck {
             self.bodies.clone().map(|name| name.map_or("the ground".to_owned(), |name| format!("`{name}`")));
         let ([one, two], time) = (names, self.time);
         let short = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
-        if let Some(gained) = self.gained {
-            let gained = short(gained);
-            return write!(
-                f,
-                "contacts of {one} and {two} would add {gained} J at t = {time} s, which no contact can"
-            );
-        }
-        match self.depth {
-            Some(depth) => {
+        match self.why {
+            Why::Overlaps(depth) => {
                 let depth = short(depth);
                 write!(f, "{one} and {two} overlap by {depth} m at t = {time} s, where their contact begins")
             }
-            None => write!(f, "the impacts of {one} and {two} do not end: at t = {time} s they are jammed"),
+            Why::Jams => {
+                write!(f, "the impacts of {one} and {two} do not end: at t = {time} s they are jammed")
+            }
+            Why::AddsEnergy(gained) => {
+                let gained = short(gained);
+                write!(
+                    f,
+                    "contacts of {one} and {two} would add {gained} J at t = {time} s, which no contact can"
+                )
+            }
         }
     }
 }
