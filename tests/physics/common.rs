@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use jabuka::dynamics::{
-    Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, State, World,
+    Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, State,
+    UniformGravity, World,
 };
 use jabuka::simulate::Frame;
 use jabuka::{Run, Scene};
@@ -53,6 +54,65 @@ pub(crate) fn method(name: &str) -> &'static Method {
 /// Returns the methods that support joints.
 pub(crate) fn that_keep_joints() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.constraints)
+}
+
+/// The gravitational acceleration of worlds from [`falling`], m/s².
+pub(crate) const G: f64 = 9.81;
+
+/// Returns an empty world with an integration method and a step, s.
+pub(crate) fn world(method: &'static Method, step: f64) -> World {
+    let mut world = World::new();
+    world.set_integrator(method);
+    world.set_step(step);
+    world
+}
+
+/// Returns an empty world with gravity [`G`] along −y.
+pub(crate) fn falling(method: &'static Method, step: f64) -> World {
+    let mut world = world(method, step);
+    world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
+    world
+}
+
+/// Returns the origin of the world, as the end of a joint.
+pub(crate) fn origin() -> Anchor {
+    Anchor::Point(DVec3::ZERO)
+}
+
+/// Runs a scene in which a torque presses an arm on the rotor that carries it, about an axle at `place`, and returns its frames. The arm
+/// first closes a gap of 1 mm, and hits the rotor.
+pub(crate) fn pressed_arm(place: DVec3, (duration, frame_rate, step): (f64, u32, f64)) -> Vec<Frame> {
+    let DVec3 { x, y, z } = place;
+    frames(&format!(
+        "[simulation]
+        duration = {duration}
+        frame_rate = {frame_rate}
+        step = {step}
+        gravity = [0, 0, 0]
+        contacts = 'event-driven'
+        integrator = 'velocity-verlet'
+        [environment]
+        ground = false
+        [defaults.body]
+        friction = 0.5
+        [body.rotor]
+        shape.box.size = [2, 0.2, 0.2]
+        location = [{x}, {y}, {z}]
+        mass = 4
+        [body.arm]
+        shape.box.size = [1, 0.1, 0.1]
+        location = ['{x} + 0.5', '{y} + 0.151', {z}]
+        torque = [0, 0, -2]
+        mass = 1
+        [joint.axle.hinge]
+        between = [[{x}, {y}, {z}], 'rotor']
+        axis = [0, 0, 1]
+        [joint.elbow.hinge]
+        between = ['rotor', 'arm']
+        at = ['{x} + 0.1', '{y} + 0.151', {z}]
+        axis = [0, 0, 1]
+        collides = true"
+    ))
 }
 
 /// Returns a ball with a radius of 0.1 m and a mass of 1 kg.

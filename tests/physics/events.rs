@@ -5,29 +5,10 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{
     Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, Method, Motor, RigidBody, Rod, Rope, Servo, Shape,
-    Slider, Target, UniformGravity, World,
+    Slider, Target, World,
 };
 
-use crate::common::{assert_orders, ball, method, that_keep_joints};
-
-const G: f64 = 9.81;
-
-fn world(method: &'static Method, step: f64) -> World {
-    let mut world = World::new();
-    world.set_integrator(method);
-    world.set_step(step);
-    world
-}
-
-fn falling(method: &'static Method, step: f64) -> World {
-    let mut world = world(method, step);
-    world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
-    world
-}
-
-fn origin() -> Anchor {
-    Anchor::Point(DVec3::ZERO)
-}
+use crate::common::{G, assert_orders, ball, falling, method, origin, that_keep_joints, world};
 
 /// Adds a wheel at a place, with the world's z axis as its axis: I = ½ m r² = 0.5 kg m².
 fn wheel(world: &mut World, place: DVec3) -> BodyId {

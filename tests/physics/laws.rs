@@ -4,7 +4,7 @@
 use glam::DVec3;
 use jabuka::dynamics::Balance;
 
-use crate::common::frames;
+use crate::common::{frames, pressed_arm};
 
 /// An arm hangs on a turning rotor by a hinge, with the edges of both pressed together right beside the hinge, so that the contact hardly
 /// differs from a bearing. Nothing moves against anything else: the energy and the angular momentum about the rotor's axis stay, and
@@ -162,35 +162,7 @@ fn the_account_of_friction_beside_a_hinge_closes_with_the_order_of_the_method() 
 #[test]
 fn a_torque_that_presses_an_arm_on_its_rotor_loses_nothing() {
     for step in [0.004, 0.002] {
-        let frames = frames(&format!(
-            "[simulation]
-            duration = 0.8
-            frame_rate = 25
-            step = {step}
-            gravity = [0, 0, 0]
-            contacts = 'event-driven'
-            integrator = 'velocity-verlet'
-            [environment]
-            ground = false
-            [defaults.body]
-            friction = 0.5
-            [body.rotor]
-            shape.box.size = [2, 0.2, 0.2]
-            mass = 4
-            [body.arm]
-            shape.box.size = [1, 0.1, 0.1]
-            location = [0.5, 0.151, 0]
-            torque = [0, 0, -2]
-            mass = 1
-            [joint.axle.hinge]
-            between = [[0, 0, 0], 'rotor']
-            axis = [0, 0, 1]
-            [joint.elbow.hinge]
-            between = ['rotor', 'arm']
-            at = [0.1, 0.151, 0]
-            axis = [0, 0, 1]
-            collides = true"
-        ));
+        let frames = pressed_arm(DVec3::ZERO, (0.8, 25, step));
         // The first impact, within the first frame, takes 1.9 mJ.
         let first = frames[1].balance.accounts;
         for frame in &frames[1..] {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::common::frames;
+use crate::common::{frames, pressed_arm};
 
 const PLACES: [DVec3; 3] = [DVec3::ZERO, DVec3::new(1.0, 1.0, -1.0), DVec3::new(-300.0, 1000.0, 40.0)];
 
@@ -44,35 +44,8 @@ fn a_bead_slides_out_on_a_turning_rod() {
 fn an_arm_pressed_on_its_rotor_turns_with_it() {
     // The moments of inertia of both boxes about their centers, and that of the arm's distance from the axle, kg m².
     let inertia = 4.0 / 12.0 * (4.0 + 0.04) + 1.0 / 12.0 * (1.0 + 0.01) + (0.5 * 0.5 + 0.151 * 0.151);
-    for place @ DVec3 { x, y, z } in PLACES {
-        let frames = frames(&format!(
-            "[simulation]
-            duration = 1
-            frame_rate = 100
-            gravity = [0, 0, 0]
-            contacts = 'event-driven'
-            [environment]
-            ground = false
-            [defaults.body]
-            friction = 0.5
-            [body.rotor]
-            shape.box.size = [2, 0.2, 0.2]
-            location = [{x}, {y}, {z}]
-            mass = 4
-            [body.arm]
-            shape.box.size = [1, 0.1, 0.1]
-            location = ['{x} + 0.5', '{y} + 0.151', {z}]
-            torque = [0, 0, -2]
-            mass = 1
-            [joint.axle.hinge]
-            between = [[{x}, {y}, {z}], 'rotor']
-            axis = [0, 0, 1]
-            [joint.elbow.hinge]
-            between = ['rotor', 'arm']
-            at = ['{x} + 0.1', '{y} + 0.151', {z}]
-            axis = [0, 0, 1]
-            collides = true"
-        ));
+    for place in PLACES {
+        let frames = pressed_arm(place, (1.0, 100, 0.004));
         let end = &frames[frames.len() - 1];
         let exact = 0.5 * 4.0 / inertia;
         // The arm first closes a gap of 1 mm, and hits the rotor.

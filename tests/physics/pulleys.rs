@@ -1,30 +1,9 @@
 //! Tests of ropes over pulleys, fixed and movable, against closed forms and an independent integration.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
-    Anchor, BodyId, Dynamics, Kinematics, Method, Motion, Pulley, RigidBody, Shape, UniformGravity, World,
-};
+use jabuka::dynamics::{Anchor, BodyId, Dynamics, Kinematics, Motion, Pulley, RigidBody, Shape};
 
-use crate::common::{frames, that_keep_joints};
-
-const G: f64 = 9.81;
-
-fn world(method: &'static Method, step: f64) -> World {
-    let mut world = World::new();
-    world.set_integrator(method);
-    world.set_step(step);
-    world
-}
-
-fn falling(method: &'static Method, step: f64) -> World {
-    let mut world = world(method, step);
-    world.add_force(UniformGravity { acceleration: DVec3::new(0.0, -G, 0.0) });
-    world
-}
-
-fn origin() -> Anchor {
-    Anchor::Point(DVec3::ZERO)
-}
+use crate::common::{G, falling, frames, origin, that_keep_joints, world};
 
 fn sphere(mass: f64) -> RigidBody {
     RigidBody::new(&Shape::Sphere { radius: 0.1 }, mass)
