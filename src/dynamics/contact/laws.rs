@@ -1,10 +1,12 @@
 //! Laws that no contact and no joint can break, and how well a run keeps them.
 //!
 //! Impulses between bodies conserve angular momentum. Friction, and restitution of at most 1, take energy and never add any. Each impact
-//! and each part of a step in Moreau's scheme is checked, in time proportional to the number of contacts. The worst residual of each law
+//! each part of a step in Moreau's scheme, and the friction of each other part is checked, in time proportional to the number of contacts. The worst residual of each law
 //! stays on record.
 
-use super::super::{BodyId, Breakdown};
+use super::super::{BodyId, Breakdown, Model, State};
+use super::collider::Collider;
+use super::strike::kinetic;
 
 /// A law that no contact and no joint can break.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,6 +96,8 @@ pub(super) struct LawBook {
     worst: Vec<LawResidual>,
     /// The largest kinetic energy of the solved bodies so far, J.
     energy: f64,
+    /// The sum of all energies that friction of lasting contacts has added, J.
+    rubbed: f64,
 }
 
 impl LawBook {
@@ -113,6 +117,14 @@ impl LawBook {
         LawResidual::of_energy(gain, self.energy, bodies, time)
     }
 
+    /// Records that friction of lasting contacts has added the energy `gain`, J. All such energies count together, since the friction of many
+    /// steps can add a little each time. `scale` is the energy that has moved, J.
+    fn note_friction(&mut self, gain: f64, scale: f64, bodies: [usize; 2], time: f64) {
+        self.rubbed += gain;
+        let residual = self.weigh(self.rubbed, scale, bodies, time);
+        self.note(residual);
+    }
+
     /// Records a moment, N m s, that impulses between bodies exert on all of them together. `moments` is the sum of the moments of the
     /// impulses about the centers of their bodies, N m s.
     pub(super) fn note_moment(&mut self, amount: f64, moments: f64, bodies: [usize; 2], time: f64) {
@@ -129,5 +141,40 @@ impl LawBook {
     /// Returns the worst residual of each law.
     pub(super) fn worst(&self) -> &[LawResidual] {
         &self.worst
+    }
+}
+
+impl Collider {
+    /// Records the energy that friction has added since its account was `before`, J, if it has. `bodies` are those whose contact presses
+    /// hardest.
+    pub(in crate::dynamics) fn note_friction(
+        &mut self,
+        model: &Model,
+        state: &State,
+        before: f64,
+        (bodies, time): ([usize; 2], f64),
+    ) {
+        let after = state.accounts.friction;
+        if after > before || after.is_nan() {
+            let moving: f64 = (0..model.len()).map(|body| kinetic(body, model, state)).sum();
+            // A body that friction stops has had at least the energy that friction took.
+            self.laws.note_friction(after - before, moving.max(after.abs()), bodies, time);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each piece of a step may add an energy that is small enough to be excused, but all of them together may not.
+    #[test]
+    fn what_friction_adds_in_many_steps_counts_together() {
+        let mut book = LawBook::default();
+        for (step, is_broken) in [(0, false), (1, true), (2, true)] {
+            book.note_friction(0.6e-3, 1.0, [0, 1], f64::from(step));
+            let [residual] = book.worst() else { panic!("{:?}", book.worst()) };
+            assert_eq!(residual.is_broken(), is_broken, "{residual:?}");
+        }
     }
 }

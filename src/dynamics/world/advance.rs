@@ -10,10 +10,10 @@ use super::{World, laws_of};
 const STEP_TOLERANCE: f64 = 1e-9;
 
 /// A step ends at a sudden change of a given velocity if less than this fraction of it is left.
-const INSTANT: f64 = 1e-11;
+const SHORTEST_REMAINDER: f64 = 1e-11;
 
 /// The largest number of sudden changes of given velocities in a step that end a piece of it.
-const JUMPS: u32 = 100;
+const MOST_JUMPS: u32 = 100;
 
 /// Returns the smallest number of equal steps that divide an interval (s), if no step may exceed `longest` (s). At least 1, at most
 /// `u32::MAX`.
@@ -71,53 +71,47 @@ impl World {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
             }
-            let jump = if self.is_sudden && jumps < JUMPS { self.next_jump(now, length) } else { None };
-            if let Some(jump) = jump.filter(|jump| jump.before <= 0.0) {
-                jumps += 1;
-                now += jump.after;
-                length = t + dt - now;
-                self.pass_jump(jump, now);
-                if length <= INSTANT * dt || self.solver.has_failed() {
-                    self.disperse(t + dt);
-                    return;
+            let jump = if self.is_sudden && jumps < MOST_JUMPS { self.next_jump(now, length) } else { None };
+            let (mut duration, mut event) = (0.0, None);
+            let moves = jump.is_none_or(|jump| jump.before > 0.0);
+            if moves {
+                let rubbed = self.state.accounts.friction;
+                (duration, event) = self.make_piece(now, jump.map_or(length, |jump| jump.before.min(length)));
+                if self.is_unsolved(now + duration) && self.go_back(now) {
+                    continue;
                 }
-                continue;
-            }
-            let (duration, event) = self.make_piece(now, jump.map_or(length, |jump| jump.before.min(length)));
-            if self.is_unsolved(now + duration) && self.go_back(now) {
-                continue;
-            }
-            self.solver.accept();
-            if let Some(collider) = &mut self.collider {
-                collider.note_ways(&self.model, &self.before, &self.state, duration);
-                collider.note_rebounds(now + duration);
-            }
-            self.solver.blame_friction(&self.model, now + duration);
-            if let (None, Some(jump)) = (event, jump) {
-                let (within, later) =
-                    left.split_at(left.partition_point(|&moment| moment <= now + jump.after));
-                left = later;
-                self.look_within(now, duration, within, see);
-                jumps += 1;
-                now += jump.after;
-                length = t + dt - now;
-                self.pass_jump(jump, now);
-                if length <= INSTANT * dt || self.solver.has_failed() {
-                    self.disperse(t + dt);
-                    return;
+                self.solver.accept();
+                if let Some(collider) = &mut self.collider {
+                    collider.note_ways(&self.model, &self.before, &self.state, duration);
+                    collider.note_rebounds(now + duration);
+                    if let Some((bodies, _)) = self.solver.hardest_contact() {
+                        collider.note_friction(&self.model, &self.state, rubbed, (bodies, now + duration));
+                    }
                 }
-                continue;
+                self.solver.blame_friction(&self.model, now + duration);
             }
-            let Some(event) = event else {
+            // What ends this part of the step: an event, or else a jump, or else the end of the step.
+            let Some(end) = event.map(|_| duration).or(jump.map(|jump| jump.after)) else {
                 self.look_within(now, duration, left, see);
                 self.disperse(t + dt);
                 return;
             };
-            let (within, later) = left.split_at(left.partition_point(|&moment| moment <= now + duration));
-            left = later;
-            self.look_within(now, duration, within, see);
-            now += duration;
+            if moves {
+                let (within, later) = left.split_at(left.partition_point(|&moment| moment <= now + end));
+                left = later;
+                self.look_within(now, duration, within, see);
+            }
+            now += end;
             length = t + dt - now;
+            let Some(event) = event else {
+                jumps += 1;
+                jump.into_iter().for_each(|jump| self.pass_jump(jump, now));
+                if length <= SHORTEST_REMAINDER * dt || self.solver.has_failed() {
+                    self.disperse(t + dt);
+                    return;
+                }
+                continue;
+            };
             let bodies = self.bodies_of(event);
             let is_idle = self.pass(event, now);
             self.integrator.discontinuity();
