@@ -8,7 +8,7 @@ use super::Row;
 use super::solver::Solver;
 
 /// An equation holds exactly if its error is at most this fraction of its size or of its terms: a few rounding errors.
-const EXACT: f64 = 1e-15;
+const EXACT_ERROR: f64 = 1e-15;
 
 /// No tolerance is below this fraction of the terms of an equation. It covers the rounding errors of some steps.
 const LEAST_OF_TERMS: f64 = 1e-14;
@@ -58,7 +58,7 @@ impl Row {
     /// Returns the error of the equation, in units of its rounding error.
     #[inline]
     pub(super) fn error(&self) -> f64 {
-        let rounding = EXACT * self.scale.size.max(self.scale.terms);
+        let rounding = EXACT_ERROR * self.scale.size.max(self.scale.terms);
         self.violation.abs() / rounding.max(f64::MIN_POSITIVE)
     }
 }

@@ -28,10 +28,10 @@ const PATIENT_SWEEPS: usize = 20 * SWEEPS;
 /// Impulses add energy if their work is more than this many times the work that the remaining errors of the rates can do.
 const EXCUSED_WORK: f64 = 10.0;
 
-/// Accelerated sweeps have lost their way if this fraction of their largest extrapolation exceeds the tolerance. Where bodies are wedged
-/// between contacts and joints, impulses can grow together without changing any rate. The acceleration may then go far, and rounding errors
-/// of the velocities with it.
-const ASTRAY: f64 = 1e-12;
+/// An extrapolation leaves rounding errors of this fraction of its size. If they exceed the tolerance, the accelerated sweeps have lost
+/// their way: where bodies are wedged between contacts and joints, impulses can grow together without changing any rate, and the
+/// acceleration makes them grow far.
+const EXTRAPOLATION_ERROR: f64 = 1e-12;
 
 /// How sweeps over contacts end.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ impl Stopping {
 
     /// Returns the sweeps that replace accelerated ones whose largest extrapolation changed a rate by `farthest`, if that is too far.
     pub(super) fn instead(self, farthest: f64) -> Option<Stopping> {
-        (ASTRAY * farthest > self.tolerance).then_some(Stopping::patient(self.tolerance))
+        (EXTRAPOLATION_ERROR * farthest > self.tolerance).then_some(Stopping::patient(self.tolerance))
     }
 
     /// Returns true if sweep number `sweep`, counted from 1, is the last, after a change of a rate by `change`.
@@ -192,10 +192,10 @@ impl Solver {
         self.contacts.iter().map(|contact| contact.size).fold(f64::MAX, f64::min)
     }
 
-    /// Returns the largest error of the joints at the last measurement, m or rad.
+    /// Returns the largest error of the joints at the last measurement, m. Angles count times the size of the mechanism.
     pub(in crate::dynamics) fn widest_joint(&self) -> f64 {
-        let joints = self.rows.iter().zip(&self.laws).filter(|(_, law)| **law == Law::Equality);
-        joints.map(|(row, _)| row.violation.abs()).fold(0.0, f64::max)
+        let joints = (0..self.rows.len()).filter(|&row| self.laws[row] == Law::Equality);
+        joints.map(|row| self.rows[row].violation.abs() / self.unit(row)).fold(0.0, f64::max)
     }
 
     /// Computes the rate c' of each constraint row from the velocities of the members.

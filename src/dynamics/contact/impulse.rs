@@ -16,14 +16,15 @@ const SWEEPS: usize = 2_000;
 const SETTLED: f64 = 1e-14;
 
 /// The number of directions of slip among which the search for the slip after an impact begins.
-const DIRECTIONS: u32 = 32;
+const SLIP_DIRECTIONS: u32 = 32;
 
 /// This many halvings of an angle between two directions lead to its rounding error.
-const HALVINGS: u32 = 52;
+const ANGLE_HALVINGS: u32 = 52;
 
-/// The part of its trace by which the diagonal of W is enlarged, so that it has an inverse, and the number of refinements that remove the
-/// resulting error.
-const YIELDING: f64 = 1e-12;
+/// The diagonal of W is enlarged by this fraction of its trace, so that W has an inverse.
+const ENLARGED_DIAGONAL: f64 = 1e-12;
+
+/// The number of iterative refinements that remove the error of the enlarged diagonal.
 const REFINEMENTS: u32 = 3;
 
 /// A solution solves its equations if it misses the right-hand side by at most this fraction.
@@ -106,7 +107,8 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
 /// Solves W x = b. Where joints block a motion, W has no inverse. The solution with the smallest impulse then counts.
 fn solution(w: DMat3, b: DVec3) -> DVec3 {
     let inverse =
-        (w + DMat3::from_diagonal(DVec3::splat(YIELDING * (w.x_axis.x + w.y_axis.y + w.z_axis.z)))).inverse();
+        (w + DMat3::from_diagonal(DVec3::splat(ENLARGED_DIAGONAL * (w.x_axis.x + w.y_axis.y + w.z_axis.z))))
+            .inverse();
     // Iterative refinement removes the error of the enlarged diagonal.
     (0..REFINEMENTS).fold(inverse * b, |x, _| x + inverse * (b - w * x))
 }
@@ -138,9 +140,9 @@ impl Sliding {
         let left = |angle: f64| Some((self.rate + self.w * self.impulse(direction(angle))?).yz());
         // The part of the remaining slip across the direction.
         let across = |angle: f64| Some(direction(angle).perp_dot(left(angle)?));
-        let part = TAU / f64::from(DIRECTIONS);
+        let part = TAU / f64::from(SLIP_DIRECTIONS);
         // The intervals are tried in the order of their distance from `first`, which is in the middle of the first one.
-        for i in 0..DIRECTIONS {
+        for i in 0..SLIP_DIRECTIONS {
             let side = if i % 2 == 0 { 1.0 } else { -1.0 };
             let middle = side * part * f64::from(i.div_ceil(2));
             let (mut low, mut high) = (middle - 0.5 * part, middle + 0.5 * part);
@@ -148,7 +150,7 @@ impl Sliding {
             if below * above > 0.0 {
                 continue;
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..ANGLE_HALVINGS {
                 let middle = 0.5 * (low + high);
                 match across(middle) {
                     Some(0.0) => (low, high) = (middle, middle),

@@ -8,13 +8,13 @@ use crate::dynamics::Motion;
 use crate::dynamics::contact::Collider;
 
 /// A velocity changes suddenly if its change exceeds what the accelerations explain by more than this fraction of the speed.
-const SUDDEN: f64 = 1e-6;
+const SUDDEN_CHANGE: f64 = 1e-6;
 
-/// The same, as a fraction of the largest closing speed so far, or of the typical change of velocity by forces within a step.
-const SLIGHT: f64 = 1e-8;
+/// Smaller changes do not count: a fraction of the largest closing speed so far, or of the typical change of velocity by forces in a step.
+const SLIGHT_CHANGE: f64 = 1e-8;
 
 /// The time of a sudden change is found to this fraction of the step.
-const INSTANT: f64 = 1e-12;
+const TIME_ERROR: f64 = 1e-12;
 
 /// Changes are searched beyond the end of a step by this fraction of it: the next step may begin later by rounding errors.
 const BEYOND: f64 = 1e-9;
@@ -37,7 +37,7 @@ impl World {
             return None;
         }
         let fastest = self.collider.as_ref().map_or(0.0, Collider::fastest);
-        let slight = SLIGHT * fastest.max(self.solver.usual_change(self.step));
+        let slight = SLIGHT_CHANGE * fastest.max(self.solver.usual_change(self.step));
         let first = |(body, motion): (usize, &dyn Motion)| {
             let reach = self.collider.as_ref().map_or(0.0, |collider| collider.reach(body));
             let (before, after) = jump(motion, (t, dt), reach, slight)?;
@@ -60,9 +60,11 @@ impl World {
     }
 }
 
-/// Returns the times, in seconds after `t`, right before and right after the first sudden change of a motion within `dt` seconds. Bisection
-/// finds it: in each half of a smooth motion, an eighth of the change is left that the accelerations at both ends do not explain. `reach`
+/// Returns the times, in seconds after `t`, right before and right after the first sudden change of a motion within `dt` seconds. `reach`
 /// is the size of the body, m. Changes of the speed below `slight`, m/s, do not count.
+///
+/// The accelerations at both ends of an interval explain the change of a smooth velocity, up to an error. Halving the interval divides this
+/// error by eight, so it soon vanishes. A sudden change stays as large as it was, in one of the halves.
 fn jump(motion: &dyn Motion, (t, dt): (f64, f64), reach: f64, slight: f64) -> Option<(f64, f64)> {
     let at = |time: f64| {
         let given = motion.at(t + time);
@@ -78,13 +80,13 @@ fn jump(motion: &dyn Motion, (t, dt): (f64, f64), reach: f64, slight: f64) -> Op
     let excess = |a: &Moment, b: &Moment| {
         let left = |i: usize| b.1[i] - a.1[i] - 0.5 * (b.0 - a.0) * (a.2[i] + b.2[i]);
         let speed: f64 = [a, b].iter().flat_map(|moment| moment.1).map(glam::DVec3::length).sum();
-        left(0).length() + left(1).length() - SUDDEN * speed - slight
+        left(0).length() + left(1).length() - SUDDEN_CHANGE * speed - slight
     };
     let (mut early, mut late) = (at(0.0), at(dt * (1.0 + BEYOND)));
     if excess(&early, &late) <= 0.0 {
         return None;
     }
-    while late.0 - early.0 > INSTANT * dt {
+    while late.0 - early.0 > TIME_ERROR * dt {
         let middle = at(0.5 * (early.0 + late.0));
         if middle.0 <= early.0 || middle.0 >= late.0 {
             break;

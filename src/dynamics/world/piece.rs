@@ -9,10 +9,14 @@ use crate::dynamics::{BodyId, Breakdown, System};
 /// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.
 const TRIALS: usize = 120;
 
-/// The margin of an event in the middle of its tolerance; how near to it the search comes; and the largest number of steps for that.
+/// The margin of an event in the middle of its tolerance.
 const MIDDLE: f64 = -0.5;
-const SHARP: f64 = 1e-3;
-const SHARPENINGS: usize = 3;
+
+/// The search for the middle ends when the margin is this near to it.
+const NEAR_MIDDLE: f64 = 1e-3;
+
+/// The largest number of steps of the search for the middle.
+const MIDDLE_TRIALS: usize = 3;
 
 /// Times count as equal if they differ by less than this fraction of the step.
 const INSTANT: f64 = 1e-13;
@@ -274,13 +278,13 @@ impl World {
         if other.is_none() && early > 0.0 {
             other = Some((early, early_margin));
         }
-        for _ in 0..SHARPENINGS {
+        for _ in 0..MIDDLE_TRIALS {
             let Some((length, margin)) = other.filter(|_| late_margin >= -1.0 && late > INSTANT * end.0)
             else {
                 break;
             };
             let next = late + (MIDDLE - late_margin) * (late - length) / (late_margin - margin);
-            if (late_margin - MIDDLE).abs() < SHARP || !(next > early && next < end.0) {
+            if (late_margin - MIDDLE).abs() < NEAR_MIDDLE || !(next > early && next < end.0) {
                 break;
             }
             let (margin, at) = self.try_piece(t, next);

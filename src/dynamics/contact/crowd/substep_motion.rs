@@ -48,7 +48,7 @@ const REPAIRS: usize = 50;
 const LEAN: f64 = 0.01;
 
 /// How often a substep is halved because its impulses add energy. If they still do, the run fails.
-const HALVINGS: u32 = 6;
+const MOST_HALVINGS: u32 = 6;
 
 /// Times within a substep are equal if they differ by less than this fraction of the substep.
 const SAME: f64 = 1e-12;
@@ -230,7 +230,7 @@ impl Collider {
         let (before, impacts) = (now.clone(), crowd.impacts.len());
         let closed = self.crowd_places(model, now, &course.pairs, part);
         let residual = crowd.advance(closed, model, (time, part), now, loads);
-        if residual.is_some_and(|residual| residual.is_excess()) && halvings < HALVINGS {
+        if residual.is_some_and(|residual| residual.is_excess()) && halvings < MOST_HALVINGS {
             now.clone_from(&before);
             crowd.impacts.truncate(impacts);
             crowd.solver.start_cold();
