@@ -40,9 +40,10 @@ impl<'a> System<'a> {
         self.solver.reactions(self.model)
     }
 
-    /// Returns the lasting contacts with their forces at the last evaluation.
+    /// Returns the lasting contacts with their forces at the last evaluation, which was for this state at time `t`, s.
     #[must_use]
-    pub fn contacts(&self) -> Vec<ContactSnapshot> {
+    pub fn contacts(&mut self, t: f64, state: &State) -> Vec<ContactSnapshot> {
+        self.solver.share_seen_forces(self.model, t, state);
         self.solver.contact_snapshots(self.model)
     }
 

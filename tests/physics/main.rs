@@ -8,6 +8,7 @@ mod charges;
 mod closed_forms;
 mod coming_and_going;
 mod common;
+mod cones;
 mod conservation;
 mod contacts;
 mod crowds;

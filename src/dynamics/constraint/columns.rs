@@ -55,6 +55,11 @@ impl Columns {
         &self.weights
     }
 
+    /// Makes sweeps leave a constraint row out.
+    pub(super) fn block(&mut self, row: usize) {
+        self.weights[row] = 0.0;
+    }
+
     /// Adds the velocity changes under an impulse along a constraint row to the members' velocities.
     #[inline]
     pub(super) fn apply(&self, row: usize, impulse: f64, members: &mut [Member]) {

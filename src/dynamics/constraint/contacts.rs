@@ -37,11 +37,10 @@ impl Solver {
         !are_same
     }
 
-    /// Creates a solver for these contacts only, with the typical rates and accelerations and the counts of mode changes of this solver.
+    /// Creates a solver for these contacts only, with the typical rates and accelerations of this solver.
     pub(in crate::dynamics) fn part(&self, contacts: Vec<Arc<LastingContact>>) -> Solver {
-        let (largest_rate, largest_acceleration) = (self.largest_rate, self.largest_acceleration);
-        let changes = self.changes.clone();
-        Solver { contacts, largest_rate, largest_acceleration, changes, ..Solver::default() }
+        let Solver { step, largest_rate, largest_acceleration, speed_by_loads, .. } = *self;
+        Solver { contacts, step, largest_rate, largest_acceleration, speed_by_loads, ..Solver::default() }
     }
 
     /// Returns true if the solver has exactly these contacts and the modes of their constraint rows are decided.
@@ -58,10 +57,7 @@ impl Solver {
         for part in parts {
             self.largest_rate = self.largest_rate.max(part.largest_rate);
             self.largest_acceleration = self.largest_acceleration.max(part.largest_acceleration);
-            for (bodies, changes) in &part.changes {
-                let all = self.changes.entry(*bodies).or_default();
-                *all = (*all).max(*changes);
-            }
+            self.speed_by_loads = self.speed_by_loads.max(part.speed_by_loads);
             self.failure = self.failure.or(part.failure);
             contacts.extend(part.contacts.iter().cloned());
         }

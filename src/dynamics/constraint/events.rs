@@ -2,6 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::Law;
+use super::cone::SLIPS;
 use super::friction::FrictionPair;
 use super::jacobian;
 use super::modes::Mode;
@@ -46,6 +47,8 @@ impl Solver {
             });
         self.seen = [size, 0.0];
         let pulls = |(mode, law): (&Mode, &Law)| *mode == Mode::Held && *law != Law::Equality;
+        let mut slips = None;
+        self.strained.clear();
         if self.modes.iter().zip(&self.laws).any(pulls) {
             self.factorise(false);
             self.is_ready = true;
@@ -53,6 +56,14 @@ impl Solver {
             let mut accelerations = vec![0.0; n];
             let size = self.react_seeing(t, state, loads, &mut accelerations);
             self.seen[1] = size;
+            let strained = self.strained(&accelerations, PULLED * self.largest_acceleration.max(size));
+            if let Some(row) = strained {
+                self.strained = self.bodies_of(row);
+                let forces = self.unknown.clone();
+                let modes = self.modes.clone();
+                slips = self.share_forces(t, state, loads, |row| modes[row] == Mode::Held);
+                self.unknown = forces;
+            }
         }
         let (size, force) =
             (self.largest_rate.max(self.seen[0]), self.largest_acceleration.max(self.seen[1]));
@@ -76,11 +87,14 @@ impl Solver {
             _ => f64::INFINITY,
         };
         let of_grip = |grip: &FrictionPair| match self.modes[grip.row] {
-            Mode::Held if grip.is_restless => f64::INFINITY,
-            Mode::Held => {
-                let left = grip.coefficient * self.unknown[grip.normal] - grip.of(&self.unknown).length();
-                part(left * self.pair_weight(grip.row), force * self.unit(grip.row), PULLED)
-            }
+            Mode::Held => match &slips {
+                // Other forces may hold the contact: it slips only if none do.
+                Some(slips) => {
+                    let unit = self.unit(grip.row);
+                    part(-grip.of(slips).length(), force * unit, 2.0 * SLIPS)
+                }
+                None => part(-self.excess(grip), force * self.unit(grip.row), PULLED),
+            },
             Mode::Slid => part(grip.of(&rates).dot(grip.heading), size * self.unit(grip.row), PASSED),
             Mode::Open | Mode::Pushed(_) => f64::INFINITY,
         };
@@ -89,12 +103,33 @@ impl Solver {
         rows.chain(grips).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
     }
 
+    /// Returns the bodies of a contact whose force lay outside its cone of friction at the end of the last piece of a step, and forgets
+    /// them. Empty if there was none.
+    pub(in crate::dynamics) fn take_strained(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.strained)
+    }
+
     /// Records the typical size of rates and accelerations. Must be called if a piece of a step ends at the state of the last
     /// [`margin`](Self::margin). Other states do not count, because a trial step that is too long can give far larger values.
     pub(in crate::dynamics) fn accept(&mut self) {
         let [rate, acceleration] = std::mem::take(&mut self.seen);
         self.largest_rate = self.largest_rate.max(rate);
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
+    }
+
+    /// Records the speeds that the loads, without constraint forces, give to touching bodies within a step. The rates of bodies that start
+    /// from rest are measured against them: they have no others.
+    pub(super) fn note_loads(&mut self, model: &Model, loads: &Loads) {
+        for &body in self.contacts.iter().flat_map(|contact| &contact.bodies) {
+            let speed = self.step * model.inverse_mass()[body] * loads.force[body].length();
+            self.speed_by_loads = self.speed_by_loads.max(if speed.is_finite() { speed } else { 0.0 });
+        }
+        self.largest_rate = self.largest_rate.max(self.speed_by_loads);
+    }
+
+    /// Returns the largest speed that loads have given to a touching body within a step so far, m/s.
+    pub(in crate::dynamics) fn speed_by_loads(&self) -> f64 {
+        self.speed_by_loads
     }
 
     /// Returns the typical change of a constraint row's rate c' by forces within `time` seconds, m/s.
@@ -109,6 +144,13 @@ impl Solver {
         let place = structure.place_of_row(row);
         place
             .map_or(Vec::new(), |place| place.bodies.iter().map(|&member| structure.bodies[member]).collect())
+    }
+
+    /// Returns the two bodies of the contact to which a constraint row belongs, by index; `None` for a row of a joint.
+    pub(in crate::dynamics) fn contact_of(&self, model: &Model, row: usize) -> Option<[usize; 2]> {
+        let place = self.structure.as_ref()?.place_of_row(row)?;
+        let contact = place.constraint.checked_sub(model.constraints().len())?;
+        Some(self.contacts[contact].bodies)
     }
 
     /// Returns true if the equations of sliding friction had no solution in the last step.

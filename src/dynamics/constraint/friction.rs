@@ -23,9 +23,6 @@ const UNLIKE: f64 = 10.0;
 /// Two directions count as nearly equal if the cosine of the angle between them exceeds this value.
 const ABOUT: f64 = 0.99;
 
-/// A contact that alternates between sticking and sliding sticks if its slip speed is below this fraction of the largest rate.
-const RESTING: f64 = 1e-5;
-
 /// A slip speed below this fraction of the largest rate counts as zero, and has no usable direction.
 pub(super) const SLOW: f64 = 1e-9;
 
@@ -51,9 +48,6 @@ pub(super) struct FrictionPair {
     pub(super) is_shared: bool,
     /// True if the contact must stick at once, because no sliding force is consistent with its slip.
     pub(super) is_caught: bool,
-    /// True if the contact has switched between sticking and sliding too often in this step. It then sticks until the end of the step,
-    /// with any friction force that this needs.
-    pub(super) is_restless: bool,
     /// The strongest coupling of this pair with all friction rows: the sum of the norms of its 2 × 2 blocks in A = J M⁻¹ Jᵀ.
     pub(super) stiffness: f64,
     /// The largest acceleration of slip velocities by this contact's friction at the last decision of modes, m/s² or rad/s².
@@ -84,7 +78,6 @@ impl FrictionPair {
                             .count()
                             > 1,
                         is_caught: false,
-                        is_restless: false,
                         stiffness: 0.0,
                         strength: 0.0,
                     });
@@ -191,8 +184,8 @@ impl Solver {
     /// Sets the initial mode of a pair of friction rows: open if the normal row is not held; otherwise sticking if the slip velocity is
     /// zero, and sliding if not.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
-        let FrictionPair { row, normal, is_restless, is_caught, .. } = self.grips[grip];
-        let slow = if is_restless { RESTING } else { SLOW } * self.largest_rate * self.unit(row);
+        let FrictionPair { row, normal, is_caught, .. } = self.grips[grip];
+        let slow = SLOW * self.largest_rate * self.unit(row);
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
             Mode::Open
@@ -228,40 +221,6 @@ impl Solver {
         grip.map(|grip| grip.is_caught = true).is_some()
     }
 
-    fn grip_at(&self, row: usize) -> Option<&FrictionPair> {
-        let at = self.grips.binary_search_by_key(&row, |grip| grip.row).ok()?;
-        Some(&self.grips[at])
-    }
-
-    /// Returns the error of the present mode of a pair of friction rows; `row` is its first row. A positive error means that a sticking
-    /// pair needs more friction than allowed, or that a pair that begins to slide is pushed along its slip.
-    pub(super) fn grip_is_wrong(&self, row: usize, accelerations: &[f64]) -> f64 {
-        let Some(grip) = self.grip_at(row).filter(|grip| !grip.is_restless) else { return 0.0 };
-        match self.modes[row] {
-            Mode::Held => {
-                let most = grip.coefficient * self.unknown[grip.normal].max(0.0);
-                (grip.of(&self.unknown).length() - most) * self.pair_weight(row)
-            }
-            Mode::Slid if grip.is_beginning => grip.of(accelerations).dot(grip.push),
-            _ => 0.0,
-        }
-    }
-
-    /// Switches a pair of friction rows between sticking and sliding; `row` is its first row.
-    pub(super) fn change_grip(&mut self, row: usize) {
-        let force = match self.grip_at(row) {
-            Some(grip) => grip.of(&self.unknown),
-            None => return,
-        };
-        let mode = if self.modes[row] == Mode::Slid { Mode::Held } else { Mode::Slid };
-        if let Ok(at) = self.grips.binary_search_by_key(&row, |grip| grip.row) {
-            let grip = &mut self.grips[at];
-            grip.push = force.normalize_or_zero();
-            (grip.heading, grip.is_beginning) = (-grip.push, true);
-        }
-        (self.modes[row], self.modes[row + 1]) = (mode, mode);
-    }
-
     /// Weights the softness of friction rows by the last normal forces. Contact points with larger normal forces then carry more of the
     /// friction, and all points reach their friction limits together.
     pub(super) fn share_load(&mut self) {
@@ -289,37 +248,5 @@ impl Solver {
                 grip.strength = coefficient * self.unknown[normal].max(0.0) * grip.stiffness;
             }
         }
-    }
-
-    /// Updates the modes of all pairs without slip velocity from their forces and accelerations. Pairs with enough friction stick; the
-    /// other pairs begin to slide in the direction of their load. `slight` is the tolerance. Returns true if any mode or direction has
-    /// changed. Source of the criterion: P. Alart & A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353.
-    pub(super) fn change_grips(&mut self, accelerations: &[f64], slight: f64) -> bool {
-        let mut has_changed = false;
-        for i in 0..self.grips.len() {
-            let FrictionPair { row, normal, coefficient, push, is_beginning, is_restless, .. } =
-                self.grips[i];
-            let slips = self.modes[row] == Mode::Slid && !is_beginning;
-            if slips || is_restless || self.modes[normal] != Mode::Held {
-                continue;
-            }
-            let weight = self.grips[i].stiffness;
-            let slight = slight * self.unit(row);
-            let most = coefficient * self.unknown[normal].max(0.0);
-            let grip = &mut self.grips[i];
-            let pulled = grip.of(&self.unknown) - grip.of(accelerations) / weight;
-            // A pair whose friction equals its limit, within the tolerance, keeps its mode.
-            let left = (most - pulled.length()) * weight;
-            let is_enough = if self.modes[row] == Mode::Slid { left > slight } else { left >= -slight };
-            let mode = if is_enough { Mode::Held } else { Mode::Slid };
-            if !is_enough {
-                grip.push = pulled.normalize();
-                (grip.heading, grip.is_beginning) = (-grip.push, true);
-                has_changed |= (grip.push - push).length() * most * weight > slight;
-            }
-            has_changed |= mode != self.modes[row];
-            (self.modes[row], self.modes[row + 1]) = (mode, mode);
-        }
-        has_changed
     }
 }

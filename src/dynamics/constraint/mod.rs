@@ -7,6 +7,7 @@
 mod anderson;
 mod ball;
 mod columns;
+mod cone;
 mod contacts;
 mod coordinate;
 mod events;
@@ -26,7 +27,6 @@ mod pulley;
 mod react;
 mod reaction;
 mod rebound;
-mod restless;
 mod rod;
 mod rope;
 mod scale;

@@ -31,8 +31,15 @@ pub(super) const TOUCHED: f64 = 1e-9;
 /// The largest number of sliding contacts that one decision of modes can make stick at once.
 const CAUGHT: usize = 4;
 
+/// The largest number of times that one decision of modes shares the contact forces anew.
+const SHARES: usize = 8;
+
 /// A sum below this fraction of its largest term counts as a rounding error.
 pub(super) const SLIGHT: f64 = 1e-10;
+
+/// An instant, as a fraction of a step: two events that are closer to each other cannot be told apart reliably. A motor that reaches its
+/// speed within an instant gets the speed by an impulse.
+const INSTANT: f64 = 1e-8;
 
 impl Mode {
     /// Returns the initial mode of a constraint row with this law.
@@ -174,6 +181,7 @@ impl Solver {
         let mut accelerations = vec![0.0; self.rows.len()];
         self.members.copy_from_slice(members);
         model.sum(t, state, loads);
+        self.note_loads(model, loads);
         let size = self.react_seeing(t, state, loads, &mut accelerations);
         self.largest_acceleration = self.largest_acceleration.max(size);
         accelerations
@@ -276,7 +284,7 @@ impl Solver {
             are_found = true;
             for (i, fast) in fast.iter_mut().enumerate() {
                 let Law::SpeedMotor { limit } = self.laws[i] else { continue };
-                if *fast && self.unknown[i].abs() > limit * self.instant {
+                if *fast && self.unknown[i].abs() > limit * INSTANT * self.step {
                     (*fast, are_found) = (false, false);
                 }
             }
@@ -342,6 +350,7 @@ impl Solver {
             self.see_stiffness();
         }
         let mut held_before = Vec::new();
+        let mut shares = 0;
         for round in 0..rounds(n) {
             // If only the directions of friction have changed, the factorization is still valid.
             if held_before != self.modes {
@@ -353,9 +362,7 @@ impl Solver {
             }
             let accelerations = self.see_accelerations(model, t, state, loads, members);
             let size = self.largest_acceleration;
-            let one_by_one = round > together(n);
             let wrong = |i: usize| match (self.modes[i], self.laws[i]) {
-                (_, Law::Friction { .. }) if one_by_one => self.grip_is_wrong(i, &accelerations),
                 (_, Law::Friction { .. }) => 0.0,
                 _ if !can_hold[i] => 0.0,
                 (Mode::Held, Law::Inequality) => -self.unknown[i] * self.weight(i),
@@ -366,9 +373,22 @@ impl Solver {
             };
             last = worst(n, round, SLIGHT * size, |i| wrong(i) / self.unit(i));
             match last {
-                None if one_by_one || !self.change_grips(&accelerations, SLIGHT * size) => return None,
-                None => {}
-                Some(i) if matches!(self.laws[i], Law::Friction { .. }) => self.change_grip(i),
+                None => {
+                    let strained = self.strained(&accelerations, SLIGHT * size);
+                    if strained.is_none() || shares == SHARES {
+                        return strained;
+                    }
+                    shares += 1;
+                    let slides = strained.is_some_and(|row| self.modes[row] == Mode::Slid);
+                    let Some(shared) = self.share_forces(t, state, loads, |row| can_hold[row]) else {
+                        return strained;
+                    };
+                    self.grip_as_shared(&shared, can_hold);
+                    // The forces hold together what sticks. What slides must agree with the forces of its mode.
+                    if self.modes == held_before && !slides {
+                        return None;
+                    }
+                }
                 Some(i) => {
                     self.modes[i] = match (self.modes[i], self.laws[i]) {
                         (Mode::Held, Law::SpeedMotor { .. }) => Mode::Pushed(self.unknown[i].signum()),
@@ -387,15 +407,9 @@ impl Solver {
     }
 }
 
-/// Returns the number of rounds that update all contacts that stick or begin to slide together, in a problem of `n` constraint rows. Later
-/// rounds change one contact at a time. Large problems get fewer such rounds.
-fn together(n: usize) -> usize {
-    (3_000 / n.max(1)).clamp(30, 300)
-}
-
 /// Returns the largest number of rounds of mode changes in a problem of `n` constraint rows.
 fn rounds(n: usize) -> usize {
-    together(n) + 50 + 2 * n
+    100 + 4 * n
 }
 
 /// Returns the constraint row with the largest error above the tolerance `slight`, or `None`. After many rounds, it returns the first row

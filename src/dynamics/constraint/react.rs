@@ -57,7 +57,7 @@ impl Solver {
     }
 
     /// Overwrites the velocities of the members with the accelerations that they would have without constraints.
-    fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
+    pub(super) fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
         let Solver { structure: Some(structure), members, motions, .. } = self else { return };
         for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
             if let Some(motion) = motion {
@@ -98,7 +98,7 @@ impl Solver {
     }
 
     /// Adds the forces of motors at their limits, and their power, to the loads.
-    fn push_drives(&mut self, loads: &mut Loads) {
+    pub(super) fn push_drives(&mut self, loads: &mut Loads) {
         if !self.has_modes {
             return;
         }

@@ -4,7 +4,7 @@
 //! impulses Λ with A Λ = −J v correct velocities. The shifts M⁻¹ Jᵀ Λ with A Λ = −c correct positions. Source: E. Hairer, C. Lubich & G.
 //! Wanner, *Geometric Numerical Integration*, 2nd ed., IV.4 and VII.1.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::super::contact::LastingContact;
@@ -41,8 +41,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) begun: f64,
     /// The length of the present step, s.
     pub(super) span: f64,
-    /// A motor that reaches its speed within this time, s, gets the speed by an impulse.
-    pub(super) instant: f64,
+    /// The length of the present step of the world, s, which events divide into pieces; 0 if it is not known.
+    pub(super) step: f64,
     /// True if the equations of sliding friction had no solution in the present step.
     pub(super) is_unsolved: bool,
     /// True while [`Solver::aim`] corrects initial velocities, so that the constraints hold at the end of the step.
@@ -60,8 +60,6 @@ pub(in crate::dynamics) struct Solver {
     pub(super) modes: Vec<Mode>,
     /// The pairs of friction rows, in the order of their rows.
     pub(super) grips: Vec<FrictionPair>,
-    /// For each pair of bodies, the number of mode changes at their contacts in the present step.
-    pub(super) changes: BTreeMap<[usize; 2], u32>,
     /// The product J v of each constraint row, for slip velocities. Computed only while contacts slide.
     pub(super) slips: Vec<f64>,
     /// True if the mode of any constraint row can change, so that not all laws are [`Law::Equality`].
@@ -70,6 +68,8 @@ pub(in crate::dynamics) struct Solver {
     /// [unit](Solver::unit) of their row, count as rounding errors.
     pub(super) largest_rate: f64,
     pub(super) largest_acceleration: f64,
+    /// The largest speed that loads have given to a touching body within a step so far, m/s.
+    pub(super) speed_by_loads: f64,
     /// The largest magnitudes of the terms of c' and c'' at the state of the last [`Solver::margin`].
     pub(super) seen: [f64; 2],
     /// For each constraint row, true if the row is active in this step: it is in mode `Held` and not redundant.
@@ -86,6 +86,9 @@ pub(in crate::dynamics) struct Solver {
     pub(super) forced: f64,
     /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.
     pub(super) is_loose: bool,
+    /// The bodies of a contact whose force lay outside its cone of friction at the state of the last [`Solver::margin`], so that the contact
+    /// forces had to be shared anew. Empty if there was none.
+    pub(super) strained: Vec<usize>,
     /// A constraint row for which the last decision of modes found no consistent mode.
     pub(super) undecided: Option<usize>,
     pub(super) trial: State,
@@ -99,13 +102,10 @@ pub(in crate::dynamics) struct Solver {
     pub(super) failure: Option<Breakdown>,
 }
 
-/// An instant, as a fraction of a step: two events that are closer to each other cannot be told apart reliably.
-const INSTANT: f64 = 1e-8;
-
 impl Solver {
-    /// Tells the solver the length of the next step, s.
+    /// Tells the solver the length of the next step of the world, s.
     pub(in crate::dynamics) fn expect_step(&mut self, length: f64) {
-        self.instant = if length.is_finite() { INSTANT * length } else { 0.0 };
+        self.step = if length.is_finite() { length } else { 0.0 };
     }
 
     /// Discards the layout of the constraints. Must be called whenever bodies or constraints have changed.
@@ -241,7 +241,6 @@ impl Solver {
         };
         self.laws = places.flat_map(laws).collect();
         self.grips = FrictionPair::all(&structure, &self.laws);
-        self.see_restless(model, &structure);
         self.has_modes = self.laws.iter().any(|law| *law != Law::Equality);
         self.modes = self.laws.iter().map(Mode::first).collect();
         self.held = vec![false; structure.rows];

@@ -50,6 +50,11 @@ impl Stopping {
         Stopping { tolerance, most: SWEEPS, is_fast: true }
     }
 
+    /// The same with another largest number of sweeps.
+    pub(super) const fn at_most(self, most: usize) -> Stopping {
+        Stopping { most, ..self }
+    }
+
     /// Many sweeps without acceleration. From zero impulses, none of them adds energy.
     const fn patient(tolerance: f64) -> Stopping {
         Stopping { tolerance, most: PATIENT_SWEEPS, is_fast: false }
@@ -199,7 +204,7 @@ impl Solver {
     }
 
     /// Computes the rate c' of each constraint row from the velocities of the members.
-    fn rates_now(&self) -> Vec<f64> {
+    pub(super) fn rates_now(&self) -> Vec<f64> {
         (0..self.rows.len()).map(|row| self.rate_of(row)).collect()
     }
 
@@ -260,7 +265,7 @@ impl Solver {
     }
 
     /// Repeats sweeps over all contacts, limits and motors.
-    fn sweep_all(&mut self, goals: &[f64], purpose: Purpose, stopping: Stopping) {
+    pub(super) fn sweep_all(&mut self, goals: &[f64], purpose: Purpose, stopping: Stopping) {
         if self.joints() == 0 {
             self.sweep_islands(goals, true, stopping);
             return;

@@ -44,7 +44,6 @@ impl World {
         self.ledger.close(&self.model, t, &self.state);
         self.end = t + dt;
         self.solver.expect_step(dt);
-        self.solver.calm();
         self.check_rest(t);
         self.is_sudden = self.next_jump(t, dt).is_some();
         if !self.step_apart(t, dt, moments, see) {
@@ -67,6 +66,7 @@ impl World {
                 self.meet(t, false);
             }
         }
+        self.crowd_strained(t);
         loop {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
@@ -113,14 +113,16 @@ impl World {
                 continue;
             };
             let bodies = self.bodies_of(event);
+            let are_restless = self.pair_of(event).is_some_and(|pair| counts.are_restless(pair));
             let is_idle = self.pass(event, now);
             self.integrator.discontinuity();
             let are_too_many = counts.are_too_many(event, duration, length, is_idle);
             let heap = self.heap_of(event, &bodies);
             if !heap.is_empty() {
                 self.crowd(now, &heap);
-            } else if counts.is_crowded(event)
-                || self.happens_too_often(event, &bodies)
+            } else if are_restless
+                || counts.is_crowded(event)
+                || self.happens_too_often(event)
                 || self.is_in_crowd(event)
             {
                 self.crowd(now, &bodies);

@@ -99,7 +99,6 @@ impl World {
             let own: Vec<_> = own.cloned().collect();
             let known = self.parts.iter().position(|part| part.has(&own));
             self.solver = known.map_or_else(|| whole.part(own), |known| self.parts[known].clone());
-            self.solver.calm();
             let Some(collider) = &mut self.collider else { return Ok(()) };
             collider.focus(group);
             self.model.focus(Some(group.bodies.clone()));

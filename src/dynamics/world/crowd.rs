@@ -30,6 +30,17 @@ impl World {
         }
     }
 
+    /// Lets Moreau's scheme advance the heap of a contact whose friction reached its limit, from time `t`, s. Where few bodies touch, the
+    /// forces are shared instead.
+    pub(super) fn crowd_strained(&mut self, t: f64) {
+        let bodies = self.solver.take_strained();
+        let Some(collider) = self.collider.as_mut().filter(|_| !bodies.is_empty()) else { return };
+        let heap = collider.heap_of(&bodies, self.solver.contacts(), &self.model);
+        if !heap.is_empty() {
+            self.crowd(t, &heap);
+        }
+    }
+
     /// Returns the bodies that take part in an event, by index.
     pub(super) fn bodies_of(&self, event: Event) -> Vec<usize> {
         match event {
@@ -38,13 +49,16 @@ impl World {
         }
     }
 
-    /// Returns true if these bodies hit, grip or release each other so often that their events are no longer followed one by one.
-    pub(super) fn happens_too_often(&self, event: Event, bodies: &[usize]) -> bool {
-        let Some(collider) = &self.collider else { return false };
-        match event {
-            Event::Touch(bodies) => collider.hits_too_often(bodies),
-            Event::Row(_) => bodies.try_into().is_ok_and(|bodies| self.solver.changes_too_often(bodies)),
-        }
+    /// Returns the two bodies of a contact that changes its mode in this event; `None` for other events.
+    pub(super) fn pair_of(&self, event: Event) -> Option<[usize; 2]> {
+        let Event::Row(row) = event else { return None };
+        self.solver.contact_of(&self.model, row)
+    }
+
+    /// Returns true if two bodies hit each other so often that their events are no longer followed one by one.
+    pub(super) fn happens_too_often(&self, event: Event) -> bool {
+        let Event::Touch(bodies) = event else { return false };
+        self.collider.as_ref().is_some_and(|collider| collider.hits_too_often(bodies))
     }
 
     /// Returns true if no contact forces were found for the last piece of the step, which ends at time `t`, s.

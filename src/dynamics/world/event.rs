@@ -1,5 +1,7 @@
 //! The events that end a piece of a step, and the limits on their number.
 
+use std::collections::BTreeMap;
+
 /// More mode changes of constraint rows than this within a step count as endless.
 const CHANGES: u32 = 10_000;
 
@@ -17,6 +19,10 @@ const QUICK: f64 = 1e-4;
 /// After this many mode changes within a step, Moreau's scheme advances their bodies until the end of the step.
 const MANY: u32 = 100;
 
+/// After more mode changes than this at the contacts of two bodies within a step, Moreau's scheme advances these bodies until the end of
+/// the step.
+const OFTEN: u32 = 6;
+
 /// More events at the same instant than this count as endless, since each event already resolves all impacts of its instant.
 const AT_ONCE: u32 = 1_000;
 
@@ -33,6 +39,8 @@ pub(super) enum Event {
 #[derive(Default)]
 pub(super) struct Counts {
     changes: u32,
+    /// For each two bodies, the number of mode changes at their contacts.
+    of_pairs: BTreeMap<[usize; 2], u32>,
     impacts: u32,
     /// The number of consecutive events at the same instant.
     at_once: u32,
@@ -44,6 +52,14 @@ impl Counts {
     /// Returns true if so many events have happened that the bodies of this event should be advanced by Moreau's scheme.
     pub(super) fn is_crowded(&self, event: Event) -> bool {
         self.at_once > STAY || (matches!(event, Event::Row(_)) && (self.changes > MANY || self.quick > STAY))
+    }
+
+    /// Counts a mode change at the contacts of two bodies. Returns true if there are so many that the bodies should be advanced by Moreau's
+    /// scheme.
+    pub(super) fn are_restless(&mut self, bodies: [usize; 2]) -> bool {
+        let changes = self.of_pairs.entry(bodies).or_default();
+        *changes += 1;
+        *changes > OFTEN
     }
 
     /// Counts an event at the end of a piece of `length` seconds, with `left` seconds of the step remaining. `is_idle` marks a touch

@@ -20,8 +20,8 @@ pub(super) fn picture(
     push_crowd(crowd, model, loads);
     model.guide(time, loads);
     let bodies = BodySnapshot::of_all(model, state, loads);
+    let mut contacts = system.contacts(time, state);
     let reactions = system.reactions();
-    let mut contacts = system.contacts();
     contacts.extend(rest.contacts());
     contacts.extend(crowd);
     contacts.sort_by_key(|contact| contact.bodies);

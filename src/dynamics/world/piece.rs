@@ -89,7 +89,7 @@ impl World {
     /// impact.
     pub(super) fn pass(&mut self, event: Event, t: f64) -> bool {
         match event {
-            Event::Row(row) => self.solver.note_change(&self.model, row),
+            Event::Row(_) => {}
             Event::Touch(bodies) => {
                 self.let_go(&bodies);
             }

@@ -23,6 +23,10 @@ const STILL: f64 = 1e-8;
 /// A body that Moreau's scheme has advanced counts as at rest up to a speed that is higher by this factor.
 const CREEP: f64 = 100.0;
 
+/// Bodies are held only if the forces on each balance to within this fraction of the forces of its contacts, and if these forces together
+/// lie no further than that outside their cones of friction.
+const BALANCED: f64 = 0.01;
+
 /// Loads count as unchanged if their relative change is below this.
 const SAME: f64 = 1e-9;
 
@@ -113,7 +117,7 @@ impl World {
             let seen = self.collider.as_ref().map(forces).unwrap_or_default();
             self.island(bodies, contacts, seen)
         };
-        islands.into_iter().map(make).collect()
+        islands.into_iter().filter_map(make).collect()
     }
 
     /// Creates the held groups of bodies whose contacts are handled by events. Their contact forces follow from the decided modes of the
@@ -126,7 +130,7 @@ impl World {
         let mut system = System::new(&self.model, &mut self.solver);
         system.begin(t, &self.state);
         system.evaluate(t, &self.state, &mut self.loads);
-        let all = system.contacts();
+        let all = system.contacts(t, &self.state);
         self.model.sum(t, &self.state, &mut self.loads);
         let make = |bodies: BTreeSet<usize>| {
             let is_of = |contact: &ContactSnapshot| contact.bodies.iter().any(|body| bodies.contains(body));
@@ -134,7 +138,7 @@ impl World {
             let contacts = self.take_out(&bodies);
             self.island(bodies, contacts, seen)
         };
-        islands.into_iter().map(make).collect()
+        islands.into_iter().filter_map(make).collect()
     }
 
     /// Removes the contacts of these bodies from the solver, and returns them.
@@ -144,15 +148,50 @@ impl World {
         taken
     }
 
-    /// Creates a group of bodies held at rest, with its contacts, their snapshots, and the present loads.
+    /// Creates a group of bodies held at rest, with its contacts, their snapshots, and the present loads. If these are not in balance, the
+    /// solver gets the contacts back, and the result is `None`.
     fn island(
-        &self,
+        &mut self,
         bodies: BTreeSet<usize>,
         contacts: Vec<Arc<LastingContact>>,
         seen: Vec<ContactSnapshot>,
-    ) -> Island {
+    ) -> Option<Island> {
+        if !bodies.iter().all(|&body| self.is_balanced(body, &contacts, &seen)) {
+            self.give_back(contacts);
+            return None;
+        }
         let loads = bodies.iter().map(|&i| (self.loads.force[i], self.loads.torque[i])).collect();
-        Island { bodies, contacts, seen, loads }
+        Some(Island { bodies, contacts, seen, loads })
+    }
+
+    /// Returns true if the loads on a body and the forces of its contacts balance, and if these forces lie in the cones of friction.
+    fn is_balanced(&self, body: usize, contacts: &[Arc<LastingContact>], seen: &[ContactSnapshot]) -> bool {
+        let (mut force, mut torque) = (self.loads.force[body], self.loads.torque[body]);
+        let (mut carried, mut moments, mut outside) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut rolls = false;
+        for contact in seen.iter().filter(|contact| contact.bodies.contains(&body)) {
+            let law = contacts.iter().find(|other| other.bodies == contact.bodies).map(|other| other.law);
+            let Some(law) = law else { return false };
+            let sign = if contact.bodies[1] == body { 1.0 } else { -1.0 };
+            let push = sign * (contact.force + contact.friction);
+            let moment = (contact.place - self.state.location[body]).cross(push);
+            (force, torque) = (force + push, torque + moment);
+            (carried, moments) = (carried + push.length(), moments + moment.length());
+            let normal = contact.force.dot(contact.normal);
+            outside += (contact.friction.length() - law.friction * normal).max(-normal).max(0.0);
+            rolls |= law.rolling_friction > 0.0;
+        }
+        // The torques of rolling friction do not show in snapshots.
+        let turns = !rolls && torque.length() > BALANCED * moments;
+        force.length() <= BALANCED * carried && outside <= BALANCED * carried && !turns
+    }
+
+    /// Gives contacts to the solver, in addition to those that it has.
+    fn give_back(&mut self, mut contacts: Vec<Arc<LastingContact>>) {
+        contacts.extend(self.solver.contacts().iter().cloned());
+        contacts.sort_by_key(|contact| contact.bodies);
+        self.solver.take_contacts(contacts);
+        self.solver.forget();
     }
 
     /// Returns the groups of bodies that are connected by contacts and have all rested long enough. Bodies with joints are excluded.
@@ -217,7 +256,7 @@ impl World {
         let is_meant = |island: &Island| bodies.iter().any(|body| island.bodies.contains(body));
         let (free, held) = islands.into_iter().partition(is_meant);
         self.rest.islands = held;
-        let mut contacts = self.solver.contacts().to_vec();
+        let mut contacts = Vec::new();
         for island in free {
             for &body in &island.bodies {
                 self.model.thaw(body);
@@ -225,9 +264,7 @@ impl World {
             }
             contacts.extend(island.contacts);
         }
-        contacts.sort_by_key(|contact| contact.bodies);
-        self.solver.take_contacts(contacts);
-        self.solver.forget();
+        self.give_back(contacts);
         self.integrator.discontinuity();
         true
     }
@@ -264,5 +301,43 @@ impl World {
         };
         let touched = collider.touched_at_rest(&self.model, &self.state);
         self.let_go(&touched)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface, UniformGravity};
+    use super::*;
+
+    /// A box stands on a floor and is pushed by half of the largest friction. Forces that are missing, turned round, at other places, or
+    /// outside the cone of friction do not hold it.
+    #[test]
+    fn only_forces_in_balance_and_within_the_cones_hold_a_body() {
+        let mut world = World::new();
+        let [floor, block] = [Shape::Plane { normal: DVec3::Y }, Shape::Box { size: DVec3::ONE }];
+        world.add(RigidBody { fixed: true, ..RigidBody::new(&floor, 1.0) });
+        let id = world.add(RigidBody::new(&block, 2.0).with_location(DVec3::Y * 0.5));
+        world.add_shapes([floor, block]);
+        world.add_force(UniformGravity { acceleration: DVec3::Y * -10.0 });
+        world.apply_force(id, DVec3::X * 5.0);
+        let surface = Surface { friction: Some(0.5), ..Surface::default() };
+        world.collide(Contacts { surfaces: vec![Some(surface); 2], ..Contacts::default() });
+        let snapshot = world.snapshot().unwrap();
+        let contacts = world.solver.contacts().to_vec();
+        world.model.sum(0.0, &world.state, &mut world.loads);
+        let is_balanced = |change: fn(&mut ContactSnapshot)| {
+            let mut seen = snapshot.contacts.clone();
+            seen.iter_mut().for_each(change);
+            world.is_balanced(1, &contacts, &seen)
+        };
+        assert!(is_balanced(|_| {}));
+        assert!(is_balanced(|contact| contact.force *= 1.005));
+        assert!(!is_balanced(|contact| contact.force *= 1.02));
+        assert!(!is_balanced(|contact| contact.friction = -contact.friction));
+        assert!(!is_balanced(|contact| contact.place.x += 0.02));
+        let mut slippery = contacts.clone();
+        slippery.iter_mut().for_each(|contact| Arc::make_mut(contact).law.friction = 0.23);
+        assert!(!world.is_balanced(1, &slippery, &snapshot.contacts));
+        assert!(!world.is_balanced(1, &contacts, &[]));
     }
 }

@@ -65,8 +65,10 @@ the body stays in contact and then sticks, slides or rolls according to the forc
   happen at once, by Poisson's law, without momentary rebounds. The energy stays balanced.
 - **Heaps**: if more than six pairs of bodies touch and some begin to slide or separate, time-stepping advances them until they rest, together
   with any bodies that may hit them within a step.
-- **At rest**: bodies that have rested on each other for eight steps are frozen until something touches them or a force on them changes. So
-  a heap at rest costs nothing.
+- **Several points**: bodies that touch at several points stick as long as friction within Coulomb's law can hold them, however the points
+  share it. They slide from the moment at which it cannot.
+- **At rest**: bodies that have rested on each other for eight steps, with forces that balance, are frozen until something touches them or a
+  force on them changes. So a heap at rest costs nothing.
 - **Integrators**: the default is `velocity-verlet`. Methods of first order (`euler-cromer`, `explicit-euler`) are no more accurate at
   impacts than between them; a warning gives the energy error.
 - **Energy**: impacts and friction have the accounts `impacts` and `friction` in the energy balance, and are not part of the drift.
