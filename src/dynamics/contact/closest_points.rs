@@ -186,15 +186,6 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Clo
     (ClosestPoints { gap, ..found }, i)
 }
 
-/// Returns how far a contact is inside a feature, m: the smaller of two values. One is the distance of the contact point from the border of
-/// the feature. The other is the angular distance of the normal from the limits of the feature's normals, times `size`. The normal points
-/// out of the body.
-pub(super) fn margin(feature: &Feature, pose: &Pose, place: DVec3, normal: DVec3, size: f64) -> f64 {
-    let place = pose.local(place);
-    let normal = pose.orientation.conjugate() * normal;
-    feature.margin(place).min(size * feature.slack(place, normal))
-}
-
 /// Computes the closest points of two convex parts.
 ///
 /// The gap is the largest separation along any unit vector n (C. Ericson, *Real-Time Collision Detection* (2005), 5.2), and the right n is
@@ -204,25 +195,21 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
     if let Some(found) = faces(a, pa, b, pb) {
         return found;
     }
-    let mut search = Search { a, pa, b, pb, best: None };
-    let all = |part: &Part| (0..part.features.len()).collect::<Vec<usize>>();
+    let mut search = Search::new(a, pa, b, pb);
     if a.features.len() * b.features.len() > FEW
         && let Some(guess) = gjk::cores(a, pa, b, pb)
     {
         let tolerance = NEAR * a.bound.max(b.bound);
-        let near = |part: &Part, pose: &Pose, place: DVec3| {
-            let place = pose.local(place);
-            let near = |&i: &usize| part.features[i].is_near(place, part.radius, tolerance);
-            all(part).into_iter().filter(near).collect::<Vec<usize>>()
-        };
-        search.pairs(&near(a, pa, guess.on[0]), &near(b, pb, guess.on[1]));
+        let places = [pa.local(guess.on[0]), pb.local(guess.on[1])];
+        let radii = [a.radius, b.radius];
+        search.pairs(|i, feature| feature.is_near(places[i], radii[i], tolerance));
         if let Some(found) = search.answer() {
             return found;
         }
         let on = [guess.on[0] + a.radius * guess.normal, guess.on[1] - b.radius * guess.normal];
         search.consider(ClosestPoints { gap: guess.gap - a.radius - b.radius, normal: guess.normal, on });
     }
-    search.pairs(&all(a), &all(b));
+    search.pairs(|_, _| true);
     match search.best {
         Some((along, found)) => ClosestPoints { gap: along, ..found },
         // No candidate was found, because a coordinate is NaN.
@@ -271,15 +258,57 @@ struct Search<'a> {
     pb: &'a Pose,
     /// The largest separation so far, m, and the closest points whose normal gives it.
     best: Option<(f64, ClosestPoints)>,
+    /// A bound of the rounding error of a distance between the convex parts, m.
+    digits: f64,
+    /// The corners of the cores that were farthest along the last normal for which the separation was needed. `None` for a round core.
+    last: [Option<DVec3>; 2],
 }
 
-impl Search<'_> {
-    fn pairs(&mut self, of_a: &[usize], of_b: &[usize]) {
-        for &i in of_a {
-            for &j in of_b {
-                let (of_a, of_b) = (&self.a.features[i], &self.b.features[j]);
-                let found = meet(&side(self.a, of_a), self.pa, &side(self.b, of_b), self.pb);
-                if of_a.patch.has_no_normal_with(&of_b.patch) && self.is_nearest(of_a, of_b, &found) {
+/// A feature whose patch is transformed once for all pairs: to world axes, relative to the first body.
+struct Placed<'a> {
+    feature: &'a Feature,
+    patch: Patch,
+    /// The separation along the normal of a face, m, if it is known. All pairs with this face share it.
+    separation: Option<f64>,
+}
+
+impl<'a> Search<'a> {
+    fn new(a: &'a Part, pa: &'a Pose, b: &'a Part, pb: &'a Pose) -> Search<'a> {
+        let digits = 1e-14 * (a.bound + b.bound + (pb.location - pa.location).length());
+        Search { a, pa, b, pb, best: None, digits, last: [None; 2] }
+    }
+
+    /// Places the features of a part that `is_wanted` accepts.
+    fn placed(&self, part: &'a Part, pose: &Pose, is_wanted: impl Fn(&Feature) -> bool) -> Vec<Placed<'a>> {
+        let pose = Pose { location: pose.location - self.pa.location, orientation: pose.orientation };
+        let wanted = part.features.iter().filter(|feature| is_wanted(feature));
+        let place = |feature| Placed { feature, patch: side(part, feature).placed(&pose), separation: None };
+        wanted.map(place).collect()
+    }
+
+    /// Compares the pairs of all features that `is_wanted` accepts. Its first argument is 0 for a feature of the first part, else 1.
+    fn pairs(&mut self, is_wanted: impl Fn(usize, &Feature) -> bool) {
+        let mut of_a = self.placed(self.a, self.pa, |feature| is_wanted(0, feature));
+        let mut of_b = self.placed(self.b, self.pb, |feature| is_wanted(1, feature));
+        let origin = self.pa.location;
+        for x in &mut of_a {
+            for y in &mut of_b {
+                // The normal of a pair with a face is that of the face.
+                let face = match (x.patch, y.patch) {
+                    (Patch::Plane { normal, .. }, _) => Some((&mut x.separation, normal)),
+                    (_, Patch::Plane { normal, .. }) => Some((&mut y.separation, -normal)),
+                    _ => None,
+                };
+                if let Some((known, normal)) = face {
+                    let along = *known.get_or_insert_with(|| self.separation(normal));
+                    if along > self.floor() {
+                        self.best_of(along, meet_placed(&x.patch, &y.patch).moved(origin));
+                    }
+                    continue;
+                }
+                let found = meet_placed(&x.patch, &y.patch).moved(origin);
+                let has_no_normal = x.feature.patch.has_no_normal_with(&y.feature.patch);
+                if has_no_normal && self.is_nearest(x.feature, y.feature, &found) {
                     self.best_of(found.gap, found);
                 } else {
                     self.consider(found);
@@ -292,7 +321,7 @@ impl Search<'_> {
     /// the two features. The gap is then exact. The normal is less accurate: its rounding error grows as the gap shrinks, so the
     /// separation along it would be too small.
     fn is_nearest(&self, of_a: &Feature, of_b: &Feature, found: &ClosestPoints) -> bool {
-        let lost = (1e-6 + self.digits() / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
+        let lost = (1e-6 + self.digits / found.gap.max(f64::MIN_POSITIVE)).min(1.0);
         [(of_a, self.pa, self.a, 0, 1.0), (of_b, self.pb, self.b, 1, -1.0)].into_iter().all(
             |(feature, pose, part, side, sign)| {
                 let place = pose.local(found.on[side]);
@@ -302,12 +331,25 @@ impl Search<'_> {
         )
     }
 
+    /// Returns the separation at or below which no candidate becomes the best, m.
+    fn floor(&self) -> f64 {
+        self.best.map_or(f64::NEG_INFINITY, |(best, _)| best - self.digits)
+    }
+
     fn consider(&mut self, found: ClosestPoints) {
-        self.best_of(separation(self.a, self.pa, self.b, self.pb, found.normal), found);
+        // The separation along a normal is at most that of any two corners. Rounding keeps this order.
+        if let [Some(a), Some(b)] = self.last {
+            let [local_a, local_b] = self.local(found.normal);
+            if self.between_supports(found.normal, a.dot(local_a), b.dot(local_b)) <= self.floor() {
+                return;
+            }
+        }
+        let along = self.separation(found.normal);
+        self.best_of(along, found);
     }
 
     fn best_of(&mut self, along: f64, found: ClosestPoints) {
-        let digits = self.digits();
+        let digits = self.digits;
         // Of several candidates with the same separation, the one whose gap is closest to this separation counts.
         let better = self.best.is_none_or(|(other, nearest)| {
             along > other + digits
@@ -326,22 +368,74 @@ impl Search<'_> {
             let place = pose.local(place);
             part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
         };
+        let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;
         // The closest points of overlapping convex parts may lie outside of the features.
-        let is_certain = along <= 0.0 || parts.into_iter().all(is_on);
-        let is_exact = (found.gap - along).abs() <= 4.0 * self.digits();
-        (is_exact && is_certain).then_some(ClosestPoints { gap: along, ..found })
+        let is_certain = is_exact && (along <= 0.0 || parts.into_iter().all(is_on));
+        is_certain.then_some(ClosestPoints { gap: along, ..found })
     }
 
-    /// Returns a bound of the rounding error of a distance between the convex parts, m.
-    fn digits(&self) -> f64 {
-        1e-14 * (self.a.bound + self.b.bound + (self.pb.location - self.pa.location).length())
+    /// Returns a vector from the first part to the second in the body axes of the first, and the opposite vector in those of the second.
+    fn local(&self, normal: DVec3) -> [DVec3; 2] {
+        [self.pa.orientation.conjugate() * normal, -(self.pb.orientation.conjugate() * normal)]
+    }
+
+    /// Computes the separation of the convex parts along a unit vector from the first to the second, m. It is negative if their projections
+    /// overlap.
+    fn separation(&mut self, normal: DVec3) -> f64 {
+        let [local_a, local_b] = self.local(normal);
+        let (high_a, high_b) = (self.a.core.support(local_a), self.b.core.support(local_b));
+        let corner = |part: &Part, at: DVec3| matches!(part.core, Core::Hull(_)).then_some(at);
+        self.last = [corner(self.a, high_a), corner(self.b, high_b)];
+        self.between_supports(normal, high_a.dot(local_a), high_b.dot(local_b))
+    }
+
+    /// Computes the separation along a unit vector from the heights of the cores along it, m.
+    fn between_supports(&self, normal: DVec3, high_a: f64, high_b: f64) -> f64 {
+        (self.pb.location - self.pa.location).dot(normal) - high_a - high_b - self.a.radius - self.b.radius
     }
 }
 
-/// Computes the separation of two convex parts along a unit vector from the first to the second, m. It is negative if their projections
-/// overlap.
-fn separation(a: &Part, pa: &Pose, b: &Part, pb: &Pose, normal: DVec3) -> f64 {
-    let (local_a, local_b) = (pa.orientation.conjugate() * normal, -(pb.orientation.conjugate() * normal));
-    let (high_a, high_b) = (a.core.support(local_a).dot(local_a), b.core.support(local_b).dot(local_b));
-    (pb.location - pa.location).dot(normal) - high_a - high_b - a.radius - b.radius
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{ALL, Random, solid};
+    use super::*;
+
+    impl Search<'_> {
+        /// Compares all pairs of features as [`Search::pairs`] does, without its shortcuts.
+        fn plain_pairs(&mut self) {
+            for x in &self.a.features {
+                for y in &self.b.features {
+                    let found = meet(&side(self.a, x), self.pa, &side(self.b, y), self.pb);
+                    if x.patch.has_no_normal_with(&y.patch) && self.is_nearest(x, y, &found) {
+                        self.best_of(found.gap, found);
+                    } else {
+                        let along = self.separation(found.normal);
+                        self.best_of(along, found);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_search_finds_what_the_comparison_of_all_pairs_finds() {
+        let mut random = Random::new(12);
+        for a in &ALL {
+            for b in &ALL {
+                let (a, b) = (solid(a), solid(b));
+                let (a, b) = (&a.parts()[0], &b.parts()[0]);
+                for k in 0..60 {
+                    let pa = random.pose(0.3);
+                    let mut pb = random.pose([0.3, 1.0, 2.0][k % 3]);
+                    if k % 2 == 0 {
+                        pb.orientation = pa.orientation;
+                    }
+                    let (mut search, mut plain) = (Search::new(a, &pa, b, &pb), Search::new(a, &pa, b, &pb));
+                    search.pairs(|_, _| true);
+                    plain.plain_pairs();
+                    assert_eq!(format!("{:?}", search.best), format!("{:?}", plain.best), "{pa:?} {pb:?}");
+                }
+            }
+        }
+    }
 }

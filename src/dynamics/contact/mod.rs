@@ -10,6 +10,7 @@ mod change;
 mod closest_points;
 mod collider;
 mod crowd;
+mod facing;
 mod feature;
 #[cfg_attr(not(feature = "time-stepping"), path = "no_gjk.rs")]
 mod gjk;

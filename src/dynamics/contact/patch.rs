@@ -118,6 +118,27 @@ impl Patch {
         self.is_sharp() && other.is_sharp() && (corner(self) || corner(other))
     }
 
+    /// Returns false if two edges, corners, or round parts of constant radius are certainly farther apart than `within`, m: no point of
+    /// the length of one is nearer to the length of the other. `within` must allow for rounding errors.
+    pub(super) fn may_reach(&self, other: &Patch, within: f64) -> bool {
+        let (Some(a), Some(b)) = (self.spine(), other.spine()) else { return true };
+        if a.taper != 0.0 || b.taper != 0.0 {
+            return true;
+        }
+        let (w, cosine, reach) = (b.at - a.at, a.along.dot(b.along).abs(), within + a.radius + b.radius);
+        let (on_a, on_b) = (w.dot(a.along), w.dot(b.along));
+        if on_a.abs() > a.half + b.half * cosine + reach || on_b.abs() > b.half + a.half * cosine + reach {
+            return false;
+        }
+        // No point of one length is nearer to the line of the other than its middle, less the way it leans there.
+        let (sine, square) = ((1.0 - cosine * cosine).max(0.0).sqrt(), w.length_squared());
+        let is_near = |on: f64, half: f64| {
+            let far = half * sine + reach;
+            square - on * on <= far * far
+        };
+        is_near(on_a, b.half) && is_near(on_b, a.half)
+    }
+
     /// Returns the segment of balls whose envelope is the patch. `None` for planes and rims.
     fn spine(&self) -> Option<Spine> {
         let zero = DVec3::ZERO;

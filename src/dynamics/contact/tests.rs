@@ -13,18 +13,18 @@ use super::touch::{Touch, inside, touches};
 use crate::dynamics::shape::{Mesh, Shape};
 
 /// Random numbers between −1 and 1 from a fixed seed, the same in every run.
-struct Random(ChaCha8Rng);
+pub(super) struct Random(ChaCha8Rng);
 
 impl Random {
-    fn new(seed: u64) -> Random {
+    pub(super) fn new(seed: u64) -> Random {
         Random(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    fn number(&mut self) -> f64 {
+    pub(super) fn number(&mut self) -> f64 {
         self.0.next_u64() as f64 / u64::MAX as f64 * 2.0 - 1.0
     }
 
-    fn vector(&mut self) -> DVec3 {
+    pub(super) fn vector(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number())
     }
 
@@ -33,7 +33,7 @@ impl Random {
         DQuat::from_xyzw(vector.x, vector.y, vector.z, self.number()).normalize()
     }
 
-    fn pose(&mut self, far: f64) -> Pose {
+    pub(super) fn pose(&mut self, far: f64) -> Pose {
         Pose { location: far * self.vector(), orientation: self.turn() }
     }
 }
@@ -47,7 +47,7 @@ fn turned(pose: Pose, orientation: DQuat) -> Pose {
 }
 
 #[allow(clippy::unwrap_used, reason = "a test fails where the shape is none that touches")]
-fn solid(shape: &Shape) -> Solid {
+pub(super) fn solid(shape: &Shape) -> Solid {
     Solid::of(shape).unwrap()
 }
 
@@ -68,7 +68,7 @@ const CAN: Shape = Shape::Cylinder { radius: 0.4, height: 1.2 };
 const PILL: Shape = Shape::Capsule { radius: 0.3, height: 1.6 };
 const CONE: Shape = Shape::Cone { radius: 0.5, top_radius: 0.0, height: 1.0 };
 const BUCKET: Shape = Shape::Cone { radius: 0.3, top_radius: 0.6, height: 0.8 };
-const ALL: [Shape; 7] = [BALL, CUBE, SOFT, CAN, PILL, CONE, BUCKET];
+pub(super) const ALL: [Shape; 7] = [BALL, CUBE, SOFT, CAN, PILL, CONE, BUCKET];
 
 #[test]
 fn gaps_have_closed_forms() {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::closest_points::{ClosestPoints, EDGE, apart, ball_and, between, edge, for_pairs, margin};
+use super::closest_points::{ClosestPoints, EDGE, apart, ball_and, between, edge, for_pairs};
+use super::facing::{Facing, facing};
 use super::feature::Feature;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
@@ -11,6 +12,8 @@ use super::solid::{Core, Part, Pose, Solid};
 const FLAT: f64 = 1e-7;
 /// Two contact points count as the same if their distance is below this fraction of the body's size.
 const SAME: f64 = 1e-6;
+/// The tolerances at the borders of two features and the rounding errors there are below this fraction of the bodies' sizes.
+const BORDER: f64 = 1e-6;
 /// The largest number of contact points kept for a pair of convex parts. They are enough to hold one part on the other.
 const MOST: usize = 8;
 
@@ -142,13 +145,31 @@ impl Pair<'_> {
 
     /// Adds the contact points of all pairs of features at which two convex parts touch.
     fn convex(&mut self) {
-        let nearest = between(self.a, self.pa, self.b, self.pb);
-        if nearest.gap > self.within {
-            return;
-        }
-        self.depth = self.within + nearest.gap.abs() + SAME * self.a.bound.min(self.b.bound);
-        let near_a = near_plane(self.a, self.pa, nearest.on[0], nearest.normal, self.depth);
-        let near_b = near_plane(self.b, self.pb, nearest.on[1], -nearest.normal, self.depth);
+        let (a, pa, b, pb) = (self.a, self.pa, self.b, self.pb);
+        let (gap, normal, tops) = match facing(a, pa, b, pb, self.within) {
+            Some(Facing::Apart) => return,
+            Some(Facing::Near { gap, normal }) => {
+                let top = |part: &Part, pose: &Pose, normal: DVec3| {
+                    let normal = pose.orientation.conjugate() * normal;
+                    part.core.support(normal).dot(normal) + part.radius
+                };
+                (gap, normal, [top(a, pa, normal), top(b, pb, -normal)])
+            }
+            None => {
+                let nearest = between(a, pa, b, pb);
+                if nearest.gap > self.within {
+                    return;
+                }
+                let top = |pose: &Pose, at: DVec3, normal: DVec3| {
+                    pose.local(at).dot(pose.orientation.conjugate() * normal)
+                };
+                let normal = nearest.normal;
+                (nearest.gap, normal, [top(pa, nearest.on[0], normal), top(pb, nearest.on[1], -normal)])
+            }
+        };
+        self.depth = self.within + gap.abs() + SAME * a.bound.min(b.bound);
+        let near_a = near_plane(a, pa, tops[0] - self.depth, normal);
+        let near_b = near_plane(b, pb, tops[1] - self.depth, -normal);
         // Each feature is transformed once, not for each pair.
         let near_a = placed(self.a, self.pa, self.pa.location, near_a);
         let near_b = placed(self.b, self.pb, self.pa.location, near_b);
@@ -167,9 +188,11 @@ impl Pair<'_> {
         is_wanted: fn(&Patch, &Patch) -> bool,
     ) {
         let origin = self.pa.location;
+        // Beyond this distance, two features do not touch within their borders.
+        let reach = self.within.max(2.0 * self.depth) + BORDER * (self.a.bound + self.b.bound);
         for (i, a) in near_a {
             for (j, b) in near_b {
-                if !is_wanted(a, b) {
+                if !is_wanted(a, b) || !a.may_reach(b, reach) {
                     continue;
                 }
                 let meeting = meet_placed(a, b);
@@ -261,9 +284,12 @@ impl Pair<'_> {
             let edge = edge(part, !patches[1 - side].is_sharp());
             // Two faces may be slightly tilted while all corners are within reach.
             let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
-            let place = feature.margin(pose.local(meeting.on[side]));
-            if place < -edge || margin(feature, pose, meeting.on[side], normal, part.bound) < -edge.max(tilt)
-            {
+            let place = pose.local(meeting.on[side]);
+            if feature.margin(place) < -edge {
+                return;
+            }
+            let normal = pose.orientation.conjugate() * normal;
+            if part.bound * feature.slack(place, normal) < -edge.max(tilt) {
                 return;
             }
         }
@@ -340,9 +366,84 @@ fn placed(part: &Part, pose: &Pose, origin: DVec3, features: Vec<usize>) -> Vec<
     features.into_iter().map(|i| (i, part.features[i].patch.placed(&pose))).collect()
 }
 
-/// Returns the indices of the features of a convex part that extend along `normal` at least as far as the point `at`, less `depth`, m.
-fn near_plane(part: &Part, pose: &Pose, at: DVec3, normal: DVec3, depth: f64) -> Vec<usize> {
-    let (at, normal) = (pose.local(at), pose.orientation.conjugate() * normal);
-    let lowest = at.dot(normal) - depth;
+/// Returns the indices of the features of a convex part that extend along `normal` at least as far as `lowest`, m, from the body's center.
+fn near_plane(part: &Part, pose: &Pose, lowest: f64, normal: DVec3) -> Vec<usize> {
+    let normal = pose.orientation.conjugate() * normal;
     (0..part.features.len()).filter(|&i| part.features[i].highest(normal, part) >= lowest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::super::tests::{ALL, Random, solid};
+    use super::*;
+    use crate::dynamics::shape::Shape;
+
+    /// Lists the contact points of two convex parts without shortcuts: by the closest points, and all pairs of features near them.
+    fn plain(pair: &mut Pair) {
+        let nearest = between(pair.a, pair.pa, pair.b, pair.pb);
+        if nearest.gap > pair.within {
+            return;
+        }
+        pair.depth = pair.within + nearest.gap.abs() + SAME * pair.a.bound.min(pair.b.bound);
+        let near = |part: &Part, pose: &Pose, at: DVec3, normal: DVec3| {
+            let lowest = pose.local(at).dot(pose.orientation.conjugate() * normal) - pair.depth;
+            near_plane(part, pose, lowest, normal)
+        };
+        let near_a = near(pair.a, pair.pa, nearest.on[0], nearest.normal);
+        let near_b = near(pair.b, pair.pb, nearest.on[1], -nearest.normal);
+        for is_wanted in [is_needed, Patch::has_no_normal_with] {
+            for (i, j) in near_a.iter().flat_map(|i| near_b.iter().map(move |j| (*i, *j))) {
+                if is_wanted(&pair.a.features[i].patch, &pair.b.features[j].patch) {
+                    pair.add(i, j);
+                }
+            }
+            if !pair.found.is_empty() {
+                break;
+            }
+        }
+        pair.thin_out();
+    }
+
+    #[test]
+    fn touches_are_those_of_all_pairs_of_features() {
+        let mut random = Random::new(13);
+        let brick = Shape::Box { size: DVec3::new(0.2, 0.1, 0.2) };
+        let shapes: Vec<&Shape> = ALL.iter().skip(1).chain([&brick]).collect();
+        let (mut found, mut points) = (0, 0);
+        for x in &shapes {
+            for y in &shapes {
+                let (x, y) = (solid(x), solid(y));
+                let (a, b) = (&x.parts()[0], &y.parts()[0]);
+                for k in 0..120 {
+                    let pa = random.pose([0.0, 3.0][k % 2]);
+                    // The second body rests on the first, askew by less and less, or has any pose.
+                    let noise = [1e-3, 1e-6, 1e-9, 1e-12, 0.0, 1.0][k % 6];
+                    let spin = [0.0, random.number(), std::f64::consts::FRAC_PI_2][k / 6 % 3];
+                    let askew = DQuat::from_scaled_axis(noise * random.vector());
+                    let orientation = pa.orientation * (askew * DQuat::from_rotation_y(spin)).normalize();
+                    let slide = DVec3::new(0.3 * random.number(), 0.0, 0.3 * random.number());
+                    let mut pb = Pose { location: pa.point(slide + 3.0 * DVec3::Y), orientation };
+                    let apart = between(a, &pa, b, &pb);
+                    let way = if noise == 1.0 { apart.normal } else { pa.orientation * DVec3::Y };
+                    let top = a.support(DVec3::Y).y - b.support(-DVec3::Y).y;
+                    let flush = if noise == 1.0 { apart.gap } else { 3.0 - top };
+                    pb.location -= (flush + noise.min(1e-3) * random.number()) * way;
+                    let within = [1e-3, 1e-5, 1e-8][k / 18 % 3];
+                    let pair = || {
+                        let (depth, found) = (f64::INFINITY, Vec::new());
+                        Pair { a, pa: &pa, b, pb: &pb, parts: [0, 0], within, depth, found }
+                    };
+                    let (mut quick, mut plainly) = (Vec::new(), pair());
+                    pair().add_to(&mut quick);
+                    plain(&mut plainly);
+                    assert_eq!(format!("{quick:?}"), format!("{:?}", plainly.found), "{pa:?} {pb:?}");
+                    found += usize::from(!quick.is_empty());
+                    points += quick.len();
+                }
+            }
+        }
+        assert!(found > 2_000 && points > 5_000, "{found} {points}");
+    }
 }

@@ -335,9 +335,6 @@ impl Collider {
         within: f64,
     ) -> Vec<Arc<LastingContact>> {
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));
-        if nearest(x, &p, y, &q, f64::INFINITY).is_none_or(|near| near.gap > within) {
-            return Vec::new();
-        }
         let closed = |touch| LastingContact {
             bodies: pair.bodies,
             touch,
