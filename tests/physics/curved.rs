@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use jabuka::dynamics::{BodyId, Dynamics, RigidBody, Shape, World};
 
-use crate::common::method;
+use crate::common::{frames, method};
 use crate::contacts::{G, Table, advance, surface};
 
 /// A fixed support that a body rolls or slides down: its shape, its radius R in m, and its orientation.
@@ -118,4 +118,43 @@ fn a_can_that_rolls_on_its_rim_keeps_its_energy() {
     assert!(after.drift.abs() < 1e-8, "{after:?}");
     assert!((after.total - before.total).abs() < 1e-8 * before.kinetic, "{before:?} {after:?}");
     assert!(world.location(can).x.abs() > 0.01, "it rolls");
+}
+
+/// A nearly flat coin falls and spins. Its lowest point runs around the rim, faster than any point of the coin, so the rim can come down
+/// where it was high at the beginning of a step. No point of the rim enters the ground.
+#[test]
+fn no_rim_enters_the_ground() {
+    const RADIUS: f64 = 0.5;
+    const HEIGHT: f64 = 0.2;
+    for (tilt, spin) in [(0.01_f64, 0.3), (0.01, 1.0), (0.01, 3.0), (0.001, 1.0), (0.001, 3.0)] {
+        for turn in [30, 100, 170] {
+            let (sin, cos) = libm::sincos(f64::from(turn).to_radians());
+            let frames = frames(&format!(
+                "[simulation]
+                duration = 0.2
+                frame_rate = 100
+                step = 0.01
+                gravity = [0, -9.81, 0]
+                contacts = 'event-driven'
+                integrator = 'velocity-verlet'
+                [body.coin]
+                shape.cylinder = {{ radius = {RADIUS}, height = {HEIGHT} }}
+                location = [0, 0.12, 0]
+                orientation = {{ axis = [1, 0, 0], angle = {angle} }}
+                angular_velocity = [{x}, 0, {z}]
+                restitution = 0.5
+                friction = 0.3",
+                angle = tilt.to_degrees(),
+                x = -spin * cos,
+                z = spin * sin,
+            ));
+            for frame in &frames {
+                let coin = &frame.bodies[0];
+                let axis = coin.orientation * DVec3::Y;
+                let lean = axis.reject_from_normalized(DVec3::Y).length();
+                let lowest = coin.location.y - RADIUS * lean - 0.5 * HEIGHT * axis.y.abs();
+                assert!(lowest > -1e-9, "{tilt} {spin} {turn}, t = {}: {lowest:e}", frame.time);
+            }
+        }
+    }
 }

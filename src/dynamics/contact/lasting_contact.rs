@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::constraint::{Constraint, Equations, Law, Member, Members, Scale};
 use super::super::{Anchor, BodyId};
 use super::change::Change;
-use super::patch::meet;
+use super::patch::{Patch, meet};
 use super::solid::Pose;
 use super::touch::Touch;
 use super::{ContactProperties, ContactSnapshot, closest_points::ClosestPoints};
@@ -25,10 +25,24 @@ pub(in crate::dynamics) struct LastingContact {
     pub(in crate::dynamics) size: f64,
     /// The bodies count as at rest at this contact if they separate more slowly than this, m/s.
     pub(in crate::dynamics) still: f64,
+    /// For a rim on a plane: the unit direction from the center of the rim to the contact point, world axes. Zero for all others.
+    pub(in crate::dynamics) spoke: DVec3,
 }
 
-/// Limits for the cosine of the angle by which the normal has turned since the contact was found. Below the first limit, the step ends and
-/// the tangents are chosen again. At events with another cause, the tangents are chosen again below the second.
+/// Returns the unit direction from the center of a rim to its contact point with a plane, world axes; zero for all other contacts.
+pub(in crate::dynamics) fn spoke(patches: &[Patch; 2], poses: [&Pose; 2], meeting: &ClosestPoints) -> DVec3 {
+    let side = match patches {
+        [Patch::Circle { .. }, Patch::Plane { .. }] => 0,
+        [Patch::Plane { .. }, Patch::Circle { .. }] => 1,
+        _ => return DVec3::ZERO,
+    };
+    let Patch::Circle { centre, .. } = patches[side] else { return DVec3::ZERO };
+    (meeting.on[side] - poses[side].point(centre)).normalize_or_zero()
+}
+
+/// Limits for the cosine of the angle by which the normal has turned since the contact was found, or the contact point has run around a
+/// rim. Below the first limit, the step ends and the contact is found again. At events with another cause, it is found again below the
+/// second.
 const TURNED: [f64; 2] = [0.0, 0.25];
 
 impl LastingContact {
@@ -46,13 +60,23 @@ impl LastingContact {
     /// valid.
     pub(in crate::dynamics) fn is(&self, new: &LastingContact) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
-        is_same && self.touch.meeting.normal.dot(new.touch.meeting.normal) >= TURNED[1]
+        let has_turned = |old: DVec3, new: DVec3| old != DVec3::ZERO && old.dot(new) < TURNED[1];
+        is_same
+            && !has_turned(self.touch.meeting.normal, new.touch.meeting.normal)
+            && !has_turned(self.spoke, new.spoke)
     }
 
-    /// Returns how far the contact normal is from the limit at which the tangents become invalid, as a difference of cosines. If the
-    /// result is negative, the tangents must be chosen again.
+    /// Returns how far the contact normal, and the contact point on a rim, are from the limit at which the contact must be found again, as a
+    /// difference of cosines. It is negative beyond the limit. The contact point of a nearly flat rim can run around it within a step, and
+    /// forces at the place where it was would then press the rim into the plane.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
-        self.touch.meeting.normal.dot(self.meet(poses).normal) - TURNED[0]
+        let meeting = self.meet(poses);
+        let turned = self.touch.meeting.normal.dot(meeting.normal) - TURNED[0];
+        if self.spoke == DVec3::ZERO {
+            return turned;
+        }
+        let spoke = spoke(&self.touch.patches, [&poses[0], &poses[1]], &meeting);
+        turned.min(self.spoke.dot(spoke) - TURNED[0])
     }
 
     /// Returns two unit tangents, perpendicular to the normal and to each other. They turn with the normal by the shortest way from those

@@ -15,8 +15,9 @@ use super::Impact;
 use super::closest_points::ClosestPoints;
 use super::collider::{Collider, SLIGHT, Touching};
 use super::impulse::{Bounce, impulses};
-use super::lasting_contact::LastingContact;
+use super::lasting_contact::{LastingContact, spoke};
 use super::laws::LawResidual;
+use super::path::pose;
 use super::touch::Touch;
 
 /// A rebound speed below this fraction of the largest closing speed is suppressed, because it would be invisible.
@@ -171,7 +172,9 @@ impl Collider {
             let snug = pair.snug.iter().filter(|_| !near.is_empty()).filter(is_still);
             for touch in near.iter().copied().chain(snug) {
                 let (bodies, law) = (pair.bodies, pair.law);
-                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, still }));
+                let [a, b] = bodies.map(|body| pose(body, model, state));
+                let spoke = spoke(&touch.patches, [&a, &b], &touch.meeting);
+                closed.push(Arc::new(LastingContact { bodies, touch: *touch, law, size, still, spoke }));
             }
         }
         Ok(Strike { closed, struck })

@@ -17,13 +17,13 @@ use super::super::super::{Accounts, BodyId, Breakdown, Impact, Loads, Model, Sta
 use super::super::approach::close;
 use super::super::closest_points::nearest;
 use super::super::collider::{Collider, Scale};
-use super::super::lasting_contact::LastingContact;
+use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::laws::LawResidual;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 use super::super::solid::Solid;
 use super::super::strike::kinetic;
-use super::super::touch::touches;
+use super::super::touch::{Touch, touches};
 use super::Crowd;
 
 /// The smallest and the largest number of substeps in a step.
@@ -335,8 +335,9 @@ impl Collider {
         within: f64,
     ) -> Vec<Arc<LastingContact>> {
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));
-        let closed = |touch| LastingContact {
+        let closed = |touch: Touch| LastingContact {
             bodies: pair.bodies,
+            spoke: spoke(&touch.patches, [&p, &q], &touch.meeting),
             touch,
             law: pair.law,
             size: self.size(pair.bodies),
