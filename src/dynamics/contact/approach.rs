@@ -3,15 +3,12 @@
 //! The rate at which their gap closes is bounded by the velocity and the rotation along the normal n, and by the curvature of the paths.
 //! Time steps that are safe by this bound lead to the first touch at any speed. When the bodies are close, each pair of nearby points has
 //! a bound of its own: one corner can leave the floor while another comes down. The lowest point of a nearly flat rim runs around the rim
-//! faster than any point of the body moves, so a rim has one bound for all its points. Source: B. V. Mirtich, *Impulse-based dynamic
+//! faster than any point of the body moves, so a rim has a bound of its own, see `rim_bound.rs`. Source: B. V. Mirtich, *Impulse-based dynamic
 //! simulation of rigid body systems* (1996), chapter 2 (conservative advancement).
 
-use glam::DVec2;
-
 use super::closest_points::{ClosestPoints, nearest};
-use super::patch::Patch;
 use super::path::{Moving, Path};
-use super::solid::{Part, Pose, Solid};
+use super::solid::{Pose, Solid};
 use super::touch::touches;
 
 /// Bodies touch if their gap is below this fraction of their coordinates, a few rounding errors. Lower bounces are ignored.
@@ -27,10 +24,6 @@ const SLACK: f64 = 1e-8;
 /// The largest number of safe time steps in one search. After them, each step covers at least the fraction `PART` of the whole interval.
 const STEPS: usize = 2_000;
 const PART: f64 = 1.0 / 64.0;
-
-/// The search for a root ends when it is known to within this fraction, or after this number of steps.
-const KNOWN: f64 = 1e-3;
-const ROOT_STEPS: usize = 50;
 
 /// The search for the first touch of two bodies on their paths through a step.
 pub(super) struct Approach<'a> {
@@ -144,79 +137,6 @@ impl Approach<'_> {
             }
         }
         (shrink, bend)
-    }
-
-    /// Computes a lower bound of the time after which any rim of a body can reach the other body, s; at least `most` if none can until then.
-    ///
-    /// A convex body lies below the plane through its closest point. The height of a point of a rim above this plane, and the rate of this
-    /// height, are sines of the angle around the rim. So the least height of all points is known for bodies that move at constant
-    /// velocities; `bend` bounds the accelerations, m/s².
-    fn until_rims(&self, near: &ClosestPoints, moving: &[Moving; 2], bend: f64, most: f64) -> f64 {
-        let mut safe = f64::INFINITY;
-        for (i, own) in moving.iter().enumerate() {
-            let other = 1 - i;
-            let theirs = self.solids[other];
-            let is_below = theirs.parts().iter().all(Part::is_ground) || are_convex(self.solids);
-            if theirs.is_ball() || !is_below {
-                continue;
-            }
-            let (up, theirs) = (if i == 1 { near.normal } else { -near.normal }, &moving[other]);
-            let turning = own.turning - theirs.turning;
-            for feature in self.solids[i].parts().iter().flat_map(|part| &part.features) {
-                let Patch::Circle { centre, axis, radius } = feature.patch else { continue };
-                let centre = own.pose.point(centre);
-                let velocity = own.velocity + own.turning.cross(centre - own.pose.location)
-                    - theirs.velocity
-                    - theirs.turning.cross(centre - theirs.pose.location);
-                let (height, rate) = (up.dot(centre - near.on[other]), up.dot(velocity));
-                let axis = own.pose.orientation * axis;
-                let x = axis.any_orthonormal_vector();
-                let y = axis.cross(x);
-                let lean = radius * DVec2::new(up.dot(x), up.dot(y));
-                let leaning = radius * DVec2::new(up.dot(turning.cross(x)), up.dot(turning.cross(y)));
-                let lowest = |t: f64| height + rate * t - (lean + t * leaning).length() - 0.5 * bend * t * t;
-                let slope = |t: f64| {
-                    let falling = (lean + t * leaning).normalize_or(leaning.normalize_or_zero()).dot(leaning);
-                    rate - falling - bend * t
-                };
-                safe = safe.min(self.until_root(lowest, slope, most));
-            }
-        }
-        safe
-    }
-
-    /// Returns a lower bound of the last time at which a concave function is zero, s; `most` if it is positive until then. If the function
-    /// begins at zero, to within the gap of touching bodies, it has to rise first. `slope` is its derivative.
-    fn until_root(&self, value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, most: f64) -> f64 {
-        let (mut low, mut high) = (0.0, most);
-        if value(low) <= self.touch {
-            if slope(high) >= 0.0 {
-                return most;
-            }
-            // The largest value of the function.
-            for _ in 0..ROOT_STEPS {
-                let middle = 0.5 * (low + high);
-                *(if slope(middle) > 0.0 { &mut low } else { &mut high }) = middle;
-            }
-            high = most;
-            if value(low) <= self.touch {
-                return low;
-            }
-        }
-        if value(high) > 0.0 {
-            return most;
-        }
-        for _ in 0..ROOT_STEPS {
-            // A chord lies below a concave function, and a tangent above.
-            let (start, end) = (value(low), value(high));
-            let next = high - end / slope(high);
-            low += (high - low) * start / (start - end);
-            high = next;
-            if high - low <= KNOWN * low {
-                break;
-            }
-        }
-        low
     }
 
     /// Computes a lower bound of the time after which a gap can be closed, s. `shrink` is its closing rate, m/s, and `bend` bounds its

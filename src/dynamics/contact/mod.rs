@@ -21,6 +21,7 @@ mod laws;
 mod pairs;
 mod patch;
 mod path;
+mod rim_bound;
 mod solid;
 mod strike;
 mod surface;
