@@ -1,11 +1,13 @@
-//! The error of a run whose motion leaves the range of numbers: which force drives it, and whether a shorter step helps.
+//! The error of a run in which a position or a velocity becomes infinite or too large to compute with. It names the force that causes
+//! this, and says whether a shorter step helps.
 
 use super::build;
 use crate::diagnostic::{Sources, Span};
 use crate::dynamics::{self, BodyId};
 use crate::scene::Scene;
 
-/// The error of a run whose motion leaves the range of numbers: the timestep is too long for the method, or the forces are too large.
+/// The error of a run in which a position or a velocity becomes infinite or too large to compute with. Either the timestep is too long for
+/// the method, or the forces are too large.
 #[derive(Clone, Debug)]
 pub struct Diverged {
     /// The name of the first body with such a position or velocity.

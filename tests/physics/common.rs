@@ -79,40 +79,52 @@ pub(crate) fn origin() -> Anchor {
     Anchor::Point(DVec3::ZERO)
 }
 
-/// Runs a scene in which a torque presses an arm on the rotor that carries it, about an axle at `place`, and returns its frames. The arm
-/// first closes a gap of 1 mm, and hits the rotor.
-pub(crate) fn pressed_arm(place: DVec3, (duration, frame_rate, step): (f64, u32, f64)) -> Vec<Frame> {
-    let DVec3 { x, y, z } = place;
-    frames(&format!(
+/// Returns a scene without gravity and ground, in which an arm can touch the rotor that carries it. `times` holds the keys of the
+/// simulation's times, and `bodies` the tables of `rotor` and `arm`. The rotor has its axle at `middle`, and the arm its elbow at `elbow`,
+/// both m; all hinges are along z.
+pub(crate) fn arm_on_rotor(times: &str, bodies: &str, [middle, elbow]: [DVec3; 2]) -> String {
+    format!(
         "[simulation]
-        duration = {duration}
-        frame_rate = {frame_rate}
-        step = {step}
+        {times}
         gravity = [0, 0, 0]
         contacts = 'event-driven'
         integrator = 'velocity-verlet'
         [environment]
         ground = false
-        [defaults.body]
-        friction = 0.5
-        [body.rotor]
-        shape.box.size = [2, 0.2, 0.2]
-        location = [{x}, {y}, {z}]
-        mass = 4
-        [body.arm]
-        shape.box.size = [1, 0.1, 0.1]
-        location = ['{x} + 0.5', '{y} + 0.151', {z}]
-        torque = [0, 0, -2]
-        mass = 1
+        {bodies}
         [joint.axle.hinge]
-        between = [[{x}, {y}, {z}], 'rotor']
+        between = [{:?}, 'rotor']
         axis = [0, 0, 1]
         [joint.elbow.hinge]
         between = ['rotor', 'arm']
-        at = ['{x} + 0.1', '{y} + 0.151', {z}]
+        at = {:?}
         axis = [0, 0, 1]
-        collides = true"
-    ))
+        collides = true",
+        middle.to_array(),
+        elbow.to_array(),
+    )
+}
+
+/// Runs a scene in which a torque presses an arm on the rotor that carries it, about an axle at `place`, and returns its frames. The arm
+/// first closes a gap of 1 mm, and hits the rotor.
+pub(crate) fn pressed_arm(place: DVec3, (duration, frame_rate, step): (f64, u32, f64)) -> Vec<Frame> {
+    let times = format!("duration = {duration}\nframe_rate = {frame_rate}\nstep = {step}");
+    let bodies = format!(
+        "[defaults.body]
+        friction = 0.5
+        [body.rotor]
+        shape.box.size = [2, 0.2, 0.2]
+        location = {:?}
+        mass = 4
+        [body.arm]
+        shape.box.size = [1, 0.1, 0.1]
+        location = {:?}
+        torque = [0, 0, -2]
+        mass = 1",
+        place.to_array(),
+        (place + DVec3::new(0.5, 0.151, 0.0)).to_array(),
+    );
+    frames(&arm_on_rotor(&times, &bodies, [place, place + DVec3::new(0.1, 0.151, 0.0)]))
 }
 
 /// Returns a ball with a radius of 0.1 m and a mass of 1 kg.

@@ -1,7 +1,7 @@
 //! Tests of friction at several points at once: bodies stay as long as any forces within the cones of friction hold them, and slide from
 //! then on, against closed forms.
 //!
-//! Each scene is tried along an axis, and turned by 30° about the vertical with other masses.
+//! Each scene is tried twice: once along the x axis, and once turned by 30° about the vertical, with all masses times 7.
 
 use glam::{DQuat, DVec3};
 use jabuka::simulate::Frame;

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use jabuka::dynamics::Balance;
 
-use crate::common::{frames, pressed_arm};
+use crate::common::{arm_on_rotor, frames, pressed_arm};
 
 /// An arm hangs on a turning rotor by a hinge, with the edges of both pressed together right beside the hinge, so that the contact hardly
 /// differs from a bearing. Nothing moves against anything else: the energy and the angular momentum about the rotor's axis stay, and
@@ -14,40 +14,27 @@ fn a_contact_beside_a_hinge_conserves_angular_momentum() {
     let places = [DVec3::new(1.0, 3.0, 0.0), DVec3::ZERO, DVec3::new(-7.0, 0.0, 2.0)];
     // Over some seconds, the contacts open and close hundreds of times.
     for (middle, duration) in [(places[0], 0.4), (places[1], 0.4), (places[2], 0.4), (places[0], 4.0)] {
-        let DVec3 { x, y, z } = middle;
-        let frames = frames(&format!(
-            "[simulation]
-            duration = {duration}
-            frame_rate = 25
-            gravity = [0, 0, 0]
-            contacts = 'event-driven'
-            integrator = 'velocity-verlet'
-            [environment]
-            ground = false
-            [body.rotor]
-            location = [{x}, {y}, {z}]
+        let bodies = format!(
+            "[body.rotor]
+            location = {:?}
             shape.box.size = [2, 0.2, 0.2]
             angular_velocity = [0, 0, 5]
             mass = 4
             [body.arm]
-            location = ['{x} + 1.5', '{y} + 0.15', {z}]
+            location = {:?}
             shape.box.size = [1, 0.1, 0.1]
             velocity = [-0.75, 7.5, 0]
             angular_velocity = [0, 0, 5]
             mass = 1
-            [joint.axle.hinge]
-            between = [[{x}, {y}, {z}], 'rotor']
-            axis = [0, 0, 1]
-            [joint.elbow.hinge]
-            between = ['rotor', 'arm']
-            at = ['{x} + 1', '{y} + 0.15', {z}]
-            axis = [0, 0, 1]
-            collides = true
             [force.band.spring]
             between = [{{ body = 'rotor', at = [0, 0, 0] }}, {{ body = 'arm', at = [0.2, 0, 0] }}]
             stiffness = 50
-            rest_length = 0.5"
-        ));
+            rest_length = 0.5",
+            middle.to_array(),
+            (middle + DVec3::new(1.5, 0.15, 0.0)).to_array(),
+        );
+        let times = format!("duration = {duration}\nframe_rate = 25");
+        let frames = frames(&arm_on_rotor(&times, &bodies, [middle, middle + DVec3::new(1.0, 0.15, 0.0)]));
         let about = |i: usize| {
             let balance = &frames[i].balance;
             balance.angular_momentum.z - middle.cross(balance.linear_momentum).z

@@ -1,9 +1,10 @@
 //! Contact forces within the cones of friction, where the contact points of two bodies can share their forces in many ways.
 //!
-//! A box stands on four corners: three equations of balance for its normal forces, and three for the friction of eight rows. The
-//! factorization picks the forces with the smallest sum of squares. Some of them can lie outside their cones (|λ| ≤ μ λₙ) although others
-//! would hold the box as well. Sweeps over all contacts then find forces within the cones, and with them the points that slip: those that
-//! accelerate against the largest friction. Nothing slips as long as any forces within the cones hold the bodies.
+//! A box stands on four corners. Its balance gives three equations for the four normal forces, and three for the eight components of
+//! friction, so many sets of forces hold it. The factorization picks the set with the smallest sum of squares. In this set, some forces can
+//! lie outside their cones (|λ| ≤ μ λₙ), although another set within the cones would hold the box as well. Sweeps over all contacts then
+//! look for a set within the cones. If there is none, they show which points slip: those that accelerate although their friction is at its
+//! limit.
 
 use glam::DVec2;
 
@@ -15,27 +16,29 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::sweep::{Purpose, Stopping};
 
-/// The sweeps end when they change accelerations by less than this fraction of the largest acceleration.
-const SETTLED: f64 = 1e-12;
+/// The sweeps end when they change no acceleration by more than this fraction of the largest acceleration.
+const SWEEP_CHANGE: f64 = 1e-12;
 
-/// The largest number of sweeps.
-const SWEEPS: usize = 2_000;
+/// The largest number of sweeps in one search for forces.
+const MOST_SWEEPS: usize = 2_000;
 
 /// The forces are found if they violate no law of contacts by more than this fraction of the largest acceleration.
-const FOUND: f64 = 1e-7;
+const LARGEST_VIOLATION: f64 = 1e-7;
 
-/// A contact that sticks begins to slip if its acceleration exceeds this fraction of the largest acceleration.
-pub(super) const SLIPS: f64 = 1e-9;
+/// A contact that sticks begins to slip if the acceleration of its slip exceeds this fraction of the largest acceleration.
+pub(super) const LEAST_SLIP: f64 = 1e-9;
 
-/// A slip that begins with more than this fraction of the largest acceleration shows its direction more exactly than the friction does.
-const CLEAR: f64 = 1e-4;
+/// If a slip begins with more than this fraction of the largest acceleration, its direction is taken from the acceleration. A slower one
+/// takes the direction of the friction, which is then known more exactly.
+const CLEAR_SLIP: f64 = 1e-4;
 
-/// The speed, as a multiple of the largest acceleration times 1 s, that no friction reaches. Friction that drives a slip towards this
-/// speed has its full size.
-const UNREACHED: f64 = 1e12;
+/// The sweeps drive the slip of a sliding contact towards an acceleration that no friction can give, so its friction has its full size.
+/// This is that acceleration, as a multiple of the largest one.
+const UNREACHABLE: f64 = 1e12;
 
 impl Solver {
-    /// Returns the first row of a pair that begins to slide along its friction, or else of one that sticks with a force outside its cone.
+    /// Returns the first row of a pair of friction rows in a wrong mode: one that begins to slide in the direction in which friction pushes it,
+    /// or else one that sticks with a force outside its cone.
     /// `slight` is the tolerance for accelerations.
     pub(super) fn strained(&self, accelerations: &[f64], slight: f64) -> Option<usize> {
         let is_strained = |grip: &&FrictionPair| {
@@ -93,7 +96,7 @@ impl Solver {
             };
         }
         for grip in self.grips.iter().filter(|grip| self.slips(grip)) {
-            let goal = UNREACHED * size * grip.push;
+            let goal = UNREACHABLE * size * grip.push;
             (goals[grip.row], goals[grip.row + 1]) = (goal.x, goal.y);
         }
         let contacts = self.unknown.clone();
@@ -105,10 +108,14 @@ impl Solver {
         }
         // Sweeps over rates find forces if each rate is an acceleration.
         self.rows.iter_mut().for_each(|row| std::mem::swap(&mut row.rate, &mut row.bias));
-        self.sweep_all(&goals, Purpose::Forces(1.0), Stopping::fast(SETTLED * size).at_most(SWEEPS));
+        self.sweep_all(
+            &goals,
+            Purpose::Forces(1.0),
+            Stopping::fast(SWEEP_CHANGE * size).at_most(MOST_SWEEPS),
+        );
         let accelerations = self.rates_now();
         self.rows.iter_mut().for_each(|row| std::mem::swap(&mut row.rate, &mut row.bias));
-        let is_found = self.lawlessness(&accelerations, can_push) <= FOUND * size;
+        let is_found = self.lawlessness(&accelerations, can_push) <= LARGEST_VIOLATION * size;
         if has_joints {
             self.see_constrained_accelerations(t, state, loads);
         }
@@ -153,8 +160,8 @@ impl Solver {
         }
     }
 
-    /// Returns by how much the forces in `unknown` violate the laws of contacts, as an acceleration: the largest change of an acceleration
-    /// by one more step of each row towards its law.
+    /// Returns by how much the forces in `unknown` violate the laws of contacts, as an acceleration. Each force is corrected once by its own
+    /// law, with the other forces as they are; the largest change of an acceleration counts.
     fn lawlessness(&self, accelerations: &[f64], can_push: impl Fn(usize) -> bool) -> f64 {
         let weights = self.columns.weights();
         let normals = (0..self.rows.len()).filter(|&row| self.laws[row] == Law::Inequality && can_push(row));
@@ -178,7 +185,7 @@ impl Solver {
 
     /// Decides from shared forces, in `unknown`, and their accelerations which contacts push, stick, and begin to slide.
     pub(super) fn grip_as_shared(&mut self, accelerations: &[f64], can_push: &[bool]) {
-        let slight = SLIPS * self.largest_acceleration;
+        let slight = LEAST_SLIP * self.largest_acceleration;
         for row in (0..self.rows.len()).filter(|&row| self.laws[row] == Law::Inequality && can_push[row]) {
             let opens = self.unknown[row] <= 0.0 && accelerations[row] > slight * self.unit(row);
             self.modes[row] = if opens { Mode::Open } else { Mode::Held };
@@ -193,7 +200,7 @@ impl Solver {
             } else if slip.length() > slight * self.unit(row) {
                 let force = self.grips[i].of(&self.unknown);
                 let grip = &mut self.grips[i];
-                let is_clear = slip.length() > CLEAR * self.largest_acceleration || force == DVec2::ZERO;
+                let is_clear = slip.length() > CLEAR_SLIP * self.largest_acceleration || force == DVec2::ZERO;
                 grip.push = if is_clear { -slip.normalize() } else { force.normalize() };
                 (grip.heading, grip.is_beginning) = (-grip.push, true);
                 Mode::Slid
@@ -208,7 +215,7 @@ impl Solver {
     /// and joints feel together stays the same.
     pub(in crate::dynamics) fn share_seen_forces(&mut self, model: &Model, t: f64, state: &State) {
         let size = self.largest_acceleration;
-        if self.strained(&vec![0.0; self.rows.len()], SLIPS * size).is_none() {
+        if self.strained(&vec![0.0; self.rows.len()], LEAST_SLIP * size).is_none() {
             return;
         }
         let mut loads = Loads::default();

@@ -2,7 +2,7 @@
 
 use super::super::{Loads, Model, State};
 use super::Law;
-use super::cone::SLIPS;
+use super::cone::LEAST_SLIP;
 use super::friction::FrictionPair;
 use super::jacobian;
 use super::modes::Mode;
@@ -91,7 +91,7 @@ impl Solver {
                 // Other forces may hold the contact: it slips only if none do.
                 Some(slips) => {
                     let unit = self.unit(grip.row);
-                    part(-grip.of(slips).length(), force * unit, 2.0 * SLIPS)
+                    part(-grip.of(slips).length(), force * unit, 2.0 * LEAST_SLIP)
                 }
                 None => part(-self.excess(grip), force * self.unit(grip.row), PULLED),
             },
@@ -117,8 +117,8 @@ impl Solver {
         self.largest_acceleration = self.largest_acceleration.max(acceleration);
     }
 
-    /// Records the speeds that the loads, without constraint forces, give to touching bodies within a step. The rates of bodies that start
-    /// from rest are measured against them: they have no others.
+    /// Records the speeds that the loads alone, without constraint forces, would give to touching bodies in a step. Bodies that start from rest
+    /// have no other speed to which rounding errors of their rates can be compared.
     pub(super) fn note_loads(&mut self, model: &Model, loads: &Loads) {
         for &body in self.contacts.iter().flat_map(|contact| &contact.bodies) {
             let speed = self.step * model.inverse_mass()[body] * loads.force[body].length();
@@ -127,7 +127,7 @@ impl Solver {
         self.largest_rate = self.largest_rate.max(self.speed_by_loads);
     }
 
-    /// Returns the largest speed that loads have given to a touching body within a step so far, m/s.
+    /// Returns the largest change of speed of a touching body by its loads in one step, of all steps so far, m/s.
     pub(in crate::dynamics) fn speed_by_loads(&self) -> f64 {
         self.speed_by_loads
     }

@@ -32,14 +32,13 @@ pub(super) const TOUCHED: f64 = 1e-9;
 const CAUGHT: usize = 4;
 
 /// The largest number of times that one decision of modes shares the contact forces anew.
-const SHARES: usize = 8;
+const MOST_SHARES: usize = 8;
 
 /// A sum below this fraction of its largest term counts as a rounding error.
 pub(super) const SLIGHT: f64 = 1e-10;
 
-/// An instant, as a fraction of a step: two events that are closer to each other cannot be told apart reliably. A motor that reaches its
-/// speed within an instant gets the speed by an impulse.
-const INSTANT: f64 = 1e-8;
+/// A motor that reaches its speed within this fraction of a step gets the speed by an impulse.
+const MOTOR_INSTANT: f64 = 1e-8;
 
 impl Mode {
     /// Returns the initial mode of a constraint row with this law.
@@ -284,7 +283,7 @@ impl Solver {
             are_found = true;
             for (i, fast) in fast.iter_mut().enumerate() {
                 let Law::SpeedMotor { limit } = self.laws[i] else { continue };
-                if *fast && self.unknown[i].abs() > limit * INSTANT * self.step {
+                if *fast && self.unknown[i].abs() > limit * MOTOR_INSTANT * self.step {
                     (*fast, are_found) = (false, false);
                 }
             }
@@ -375,7 +374,7 @@ impl Solver {
             match last {
                 None => {
                     let strained = self.strained(&accelerations, SLIGHT * size);
-                    if strained.is_none() || shares == SHARES {
+                    if strained.is_none() || shares == MOST_SHARES {
                         return strained;
                     }
                     shares += 1;

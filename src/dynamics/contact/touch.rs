@@ -418,7 +418,7 @@ mod tests {
                 let (a, b) = (&x.parts()[0], &y.parts()[0]);
                 for k in 0..120 {
                     let pa = random.pose([0.0, 3.0][k % 2]);
-                    // The second body rests on the first, askew by less and less, or has any pose.
+                    // The second body rests on the first, tilted by an angle that becomes smaller. Each sixth pair has an arbitrary pose.
                     let noise = [1e-3, 1e-6, 1e-9, 1e-12, 0.0, 1.0][k % 6];
                     let spin = [0.0, random.number(), std::f64::consts::FRAC_PI_2][k / 6 % 3];
                     let askew = DQuat::from_scaled_axis(noise * random.vector());

@@ -90,7 +90,7 @@ impl World {
                 }
                 self.solver.blame_friction(&self.model, now + duration);
             }
-            // What ends this part of the step: an event, or else a jump, or else the end of the step.
+            // An event ends this part of the step, or else a jump. If there is neither, the whole step is done.
             let Some(end) = event.map(|_| duration).or(jump.map(|jump| jump.after)) else {
                 self.look_within(now, duration, left, see);
                 self.disperse(t + dt);

@@ -30,8 +30,8 @@ impl World {
         }
     }
 
-    /// Lets Moreau's scheme advance the heap of a contact whose friction reached its limit, from time `t`, s. Where few bodies touch, the
-    /// forces are shared instead.
+    /// Hands a heap to Moreau's scheme, from time `t`, s, if the friction of one of its contacts has reached its limit. Does nothing where
+    /// only a few bodies touch: `cone.rs` finds their forces.
     pub(super) fn crowd_strained(&mut self, t: f64) {
         let bodies = self.solver.take_strained();
         let Some(collider) = self.collider.as_mut().filter(|_| !bodies.is_empty()) else { return };
@@ -49,7 +49,7 @@ impl World {
         }
     }
 
-    /// Returns the two bodies of a contact that changes its mode in this event; `None` for other events.
+    /// Returns the two bodies of the contact that an event changes, for example from sticking to sliding. `None` for other events.
     pub(super) fn pair_of(&self, event: Event) -> Option<[usize; 2]> {
         let Event::Row(row) = event else { return None };
         self.solver.contact_of(&self.model, row)
