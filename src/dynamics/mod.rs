@@ -119,7 +119,7 @@ pub use state::{Accounts, State, WorkAccount};
 pub use stepping::{Link, LinkKind, TimeStepping};
 pub use system::System;
 pub use track::{Interpolation, Keyframe, Track};
-pub use world::World;
+pub use world::{ContactPolicy, World};
 
 /// An engine that advances bodies in time. The rest of the program uses this interface, and does not depend on the implementation.
 pub trait Dynamics: Send {

@@ -8,7 +8,9 @@ mod event;
 mod jump;
 mod picture;
 mod piece;
+mod policy;
 mod rest;
+mod stepped;
 
 #[cfg(feature = "time-stepping")]
 pub(super) use advance::steps_of;
@@ -16,6 +18,7 @@ pub(super) use advance::steps_of;
 use glam::{DQuat, DVec3};
 
 use self::picture::{picture, push_crowd};
+pub use self::policy::ContactPolicy;
 use self::rest::Rest;
 use super::constraint::Solver;
 use super::contact::Collider;
@@ -47,6 +50,8 @@ pub struct World {
     calendar: PresenceSchedule,
     /// The search for contacts between bodies; `None` if bodies do not collide.
     collider: Option<Collider>,
+    /// How contacts are handled within a step.
+    policy: ContactPolicy,
     /// The bodies held at rest, with their contacts.
     rest: Rest,
     /// The contacts of bodies in the crowd (the bodies that Moreau's scheme advances). Filled only in the copy of the world that is made
@@ -99,6 +104,7 @@ impl World {
             ledger: EnergyLedger::new(),
             calendar: PresenceSchedule::default(),
             collider: None,
+            policy: ContactPolicy::default(),
             rest: Rest::default(),
             crowd: Vec::new(),
             steps: 0,
@@ -181,7 +187,9 @@ impl World {
         let mut system = System::new(model, solver);
         system.begin(*time, state);
         system.evaluate(*time, state, loads);
-        push_crowd(crowd, model, loads);
+        if model.constraints().is_empty() {
+            push_crowd(crowd, model, loads);
+        }
         model.guide(*time, loads);
         if let Some(copy) = copy {
             self.loads = copy.loads;

@@ -132,6 +132,13 @@ impl Solver {
         self.speed_by_loads
     }
 
+    /// Records the largest acceleration that loads give to a body, m/s².
+    pub(in crate::dynamics) fn note_acceleration(&mut self, acceleration: f64) {
+        if acceleration.is_finite() {
+            self.largest_acceleration = self.largest_acceleration.max(acceleration);
+        }
+    }
+
     /// Returns the typical change of a constraint row's rate c' by forces within `time` seconds, m/s.
     pub(in crate::dynamics) fn usual_change(&self, time: f64) -> f64 {
         let change = self.largest_acceleration * time;

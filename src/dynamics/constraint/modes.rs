@@ -19,7 +19,8 @@ pub(super) enum Mode {
     Held,
     /// The constraint row is inactive: it exerts no force.
     Open,
-    /// The motor of this constraint row pushes with its limit. The value is the sign of its multiplier, ±1.
+    /// The motor of this constraint row pushes with its limit. The value is the sign of its multiplier, ±1. In snapshots of Moreau's scheme,
+    /// it is the part of the limit with which the motor pushed, and for a stop (an inequality) its multiplier.
     Pushed(f64),
     /// The friction row slides: friction has its full size and opposes the slip.
     Slid,
@@ -46,6 +47,15 @@ impl Mode {
         match law {
             Law::Equality => Mode::Held,
             Law::Inequality | Law::SpeedMotor { .. } | Law::Friction { .. } => Mode::Open,
+        }
+    }
+
+    /// Returns the multiplier of a constraint row if its mode gives it.
+    pub(super) fn given(self, law: Law) -> Option<f64> {
+        match (law, self) {
+            (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => Some(sign * limit),
+            (Law::Inequality, Mode::Pushed(force)) => Some(force),
+            _ => None,
         }
     }
 

@@ -1,7 +1,6 @@
 //! The constraint forces that belong to the positions, velocities and loads of one moment.
 
 use super::super::{Loads, Model, State};
-use super::Law;
 use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
 use super::modes::Mode;
 use super::solver::Solver;
@@ -106,10 +105,7 @@ impl Solver {
             return;
         };
         for (value, (law, mode)) in unknown.iter_mut().zip(laws.iter().zip(modes)) {
-            *value = match (law, mode) {
-                (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => *sign * *limit,
-                _ => 0.0,
-            };
+            *value = mode.given(*law).unwrap_or(0.0);
         }
         for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
             let (i, member) = (structure.bodies[member], &members[member]);

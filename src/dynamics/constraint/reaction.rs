@@ -3,9 +3,8 @@
 use glam::DVec3;
 
 use super::super::{Anchor, Model};
-use super::modes::Mode;
 use super::solver::Solver;
-use super::{Law, Member, Members};
+use super::{Member, Members};
 
 /// The force and the torque of a constraint on its second end, in world axes. Those on the first end are opposite. Both are zero while a
 /// body of the constraint is absent. Redundant equations carry no load; the independent equations carry it all.
@@ -46,10 +45,7 @@ impl Solver {
             let motor_row = model.constraints()[place.constraint].motor_row();
             let mut motor = 0.0;
             for row in place.row..place.row + place.rows {
-                let multiplier = match (self.laws[row], self.modes[row]) {
-                    (Law::SpeedMotor { limit }, Mode::Pushed(sign)) => sign * limit,
-                    _ => self.unknown[row],
-                };
+                let multiplier = self.modes[row].given(self.laws[row]).unwrap_or(self.unknown[row]);
                 if motor_row == Some(row - place.row) {
                     motor = multiplier;
                 }

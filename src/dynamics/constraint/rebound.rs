@@ -34,6 +34,8 @@ struct Rebound {
     rows: usize,
     /// The time from the start of the substep until the bodies touch, s.
     time: f64,
+    /// The part of the impulse that the contact repeats.
+    restitution: f64,
 }
 
 impl Solver {
@@ -61,8 +63,7 @@ impl Solver {
         let mut impulses = self.unknown.clone();
         self.least = vec![0.0; impulses.len()];
         for rebound in &rebounds {
-            let restitution = self.contacts[rebound.contact].law.restitution;
-            self.least[rebound.row] = restitution * impulses[rebound.row];
+            self.least[rebound.row] = rebound.restitution * impulses[rebound.row];
         }
         self.push_all(model, goals, Purpose::Impact, state);
         self.least.clear();
@@ -73,6 +74,11 @@ impl Solver {
         let mut impacts: Vec<Impact> = rebounds.iter().filter_map(impact).collect();
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
         Struck { impacts, early }
+    }
+
+    /// Records impacts without a rebound from now on, too.
+    pub(in crate::dynamics) fn count_soft_impacts(&mut self) {
+        self.counts_soft_impacts = true;
     }
 
     /// Returns the smallest impulse that a constraint row may have: the second phase of Poisson's law for a contact that rebounds,
@@ -96,8 +102,16 @@ impl Solver {
                 (self.contacts[contact].law.restitution, self.contacts[contact].bodies);
             let (rate, goal) = (rates[place.row], goals[place.row]);
             let slow = if restitution < 1.0 { bodies.iter().map(change).sum() } else { 0.0 };
-            let is_fast = rate < goal && -restitution * rate > slow;
-            is_fast.then(|| Rebound { contact, row: place.row, rows: place.rows, time: goal / rate * part })
+            // A rebound that the loads would undo is none.
+            let rebounds = -restitution * rate > slow;
+            let is_fast = rate < goal && (rebounds || self.counts_soft_impacts && -rate > slow);
+            is_fast.then(|| Rebound {
+                contact,
+                row: place.row,
+                rows: place.rows,
+                time: goal / rate * part,
+                restitution: if rebounds { restitution } else { 0.0 },
+            })
         };
         self.structure.iter().flat_map(|structure| &structure.places).filter_map(rebound).collect()
     }

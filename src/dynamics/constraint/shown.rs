@@ -7,6 +7,8 @@ use glam::DVec3;
 use super::super::contact::LastingContact;
 use super::super::{ContactSnapshot, Loads, Model, State};
 use super::solver::Solver;
+use super::Law;
+use super::modes::Mode;
 use super::sweep::Purpose;
 
 /// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces
@@ -39,6 +41,27 @@ impl Solver {
             solver.push_all(model, &goals, Purpose::Forces(1.0), &mut given.clone());
         }
         solver.contact_snapshots(model)
+    }
+
+    /// Returns the forces of limits and motors that the Gauss–Seidel sweeps of the last substep of Moreau's scheme have found: the
+    /// constraint, its row, and the multiplier of each.
+    pub(in crate::dynamics) fn joint_forces(&self) -> &[(usize, usize, f64)] {
+        &self.joint_forces
+    }
+
+    /// Lets limits and motors exert these forces, as [`joint_forces`](Self::joint_forces) gives them, instead of deciding their modes.
+    pub(in crate::dynamics) fn give_joint_forces(&mut self, model: &Model, forces: &[(usize, usize, f64)]) {
+        self.forget();
+        self.plan(model);
+        for &(constraint, row, force) in forces {
+            let Some(row) = self.first_row.get(constraint).copied().flatten().map(|first| first + row) else {
+                continue;
+            };
+            self.modes[row] = match self.laws[row] {
+                Law::SpeedMotor { limit } => Mode::Pushed(if limit.is_finite() { force / limit } else { 0.0 }),
+                _ => Mode::Pushed(force),
+            };
+        }
     }
 
     /// Returns the contact forces that the Gauss–Seidel sweeps of the last substep of Moreau's scheme have found.

@@ -82,6 +82,10 @@ pub(in crate::dynamics) struct Solver {
     pub(super) columns: Columns,
     /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
     pub(super) warm: LastForces,
+    /// The forces of limits and motors that the last sweeps found: the constraint, its row, and the multiplier.
+    pub(super) joint_forces: Vec<(usize, usize, f64)>,
+    /// True if impacts without a rebound are recorded, too.
+    pub(super) counts_soft_impacts: bool,
     /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of Moreau's scheme.
     pub(super) forced: f64,
     /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.

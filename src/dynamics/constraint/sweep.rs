@@ -187,6 +187,11 @@ impl Solver {
         Some((self.contacts[hardest.constraint - self.joints()].bodies, sum))
     }
 
+    /// Returns the largest rate of a constraint row before the contact forces acted, in the last part of a step, m/s.
+    pub(in crate::dynamics) fn fastest(&self) -> f64 {
+        self.forced
+    }
+
     /// Forgets the last forces, from which the next sweeps would start.
     pub(in crate::dynamics) fn start_cold(&mut self) {
         self.warm = LastForces::default();
@@ -342,6 +347,14 @@ impl Solver {
             warm.note(&self.contacts[contact], forces);
         }
         self.warm = warm;
+        let mut joint_forces = Vec::new();
+        for place in self.structure.iter().flat_map(|structure| &structure.places) {
+            let rows = (place.row..place.row + place.rows).filter(|_| place.constraint < self.joints());
+            let is_one = |row: &usize| self.laws[*row] != Law::Equality && self.unknown[*row] != 0.0;
+            let force = |row| (place.constraint, row - place.row, self.unknown[row] / time);
+            joint_forces.extend(rows.filter(is_one).map(force));
+        }
+        self.joint_forces = joint_forces;
     }
 
     /// Returns the number of constraints that precede the contacts: those of the model.

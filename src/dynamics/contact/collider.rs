@@ -148,7 +148,7 @@ impl Collider {
     }
 
     /// Creates the solids of all bodies that were added since the last call.
-    fn meet_bodies(&mut self, model: &Model) {
+    pub(super) fn meet_bodies(&mut self, model: &Model) {
         for i in self.solids.len()..model.len() {
             let collides = self.contacts.surfaces.get(i).is_some_and(Option::is_some);
             let solid = model.shape(i).filter(|_| collides).and_then(Solid::of);

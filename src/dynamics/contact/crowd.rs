@@ -4,6 +4,7 @@
 //! heap that settles. Moreau's scheme advances such bodies to the end of the step. Bodies to which this happens repeatedly stay in the
 //! crowd for some more steps.
 
+mod all;
 mod heap;
 mod hits;
 mod substep_motion;
@@ -40,6 +41,8 @@ pub(in crate::dynamics) struct Crowd {
     again: BTreeMap<usize, Again>,
     /// How well the laws that no contact can break have been kept.
     laws: LawBook,
+    /// True if Moreau's scheme handles all contacts. Bodies held at rest are immovable then.
+    is_all: bool,
     /// The bodies that Moreau's scheme has advanced as part of a heap, that is, of many touching bodies.
     heaps: BTreeSet<usize>,
 }
@@ -104,7 +107,10 @@ impl Crowd {
             return false;
         }
         let is_in = |body: &usize| self.bodies.contains(body);
-        bodies.iter().any(is_in) && bodies.iter().all(|body| is_in(body) || !model.can_move(*body))
+        let is_immovable = |body: usize| {
+            if self.is_all { model.inverse_mass()[body] == 0.0 } else { !model.can_move(body) }
+        };
+        bodies.iter().any(is_in) && bodies.iter().all(|body| is_in(body) || is_immovable(*body))
     }
 }
 
@@ -136,6 +142,11 @@ impl Collider {
         let is_here = |place: &&Arc<LastingContact>| place.is_of(&self.crowd.bodies);
         let places: Vec<_> = self.crowd.places.iter().filter(is_here).cloned().collect();
         self.crowd.solver.last_forces(places, model, t, state)
+    }
+
+    /// Returns the contacts of the crowd's bodies at the end of the last step.
+    pub(in crate::dynamics) fn last_places(&self) -> &[Arc<LastingContact>] {
+        &self.crowd.places
     }
 
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.

@@ -45,6 +45,11 @@ impl World {
         self.end = t + dt;
         self.solver.expect_step(dt);
         self.check_rest(t);
+        if self.is_stepped() {
+            self.step_by_moreau(t, dt, moments, see);
+            self.hold_still(t + dt);
+            return;
+        }
         self.is_sudden = self.next_jump(t, dt).is_some();
         if !self.step_apart(t, dt, moments, see) {
             self.decide_all(t);

@@ -141,6 +141,9 @@ impl World {
     /// Returns a copy of the world in which the modes of all contacts are decided, for snapshots. `None` if they are already decided in
     /// this world.
     pub(super) fn decided(&self) -> Option<World> {
+        if self.is_stepped() {
+            return Some(self.seen_by_moreau(self.time, &self.state));
+        }
         let is_crowded = self.collider.as_ref().is_some_and(Collider::is_crowded);
         if self.is_decided && !is_crowded {
             return None;

@@ -17,7 +17,10 @@ pub(super) fn picture(
     let model = system.model();
     system.begin(time, state);
     system.evaluate(time, state, loads);
-    push_crowd(crowd, model, loads);
+    if model.constraints().is_empty() {
+        // Joints bear the forces of the crowd, which are among the loads of their bodies then.
+        push_crowd(crowd, model, loads);
+    }
     model.guide(time, loads);
     let bodies = BodySnapshot::of_all(model, state, loads);
     let mut contacts = system.contacts(time, state);

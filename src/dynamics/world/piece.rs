@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::World;
+use super::{ContactPolicy, World};
 use super::event::Event;
 use crate::dynamics::{BodyId, Breakdown, System};
 
@@ -107,6 +107,10 @@ impl World {
     /// Handles bodies that touch or separate: applies impacts to bodies that approach, and finds contacts that last. If no consistent
     /// forces exist, Moreau's scheme advances the bodies. Returns true if there was an impact.
     pub(super) fn meet(&mut self, t: f64, is_touch: bool) -> bool {
+        if self.is_stepped() {
+            // Moreau's scheme handles all contacts in the next step.
+            return false;
+        }
         let has_struck = self.meet_once(t, is_touch, true);
         self.crowd_undecided(t);
         has_struck
@@ -115,6 +119,9 @@ impl World {
     /// Handles bodies that come to rest: decides the modes of all contacts, including those of heaps, which do not return to Moreau's
     /// scheme.
     pub(super) fn meet_at_rest(&mut self, t: f64) {
+        if self.is_stepped() {
+            return;
+        }
         self.meet_once(t, false, false);
         self.crowd_undecided(t);
     }
@@ -180,6 +187,10 @@ impl World {
     /// Starts contacts at the current state. Overlapping bodies are an error; touching bodies have impacts or stay in contact.
     pub(super) fn begin_contacts(&mut self) {
         let Some(collider) = &mut self.collider else { return };
+        if self.policy == ContactPolicy::TimeStepping {
+            // Overlapping bodies are moved apart in the first step.
+            return;
+        }
         let closed = self.solver.contacts();
         if let Some(breakdown) = collider.start(&self.model, self.time, &self.state, closed) {
             self.solver.fail(breakdown);

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::World;
+use super::{ContactPolicy, World};
 use crate::dynamics::contact::{Collider, LastingContact};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
@@ -66,6 +66,11 @@ impl Rest {
         bodies.iter().map(calm).min().is_some_and(|least| least % CALM == CALM - 1)
     }
 
+    /// Returns true if a body was at rest at the end of the last step.
+    pub(super) fn is_calm(&self, body: usize) -> bool {
+        self.calm.get(body).is_some_and(|calm| *calm > 0)
+    }
+
     fn holds(&self, body: usize) -> bool {
         self.islands.iter().any(|island| island.bodies.contains(&body))
     }
@@ -77,20 +82,27 @@ impl World {
         let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
         self.rest.calm.resize(self.model.len(), 0);
+        let is_stepped = self.policy == ContactPolicy::TimeStepping;
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
             let speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
-            let slow = if collider.was_in_crowd(i) { CREEP * slow } else { slow };
+            let slow = if is_stepped || collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
         // If a group cannot be held yet, the next attempt is some steps later.
         let is_due =
             |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
-        let new =
-            if self.rest.calm.iter().enumerate().any(is_due) { self.calm_islands() } else { Vec::new() };
-        if new.is_empty() {
-            return;
+        let is_due = self.rest.calm.iter().enumerate().any(is_due);
+        if is_due && is_stepped {
+            self.solver.take_contacts(collider.last_places().to_vec());
         }
-        let was_in_crowd = |bodies: &BTreeSet<usize>| bodies.iter().any(|&body| collider.was_in_crowd(body));
+        let new = if is_due { self.calm_islands() } else { Vec::new() };
+        let Some(collider) = self.collider.as_ref().filter(|_| !new.is_empty()) else {
+            self.leave_contacts();
+            return;
+        };
+        let was_in_crowd = |bodies: &BTreeSet<usize>| {
+            is_stepped || bodies.iter().any(|&body| collider.was_in_crowd(body))
+        };
         let (heaps, others): (Vec<_>, Vec<_>) = new.into_iter().partition(was_in_crowd);
         let mut held = self.seen_by_sweeps(t, heaps);
         held.extend(self.seen_as_decided(t, others));
@@ -100,7 +112,15 @@ impl World {
         self.rest.islands.extend(held);
         self.solver.forget();
         self.integrator.discontinuity();
+        self.leave_contacts();
         self.meet_at_rest(t);
+    }
+
+    /// Takes all contacts from the solver if Moreau's scheme handles them.
+    fn leave_contacts(&mut self) {
+        if self.is_stepped() {
+            self.solver.take_contacts(Vec::new());
+        }
     }
 
     /// Creates the held groups of bodies that Moreau's scheme brought to rest. Their contact forces are found by sweeps over the contacts,
@@ -265,6 +285,7 @@ impl World {
             contacts.extend(island.contacts);
         }
         self.give_back(contacts);
+        self.leave_contacts();
         self.integrator.discontinuity();
         true
     }

@@ -35,7 +35,7 @@ const FAR: f64 = 0.12;
 
 /// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
 /// size.
-const GRASP: f64 = 1e-5;
+pub(super) const GRASP: f64 = 1e-5;
 
 /// Bodies are jammed if they overlap at the end of the step by more than this fraction of the smaller body's size.
 const DEEP: f64 = 0.01;
@@ -77,6 +77,17 @@ pub(super) struct SubstepMotion {
     impacts: Vec<Impact>,
     /// The two moments within substeps that were computed last: the time since the beginning of the motion, s, and the state.
     between: [(f64, State); 2],
+}
+
+impl SubstepMotion {
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at the end of the motion.
+    pub(super) fn last(&self) -> &State {
+        self.states.last().unwrap_or(&self.first)
+    }
+
+    pub(super) fn failure(&self) -> Option<Breakdown> {
+        self.failure
+    }
 }
 
 impl Collider {
@@ -125,21 +136,22 @@ impl Collider {
 
     /// Computes the motion of the crowd (the bodies that Moreau's scheme advances) from the state `before`, for `span` seconds. Bodies
     /// outside the crowd move at their velocities in `after`.
-    fn course(
+    pub(super) fn course(
         &mut self,
         model: &Model,
         (t, span): (f64, f64),
         (before, after): (&State, &State),
         loads: &mut Loads,
     ) -> SubstepMotion {
-        let parts = self.parts(model, before, span);
+        let pairs = self.crowd_pairs(model, before, span);
+        let parts = self.parts(model, before, span, &pairs);
         let mut course = SubstepMotion {
             start: t,
             part: span / parts,
             states: vec![self.crowd.part_of(before)],
             first: before.clone(),
             velocity: after.velocity.clone(),
-            pairs: self.crowd_pairs(model, before, span),
+            pairs,
             ..SubstepMotion::default()
         };
         for k in 0..parts as usize {
@@ -161,7 +173,7 @@ impl Collider {
     }
 
     /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
-    fn moment(&mut self, course: &mut SubstepMotion, time: f64, model: &Model, loads: &mut Loads) -> State {
+    pub(super) fn moment(&mut self, course: &mut SubstepMotion, time: f64, model: &Model, loads: &mut Loads) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
         let k = ((passed + SAME) as usize).min(last);
@@ -259,7 +271,7 @@ impl Collider {
 
     /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
     /// advances) handles.
-    fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
+    pub(super) fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
         let margin = |i: usize| match &self.solids[i] {
             Some(solid) if self.crowd.bodies.contains(&i) => {
                 let speed =
@@ -292,15 +304,21 @@ impl Collider {
         all
     }
 
-    /// Returns the number of substeps in a step of `dt` seconds: fast bodies need more.
-    fn parts(&self, model: &Model, state: &State, dt: f64) -> f64 {
+    /// Returns the number of substeps in a step of `dt` seconds: fast bodies need more. If all bodies are in the crowd, those that meet no
+    /// other do not count.
+    fn parts(&self, model: &Model, state: &State, dt: f64, pairs: &[Pair]) -> f64 {
+        let mut counted = self.crowd.bodies.clone();
+        if self.crowd.is_all {
+            let near: BTreeSet<usize> = pairs.iter().flat_map(|pair| pair.bodies).collect();
+            counted.retain(|body| near.contains(body));
+        }
         let way = |&i: &usize| {
             let (size, reach) =
                 self.solids[i].as_ref().map_or((f64::INFINITY, 0.0), |solid| (solid.size(), solid.reach()));
             let speed = state.velocity[i].length() + model.angular_velocity(i, state).length() * reach;
             speed * dt / (FAR * size)
         };
-        self.crowd.bodies.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
+        counted.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
     }
 
     /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds.
@@ -435,8 +453,11 @@ impl Crowd {
         if closed.is_empty() && joints == 0 {
             self.solver.take_contacts(closed);
             self.fly(model, 0.5 * part, now);
+            if self.is_all {
+                model.place(t + 0.5 * part, now);
+            }
             model.sum(t + 0.5 * part, now, loads);
-            if model.does_work() {
+            if model.does_work() || self.is_all && model.has_guided() {
                 let mut middle = now.clone();
                 self.kick(model, 0.5 * part, &mut middle, loads);
                 now.accounts.add(part, self.power(model, t + 0.5 * part, &middle));
@@ -533,6 +554,15 @@ impl Crowd {
     /// Computes the power of the loads without a potential on the crowd (the bodies that Moreau's scheme advances), W: the power that these
     /// loads would lose if the bodies stood still.
     fn power(&self, model: &Model, t: f64, now: &State) -> Accounts {
+        if self.is_all {
+            // The crowd is all that moves, and its motion is all of the step.
+            let mut loads = Loads::default();
+            if model.does_work() || model.has_guided() {
+                model.sum(t, now, &mut loads);
+                model.bear(now, &mut loads);
+            }
+            return loads.power;
+        }
         if !model.does_work() {
             return Accounts::default();
         }

@@ -1,0 +1,99 @@
+//! Steps in which Moreau's scheme advances all bodies, without a search for events.
+
+use super::super::super::{Breakdown, Loads, Model, State};
+use super::super::closest_points::nearest;
+use super::super::collider::Collider;
+use super::super::path::pose;
+use super::Crowd;
+
+impl Collider {
+    /// Makes all present bodies that forces move the crowd (the bodies that Moreau's scheme advances).
+    pub(in crate::dynamics) fn crowd_all(&mut self, model: &Model) {
+        self.meet_bodies(model);
+        let moves = |body: &usize| model.inverse_mass()[*body] != 0.0;
+        self.crowd.bodies = (0..model.len()).filter(moves).collect();
+        self.crowd.is_all = true;
+        self.crowd.solver.count_soft_impacts();
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. Returns a breakdown if this fails.
+    pub(in crate::dynamics) fn advance_all(
+        &mut self,
+        model: &Model,
+        (t, dt): (f64, f64),
+        state: &mut State,
+        loads: &mut Loads,
+    ) -> Option<Breakdown> {
+        let course = self.course(model, (t, dt), (state, state), loads);
+        let failure = course.failure();
+        self.crowd.put(course.last(), state);
+        self.fastest = self.fastest.max(self.crowd.solver.fastest());
+        self.crowd.course = Some(course);
+        failure
+    }
+
+    /// Records how far all bodies have moved in a step of `dt` seconds. The list of near pairs is made anew if necessary.
+    pub(in crate::dynamics) fn follow_step(&mut self, model: &Model, ends: (&State, &State), dt: f64) {
+        self.follow(model, ends, dt);
+    }
+
+    /// Puts the crowd (the bodies that Moreau's scheme advances) where it was at `time`, s, within the last step.
+    pub(in crate::dynamics) fn crowd_at(
+        &mut self,
+        time: f64,
+        model: &Model,
+        state: &mut State,
+        loads: &mut Loads,
+    ) {
+        let Some(mut course) = self.crowd.course.take() else { return };
+        let now = self.moment(&mut course, time, model, loads);
+        self.crowd.put(&now, state);
+    }
+
+    /// Returns the forces of limits and motors in the last part of a step: the constraint, its row, and the multiplier of each.
+    pub(in crate::dynamics) fn joint_forces(&self) -> &[(usize, usize, f64)] {
+        self.crowd.solver.joint_forces()
+    }
+
+    /// Returns the bodies held at rest that a body of the crowd (the bodies that Moreau's scheme advances) touches, or may hit within
+    /// `dt` seconds. Only bodies for which `moves` is true count.
+    pub(in crate::dynamics) fn may_be_hit(
+        &self,
+        model: &Model,
+        state: &State,
+        dt: f64,
+        moves: impl Fn(usize) -> bool,
+    ) -> Vec<usize> {
+        let is_held = |body: usize| model.inverse_mass()[body] == 0.0 && model.can_move(body);
+        let mut hit = Vec::new();
+        for pair in self.crowd_pairs(model, state, dt) {
+            let [a, b] = pair.bodies;
+            let (held, other) = if is_held(a) { (a, b) } else { (b, a) };
+            let comes = self.crowd.bodies.contains(&other) && moves(other) || model.motion(other).is_some();
+            if !is_held(held) || !comes {
+                continue;
+            }
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+            let speed = state.velocity[other].length() + self.spin(other, model, state);
+            let within = 2.0 * speed * dt + super::substep_motion::GRASP * self.size(pair.bodies);
+            if nearest(x, &p, y, &q, f64::INFINITY).is_some_and(|near| near.gap <= within) {
+                hit.push(held);
+            }
+        }
+        hit
+    }
+}
+
+impl Crowd {
+    /// Copies the bodies of the crowd (the bodies that Moreau's scheme advances) and the energy accounts into a state of all bodies.
+    pub(super) fn put(&self, from: &State, into: &mut State) {
+        for (at, &body) in self.bodies.iter().enumerate() {
+            into.location[body] = from.location[at];
+            into.velocity[body] = from.velocity[at];
+            into.orientation[body] = from.orientation[at];
+            into.angular_momentum[body] = from.angular_momentum[at];
+        }
+        into.accounts = from.accounts;
+    }
+}
