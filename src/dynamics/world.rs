@@ -297,11 +297,13 @@ impl Dynamics for World {
         let balance = self.balance();
         // The modes of the contacts are decided in a copy, because a snapshot must not change the world.
         let mut copy = self.decided();
-        let World { model, state, solver, rest, crowd, collider, loads, time, .. } =
+        let World { model, state, solver, rest, crowd, collider, loads, time, policy, .. } =
             copy.as_mut().unwrap_or(self);
         let laws = laws_of(collider.as_ref());
         let mut system = System::new(model, solver);
-        let snapshot = picture(&mut system, *time, state, (balance, rest, crowd, laws), loads).checked();
+        let mut snapshot = picture(&mut system, *time, state, (balance, rest, crowd, laws), loads);
+        snapshot.penetration = penetration(*policy, collider.as_ref(), model, state);
+        let snapshot = snapshot.checked();
         let snapshot = solver.take_failure().map_or(snapshot, Err);
         snapshot.map_err(|error| model.cause(error))
     }
@@ -322,6 +324,12 @@ impl Dynamics for World {
 /// Returns the worst residual so far of each law that no contact can break.
 fn laws_of(collider: Option<&Collider>) -> &[LawResidual] {
     collider.map_or(&[], Collider::law_residuals)
+}
+
+/// Returns the largest overlap of two bodies, m. Event-driven contacts let no bodies overlap.
+fn penetration(policy: ContactPolicy, collider: Option<&Collider>, model: &Model, state: &State) -> f64 {
+    let collider = collider.filter(|_| policy == ContactPolicy::TimeStepping);
+    collider.map_or(0.0, |collider| collider.penetration(model, state))
 }
 
 #[cfg(test)]

@@ -20,9 +20,6 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
         return Box::new(stepping::stepping(scene, pair_counter));
     }
     let mut world = world(scene);
-    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
-        world.set_contact_policy(ContactPolicy::TimeStepping);
-    }
     world.watch(pair_counter);
     match scene.simulation.method.take_over {
         Some(ahead) if !is_given(scene) => {
@@ -52,6 +49,9 @@ pub fn world(scene: &Scene) -> World {
     if scene.simulation.contacts.is_some() {
         add_ground(&mut world, scene);
         world.collide(contacts(scene));
+    }
+    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
+        world.set_contact_policy(ContactPolicy::TimeStepping);
     }
     world
 }

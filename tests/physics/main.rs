@@ -34,5 +34,6 @@ mod rotation;
 mod same_bits;
 mod scenes;
 mod springs;
+mod stepped;
 mod validation;
 mod waking;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::factor::IMPLIED;
-use super::jacobian::{move_members, product, products};
+use super::jacobian::product;
 use super::member::Member;
 use super::solver::Solver;
 use super::{Direction, Law};
@@ -77,11 +77,17 @@ impl Solver {
         let mut columns = std::mem::take(&mut self.columns);
         columns.clear();
         let has_joints = self.held.contains(&true);
+        // Working memory, which is zero between rows.
+        let mut moved: Vec<Member> = if has_joints { self.members.clone() } else { Vec::new() };
+        for member in &mut moved {
+            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        let mut unknown = vec![0.0; self.rows.len()];
         for row in 0..self.rows.len() {
             if self.laws[row] == Law::Equality {
                 columns.push(std::iter::empty(), 0.0);
-            } else if has_joints {
-                self.push_held_column(row, &mut columns);
+            } else if has_joints && self.is_on_mechanism(row) {
+                self.push_held_column(row, &mut columns, &mut moved, &mut unknown);
             } else {
                 self.push_free_column(row, &mut columns);
             }
@@ -89,34 +95,67 @@ impl Solver {
         self.columns = columns;
     }
 
+    /// Returns true if joints act on a body of a constraint row.
+    fn is_on_mechanism(&self, row: usize) -> bool {
+        let Some(structure) = &self.structure else { return false };
+        let directions = &self.jacobian[structure.directions_of(row)];
+        directions.iter().any(|direction| structure.mechanism_of[direction.member].is_some())
+    }
+
     /// Appends the velocity changes under a unit impulse along a constraint row when joints are active. The reactions of the joints move
-    /// other bodies as well. The column of a row along which the joints block all motion is empty.
-    fn push_held_column(&mut self, row: usize, columns: &mut Columns) {
+    /// other bodies of the mechanism as well. The column of a row along which the joints block all motion is empty. `moved` and `unknown` are
+    /// working memory.
+    fn push_held_column(
+        &self,
+        row: usize,
+        columns: &mut Columns,
+        moved: &mut [Member],
+        unknown: &mut [f64],
+    ) {
         let Some(structure) = &self.structure else { return };
-        let mut moved: Vec<Member> = self.members.clone();
-        for member in &mut moved {
-            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        let directions = &self.jacobian[structure.directions_of(row)];
+        let mut mechanisms: Vec<usize> =
+            directions.iter().filter_map(|direction| structure.mechanism_of[direction.member]).collect();
+        mechanisms.sort_unstable();
+        mechanisms.dedup();
+        let rows = || mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].rows).copied();
+        let mut members: Vec<usize> = directions.iter().map(|direction| direction.member).collect();
+        members
+            .extend(mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].members));
+        members.sort_unstable();
+        members.dedup();
+        for direction in directions {
+            let member = &mut moved[direction.member];
+            member.velocity += member.inverse_mass * direction.linear;
+            member.angular_velocity += member.turn(direction.angular);
         }
-        let mut unknown = vec![0.0; self.rows.len()];
-        unknown[row] = 1.0;
-        move_members(structure, &self.jacobian, &unknown, &mut moved);
-        products(structure, &self.jacobian, &moved, &mut unknown);
-        let free = unknown[row];
-        unknown.iter_mut().for_each(|rate| *rate = -*rate);
-        self.factor.solve(&mut unknown);
-        move_members(structure, &self.jacobian, &unknown, &mut moved);
-        let weight = product(structure, &self.jacobian, &moved, row).0;
-        if weight <= IMPLIED * free {
-            // The joints block all motion along this row. The remaining response is only a rounding error, of either sign.
-            columns.push(std::iter::empty(), 0.0);
-            return;
+        let free = product(structure, &self.jacobian, moved, row).0;
+        for row in rows() {
+            unknown[row] = -product(structure, &self.jacobian, moved, row).0;
         }
-        let change = |(number, member): (usize, &Member)| Change {
-            member: number,
-            velocity: member.velocity,
-            angular_velocity: member.angular_velocity,
+        self.factor.solve_rows(unknown, rows().collect::<Vec<_>>().as_slice());
+        for row in rows() {
+            let multiplier = std::mem::take(&mut unknown[row]);
+            if multiplier != 0.0 {
+                for direction in &self.jacobian[structure.directions_of(row)] {
+                    let member = &mut moved[direction.member];
+                    member.velocity += multiplier * member.inverse_mass * direction.linear;
+                    member.angular_velocity += member.turn(multiplier * direction.angular);
+                }
+            }
+        }
+        let weight = product(structure, &self.jacobian, moved, row).0;
+        // The joints can block all motion along this row. The remaining response is then only a rounding error, of either sign.
+        let is_blocked = weight <= IMPLIED * free;
+        let change = |member: usize| {
+            let moved = &mut moved[member];
+            let change =
+                Change { member, velocity: moved.velocity, angular_velocity: moved.angular_velocity };
+            (moved.velocity, moved.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+            change
         };
-        columns.push(moved.iter().enumerate().map(change), weight);
+        let changes: Vec<Change> = members.into_iter().map(change).collect();
+        columns.push(changes.into_iter().filter(|_| !is_blocked), if is_blocked { 0.0 } else { weight });
     }
 
     /// Appends the velocity changes under a unit impulse along a constraint row when no joint is active: only the bodies of this row move.

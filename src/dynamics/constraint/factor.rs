@@ -293,6 +293,23 @@ impl Factor {
         }
     }
 
+    /// Solves A x = b as [`solve`](Self::solve) does, for rows that are coupled to no others. `rows` are in ascending order.
+    pub(super) fn solve_rows(&self, x: &mut [f64], rows: &[usize]) {
+        for &i in rows {
+            let value = x[i];
+            for entry in &self.lower[self.lines[i].below.clone()] {
+                x[entry.row] -= entry.value * value;
+            }
+        }
+        for &i in rows.iter().rev() {
+            let mut value = x[i] * self.inverse[i];
+            for entry in &self.lower[self.lines[i].below.clone()] {
+                value -= entry.value * x[entry.row];
+            }
+            x[i] = value;
+        }
+    }
+
     /// Solves A x = b for the active constraint rows. `x` holds b before the call; its entries for inactive rows become 0.
     #[inline(always)]
     pub(super) fn solve(&self, x: &mut [f64]) {

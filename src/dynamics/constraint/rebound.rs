@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::super::{Impact, Loads, Model, State};
+use super::Law;
 use super::solver::Solver;
 use super::structure::Place;
 use super::sweep::Purpose;
@@ -38,6 +39,27 @@ struct Rebound {
     restitution: f64,
 }
 
+/// Combines the impacts at all points of two bodies into one, at the center of their normal impulses.
+fn of_pairs(points: Vec<Impact>) -> Vec<Impact> {
+    let mut pairs: BTreeMap<[usize; 2], Vec<Impact>> = BTreeMap::new();
+    points.into_iter().for_each(|point| pairs.entry(point.bodies).or_default().push(point));
+    let one = |points: Vec<Impact>| {
+        let normal: DVec3 = points.iter().map(|point| point.normal).sum();
+        let push = |point: &Impact| point.impulse.dot(point.normal).max(0.0);
+        let all: f64 = points.iter().map(push).sum();
+        let part = |point: &Impact| if all > 0.0 { push(point) / all } else { 1.0 / points.len() as f64 };
+        Impact {
+            time: points.iter().map(|point| part(point) * point.time).sum(),
+            bodies: points[0].bodies,
+            place: points.iter().map(|point| part(point) * point.place).sum(),
+            normal: normal.normalize_or_zero(),
+            impulse: points.iter().map(|point| point.impulse).sum(),
+            energy: points.iter().map(|point| point.energy).sum(),
+        }
+    };
+    pairs.into_values().map(|points| if points.len() == 1 { points[0] } else { one(points) }).collect()
+}
+
 impl Solver {
     /// Applies the impulses of all contacts that close within `part` seconds after `time`. [`prepare_sweeps`](Self::prepare_sweeps) must
     /// have run before. The rates of stops (inequalities c ≥ 0) may not fall below their `goals`. For a contact that rebounds, this
@@ -50,6 +72,9 @@ impl Solver {
         (state, loads): (&mut State, &Loads),
     ) -> Struck {
         let before = self.rates_of(model, state);
+        if self.counts_soft_impacts && !self.are_closing(&before, goals) {
+            return Struck::default();
+        }
         let rebounds = self.rebounds((model, loads), (&before, goals), part);
         for rebound in &rebounds {
             goals[rebound.row] = 0.0;
@@ -72,6 +97,9 @@ impl Solver {
         let after = self.rates_of(model, state);
         let impact = |rebound| self.impact(rebound, time, (&impulses, &velocities), (&before, &after));
         let mut impacts: Vec<Impact> = rebounds.iter().filter_map(impact).collect();
+        if self.counts_soft_impacts {
+            impacts = of_pairs(impacts);
+        }
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
         Struck { impacts, early }
     }
@@ -104,7 +132,7 @@ impl Solver {
             let slow = if restitution < 1.0 { bodies.iter().map(change).sum() } else { 0.0 };
             // A rebound that the loads would undo is none.
             let rebounds = -restitution * rate > slow;
-            let is_fast = rate < goal && (rebounds || self.counts_soft_impacts && -rate > slow);
+            let is_fast = rate < goal && (rebounds || -rate > slow && self.is_new(contact));
             is_fast.then(|| Rebound {
                 contact,
                 row: place.row,
@@ -114,6 +142,31 @@ impl Solver {
             })
         };
         self.structure.iter().flat_map(|structure| &structure.places).filter_map(rebound).collect()
+    }
+
+    /// Returns true if a stop (an inequality c ≥ 0) closes that did not push in the last substep. What already pushed keeps its rate by forces:
+    /// impulses would only take the energy of the small rates that a substep of turning bodies leaves.
+    fn are_closing(&self, rates: &[f64], goals: &[f64]) -> bool {
+        let closes = |row: usize, place: &Place| {
+            let pushed = match place.constraint.checked_sub(self.joints()) {
+                Some(contact) => self.has_pushed(contact),
+                None => self.joint_forces.iter().any(|&(constraint, of, _)| {
+                    constraint == place.constraint && of == row - place.row
+                }),
+            };
+            self.laws[row] == Law::Inequality && rates[row] < goals[row] && !pushed
+        };
+        let mut places = self.structure.iter().flat_map(|structure| &structure.places);
+        places.any(|place| (place.row..place.row + place.rows).any(|row| closes(row, place)))
+    }
+
+    fn has_pushed(&self, contact: usize) -> bool {
+        self.warm.find(&self.contacts[contact]).is_some_and(|forces| forces[0] > 0.0)
+    }
+
+    /// Returns true if a contact did not push in the last substep, and impacts without a rebound are recorded.
+    fn is_new(&self, contact: usize) -> bool {
+        self.counts_soft_impacts && !self.has_pushed(contact)
     }
 
     /// Returns the movable bodies of rebounding contacts, by index.

@@ -34,7 +34,7 @@ impl Solver {
         }
         let mut solver = self.part(contacts);
         solver.warm = self.warm.clone();
-        solver.find_by_sweeps(model);
+        solver.find_by_sweeps();
         solver.prepare_sweeps(model, t, &mut given);
         let goals = vec![0.0; solver.rows.len()];
         for _ in 0..ROUNDS {
@@ -74,7 +74,7 @@ impl Solver {
     ) -> Vec<ContactSnapshot> {
         let mut solver = self.part(contacts);
         solver.warm = self.warm.clone();
-        solver.find_by_sweeps(model);
+        solver.find_by_sweeps();
         solver.prepare_sweeps(model, t, &mut state.clone());
         solver.unknown = vec![0.0; solver.rows.len()];
         solver.start_warm(1.0);

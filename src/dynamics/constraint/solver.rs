@@ -88,8 +88,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) counts_soft_impacts: bool,
     /// The largest absolute rate c' of a constraint row before the contact forces acted, in the last substep of Moreau's scheme.
     pub(super) forced: f64,
-    /// True if Gauss–Seidel sweeps find all forces, because there are no joints. No matrix is then factorized.
-    pub(super) is_loose: bool,
+    /// True if Gauss–Seidel sweeps find the forces of contacts. The matrix then couples only joints.
+    pub(super) is_swept: bool,
     /// The bodies of a contact whose force lay outside its cone of friction at the state of the last [`Solver::margin`], so that the contact
     /// forces had to be shared anew. Empty if there was none.
     pub(super) strained: Vec<usize>,
@@ -207,19 +207,21 @@ impl Solver {
 
     #[cold]
     fn make_structure(&mut self, model: &Model) {
-        // If there are no joints, no matrix is factorized, and the constraints need no coupling.
-        let can_move = |body: usize| !self.is_loose && model.inverse_mass()[body] != 0.0;
+        let can_move = |body: usize| model.inverse_mass()[body] != 0.0;
+        // Sweeps couple contacts, so no matrix needs to.
+        let joints = model.constraints().len();
+        let is_coupled = |constraint: usize| !self.is_swept || constraint < joints;
         self.all.clear();
         self.all.extend(model.constraints().iter().cloned());
         self.all.extend(self.contacts.iter().map(|contact| contact.clone() as Arc<dyn Constraint>));
         let is_there = |body: usize| model.is_present(body) && !self.away.contains(&body);
-        let mut structure = Structure::of(&self.all, is_there, can_move);
+        let mut structure = Structure::of(&self.all, is_there, can_move, is_coupled);
         self.first_row = vec![None; self.all.len()];
         for place in &structure.places {
             self.first_row[place.constraint] = Some(place.row);
         }
         self.factor = Factor::new(&structure);
-        if !self.contacts.is_empty() && !self.is_loose {
+        if !self.contacts.is_empty() && !self.is_swept {
             let mut soft = vec![None; structure.rows];
             for place in structure.places.iter().filter(|place| place.constraint >= model.constraints().len())
             {

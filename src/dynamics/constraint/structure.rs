@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::super::sets::Sets;
 use super::{Constraint, Direction};
 
 /// The layout of all constraints in the Jacobian: their rows and their directions. It changes only when bodies or constraints change.
@@ -24,6 +25,18 @@ pub(super) struct Structure {
     /// For each constraint, the constraints eliminated before it that share a movable body with it, and the constraint itself as the last
     /// entry.
     pub(super) neighbours: Vec<Vec<Neighbour>>,
+    /// The mechanism of each member, if coupled constraints act on it: an index into `mechanisms`.
+    pub(super) mechanism_of: Vec<Option<usize>>,
+    pub(super) mechanisms: Vec<Mechanism>,
+}
+
+/// Bodies that can move and are connected by coupled constraints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Mechanism {
+    /// The members of these bodies, in ascending order.
+    pub(super) members: Vec<usize>,
+    /// The constraint rows that act on them, in ascending order.
+    pub(super) rows: Vec<usize>,
 }
 
 /// The place of one constraint in the layout: its rows, directions and bodies.
@@ -71,11 +84,13 @@ impl Structure {
         self.places[..after].last().filter(|place| row < place.row + place.rows)
     }
 
-    /// Lays out the constraints whose bodies are all present. A body that no force can move does not couple its constraints.
+    /// Lays out the constraints whose bodies are all present. A body that no force can move does not couple its constraints. Constraints
+    /// for which `is_coupled` is false are coupled to no other.
     pub(super) fn of(
         all: &[Arc<dyn Constraint>],
         is_there: impl Fn(usize) -> bool,
         can_move: impl Fn(usize) -> bool,
+        is_coupled: impl Fn(usize) -> bool,
     ) -> Structure {
         let holds =
             |constraint: &Arc<dyn Constraint>| constraint.bodies().iter().all(|id| is_there(id.index()));
@@ -95,8 +110,10 @@ impl Structure {
         let mut structure = Structure { bodies: bodies.clone(), ..Structure::default() };
         let mut graph = vec![BTreeSet::new(); constraints.len()];
         for sharing in members.iter().filter(|(body, _)| can_move(**body)).map(|(_, sharing)| sharing) {
-            for &i in sharing {
-                graph[i].extend(sharing.iter().copied().filter(|&j| j != i));
+            let coupled: Vec<usize> =
+                sharing.iter().copied().filter(|&i| is_coupled(constraints[i].0)).collect();
+            for &i in &coupled {
+                graph[i].extend(coupled.iter().copied().filter(|&j| j != i));
             }
         }
         let mut place_of = vec![0; constraints.len()];
@@ -129,7 +146,37 @@ impl Structure {
             };
             structure.neighbours.push(before.into_iter().map(neighbour).collect());
         }
+        structure.find_mechanisms(&can_move, &is_coupled);
         structure
+    }
+
+    /// Groups the bodies that can move and are connected by coupled constraints.
+    fn find_mechanisms(&mut self, can_move: impl Fn(usize) -> bool, is_coupled: impl Fn(usize) -> bool) {
+        let mut sets = Sets::new(self.bodies.len());
+        let moves = |member: &&usize| can_move(self.bodies[**member]);
+        let coupled = || self.places.iter().filter(|place| is_coupled(place.constraint));
+        for place in coupled() {
+            let moving: Vec<usize> = place.bodies.iter().filter(moves).copied().collect();
+            moving.windows(2).for_each(|both| sets.unite(both[0], both[1]));
+        }
+        let mut mechanisms: Vec<Mechanism> = Vec::new();
+        let mut of = vec![None; self.bodies.len()];
+        for place in coupled() {
+            let Some(&first) = place.bodies.iter().find(moves) else { continue };
+            let first = sets.first(first);
+            let mechanism = *of[first].get_or_insert_with(|| {
+                mechanisms.push(Mechanism::default());
+                mechanisms.len() - 1
+            });
+            mechanisms[mechanism].rows.extend(place.row..place.row + place.rows);
+        }
+        for member in 0..self.bodies.len() {
+            of[member] = of[sets.first(member)];
+            if let Some(mechanism) = of[member] {
+                mechanisms[mechanism].members.push(member);
+            }
+        }
+        (self.mechanism_of, self.mechanisms) = (of, mechanisms);
     }
 }
 

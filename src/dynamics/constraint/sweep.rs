@@ -82,9 +82,9 @@ pub(in crate::dynamics) enum Purpose {
 }
 
 impl Solver {
-    /// Lets Gauss–Seidel sweeps find all forces from now on, if the model has no joints.
-    pub(in crate::dynamics) fn find_by_sweeps(&mut self, model: &Model) {
-        self.is_loose = model.constraints().is_empty();
+    /// Lets Gauss–Seidel sweeps find the forces of contacts from now on.
+    pub(in crate::dynamics) fn find_by_sweeps(&mut self) {
+        self.is_swept = true;
     }
 
     /// Evaluates all equations at a state, removes velocities that violate the joints, and computes the effects of unit impulses.
@@ -143,15 +143,15 @@ impl Solver {
         self.rates_now()
     }
 
-    /// Returns the target rate of each constraint row for the middle of a time interval: the mean of the present rate and `goals`, the
-    /// target at the end. Bodies can stop within the interval, so each target can be reached. A contact that already closes faster than its
-    /// goal slows down to the goal at once.
-    pub(in crate::dynamics) fn middle(&self, goals: &[f64]) -> Vec<f64> {
-        let middle = |(row, &goal): (usize, &f64)| {
-            let middle = 0.5 * (goal + self.rate_of(row));
+    /// Returns the target rate of each constraint row for the middle of a time interval: the mean of its rate at the start, in `rates`, and
+    /// `goals`, the target at the end. Bodies can stop within the interval, so each target can be reached. A contact that already closes
+    /// faster than its goal slows down to the goal at once.
+    pub(in crate::dynamics) fn middle(&self, goals: &[f64], rates: &[f64]) -> Vec<f64> {
+        let middle = |(row, (&goal, &rate)): (usize, (&f64, &f64))| {
+            let middle = 0.5 * (goal + rate);
             if self.laws[row] == Law::Inequality { middle.max(goal) } else { middle }
         };
-        goals.iter().enumerate().map(middle).collect()
+        goals.iter().zip(rates).enumerate().map(middle).collect()
     }
 
     /// Returns the gap of each constraint row at the last measurement, m. Gaps of contacts below `closed` times the size of the smaller
@@ -209,7 +209,7 @@ impl Solver {
     }
 
     /// Computes the rate c' of each constraint row from the velocities of the members.
-    pub(super) fn rates_now(&self) -> Vec<f64> {
+    pub(in crate::dynamics) fn rates_now(&self) -> Vec<f64> {
         (0..self.rows.len()).map(|row| self.rate_of(row)).collect()
     }
 

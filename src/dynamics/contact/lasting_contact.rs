@@ -102,6 +102,11 @@ impl LastingContact {
         carried
     }
 
+    /// Returns the gap of the bodies at this contact, m. It is negative if they overlap.
+    pub(super) fn gap(&self, poses: [Pose; 2]) -> f64 {
+        self.meet(poses).gap
+    }
+
     fn meet(&self, poses: [Pose; 2]) -> ClosestPoints {
         meet(&self.touch.patches[0], &poses[0], &self.touch.patches[1], &poses[1])
     }

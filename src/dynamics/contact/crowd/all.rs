@@ -1,8 +1,11 @@
 //! Steps in which Moreau's scheme advances all bodies, without a search for events.
 
+use std::sync::Arc;
+
 use super::super::super::{Breakdown, Loads, Model, State};
 use super::super::closest_points::nearest;
 use super::super::collider::Collider;
+use super::super::lasting_contact::LastingContact;
 use super::super::path::pose;
 use super::Crowd;
 
@@ -48,6 +51,13 @@ impl Collider {
         let Some(mut course) = self.crowd.course.take() else { return };
         let now = self.moment(&mut course, time, model, loads);
         self.crowd.put(&now, state);
+    }
+
+    /// Returns the largest overlap of two bodies at the contacts of the crowd (the bodies that Moreau's scheme advances), m; 0 if none
+    /// overlap.
+    pub(in crate::dynamics) fn penetration(&self, model: &Model, state: &State) -> f64 {
+        let overlap = |place: &Arc<LastingContact>| -place.gap(place.bodies.map(|body| pose(body, model, state)));
+        self.crowd.places.iter().map(overlap).fold(0.0, f64::max)
     }
 
     /// Returns the forces of limits and motors in the last part of a step: the constraint, its row, and the multiplier of each.

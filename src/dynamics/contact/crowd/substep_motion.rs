@@ -240,7 +240,7 @@ impl Collider {
     ) {
         model.place(time, now);
         let (before, impacts) = (now.clone(), crowd.impacts.len());
-        let closed = self.crowd_places(model, now, &course.pairs, part);
+        let closed = self.crowd_places(model, now, &course.pairs, (part, crowd.is_all));
         let residual = crowd.advance(closed, model, (time, part), now, loads);
         if residual.is_some_and(|residual| residual.is_excess()) && halvings < MOST_HALVINGS {
             now.clone_from(&before);
@@ -321,13 +321,14 @@ impl Collider {
         counted.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
     }
 
-    /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds.
+    /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds. If all bodies are in
+    /// the crowd, no other search finds what approaches fast, so contacts of any distance count.
     fn crowd_places(
         &self,
         model: &Model,
         state: &State,
         pairs: &[Pair],
-        part: f64,
+        (part, is_all): (f64, bool),
     ) -> Vec<Arc<LastingContact>> {
         let mut all = Vec::new();
         for pair in pairs {
@@ -337,7 +338,9 @@ impl Collider {
                 state.velocity[i].length() + model.angular_velocity(i, state).length() * reach
             };
             let way = 2.0 * part * (speed(pair.bodies[0], x) + speed(pair.bodies[1], y));
-            let within = way.clamp(0.1 * close([x, y]), 10.0 * close([x, y]));
+            let close = close([x, y]);
+            let most = if is_all { way.max(close) } else { 10.0 * close };
+            let within = way.clamp(0.1 * close, most);
             all.extend(self.places_within(model, state, pair, [x, y], within));
         }
         all
@@ -380,25 +383,35 @@ impl Collider {
         for _ in 0..REPAIRS {
             let (all, deep) = self.touching_in_crowd(model, state, 0.0);
             if deep.is_none() {
-                self.crowd.pushing.clear();
-                self.crowd.course = None;
-                let Crowd { bodies, places, .. } = &mut self.crowd;
-                places.retain(|place| !place.is_of(bodies));
-                places.extend(all.iter().cloned());
-                return Ok(all);
+                return Ok(self.accept_places(all));
             }
             jammed = deep;
             // What is moved apart must not be moved into its neighbors.
             let (all, _) = self.touching_in_crowd(model, state, LEAN);
             let solver = &mut self.crowd.solver;
-            solver.find_by_sweeps(model);
+            solver.find_by_sweeps();
             solver.take_contacts(all);
             solver.forget();
             solver.hold_joints(model, time, state);
             separate(solver, model, time, state);
         }
+        if self.crowd.is_all {
+            // They overlap by what the bodies at them allow, which the report of the run says.
+            let (all, _) = self.touching_in_crowd(model, state, 0.0);
+            return Ok(self.accept_places(all));
+        }
         let bodies = jammed.unwrap_or_default().map(BodyId::new);
         Err(Breakdown::Jammed { bodies, time })
+    }
+
+    /// Stores the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of a step, and returns them.
+    fn accept_places(&mut self, all: Vec<Arc<LastingContact>>) -> Vec<Arc<LastingContact>> {
+        self.crowd.pushing.clear();
+        self.crowd.course = None;
+        let Crowd { bodies, places, .. } = &mut self.crowd;
+        places.retain(|place| !place.is_of(bodies));
+        places.extend(all.iter().cloned());
+        all
     }
 
     /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
@@ -469,7 +482,7 @@ impl Crowd {
         let (energy, accounts) = (self.kinetic(model, now), now.accounts);
         let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
         let solver = &mut self.solver;
-        solver.find_by_sweeps(model);
+        solver.find_by_sweeps();
         solver.take_contacts(closed);
         solver.forget();
         // Bodies may approach only so fast that their gap does not close before the end of the substep.
@@ -478,6 +491,7 @@ impl Crowd {
         model.sum(t, now, loads);
         let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
         self.impacts.extend(struck.impacts);
+        let rates = self.solver.rates_now();
         let mut gain = self.kinetic(model, now) - energy;
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
@@ -493,7 +507,7 @@ impl Crowd {
         let until_middle = now.accounts;
         self.solver.prepare_sweeps(model, t + 0.5 * part, now);
         let open = self.solver.widest_joint();
-        let goals = self.solver.middle(&goals);
+        let goals = self.solver.middle(&goals, &rates);
         self.kick(model, 0.5 * part, now, loads);
         let kicked = self.kinetic(model, now);
         let solver = &mut self.solver;

@@ -1,0 +1,332 @@
+//! Tests of time stepping by Moreau's scheme, which advances small scenes with `contacts = "time-stepping"`: impacts, friction and rest at the
+//! default step, against closed forms. The scheme is of first order, so tolerances are a small multiple of what a step can change.
+
+use glam::DVec3;
+use jabuka::Scene;
+use jabuka::dynamics::{Dynamics as _, Impact};
+use jabuka::simulate::{Frame, world};
+
+use crate::common::frames;
+
+/// Returns the last of some frames.
+fn last(frames: &[Frame]) -> &Frame {
+    &frames[frames.len() - 1]
+}
+
+/// Returns all impacts of a scene until the time `end`, s.
+fn impacts(text: &str, end: f64) -> Vec<Impact> {
+    let mut world = world(&Scene::parse(text).unwrap());
+    world.advance(end, &[], &mut |_| {}).unwrap();
+    world.impacts()
+}
+
+/// Checks the impact of a tilted crate. It falls on an edge after √(2 · 0.3 m / g) = 0.24731 s, and the edge sticks. With moments of inertia
+/// m/6 and the arm r of the edge, Newton's law for the normal and a point without slip give the velocities after the impact. Each is off by
+/// at most what gravity changes in a step of 1/1000 s.
+#[test]
+fn a_tilted_crate_gets_the_spin_of_an_edge_that_sticks() {
+    for (restitution, vx, vy, spin) in [(0.2, 0.702, 0.230, -1.056), (0.0, 0.585, -0.213, -0.880)] {
+        let text = format!(
+            r#"
+            [simulation]
+            duration = 0.26
+            frame_rate = 1000
+            gravity = [0, -9.81, 0]
+            contacts = "time-stepping"
+            [body.crate]
+            shape.box.size = [1, 1, 1]
+            location = [0, "0.3 + 0.5*cos(rad(25)) + 0.5*sin(rad(25))", 0]
+            orientation = [0, 0, 25]
+            friction = 0.5
+            restitution = {restitution}
+            "#
+        );
+        let frames = frames(&text);
+        let body = frames[248].bodies[0];
+        let of_step = 9.81 / 1000.0;
+        // Gravity has acted since the impact.
+        let vy = vy - 9.81 * (0.248 - 0.24731);
+        assert!((body.velocity - DVec3::new(vx, vy, 0.0)).length() < of_step, "{}", body.velocity);
+        assert!((body.angular_velocity - DVec3::Z * spin).length() < of_step, "{}", body.angular_velocity);
+        let impacts = impacts(&text, 0.25);
+        assert_eq!(impacts.len(), 1, "two corners hit as one");
+        assert!((impacts[0].time - 0.24731).abs() < 1e-5, "{}", impacts[0].time);
+    }
+}
+
+/// Checks a wheel at 60 m/s, which rolls straight on: without slip, no force acts along the ground.
+#[test]
+fn a_fast_wheel_rolls_straight() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 5
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.wheel]
+        shape.cylinder = { radius = 0.3, height = 0.2 }
+        location = [0, 0.3, 0]
+        orientation = [90, 0, 0]
+        velocity = [60, 0, 0]
+        angular_velocity = [0, 0, -200]
+        friction = 0.8
+        "#,
+    );
+    let place = last(&frames).bodies[0].location;
+    assert!((place - DVec3::new(300.0, 0.3, 0.0)).length() < 1e-6, "{place}");
+}
+
+/// Checks a disk that slides and spins on its rim. Friction opposes the slip of each point of the rim, and slows both down together: it comes
+/// to rest 1.303 m on.
+#[test]
+fn a_disk_that_slides_and_spins_slides_far() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 3
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [environment]
+        ground = { friction = 0.1 }
+        [body.disk]
+        shape.cylinder = { radius = 0.14, height = 0.1 }
+        location = [0, 0.05, 0]
+        velocity = [1, 0, 0]
+        angular_velocity = [0, 20, 0]
+        friction = 0.1
+        mass = 20
+        "#,
+    );
+    let body = last(&frames).bodies[0];
+    // In a step, the disk moves up to 4 mm.
+    assert!((body.location.x - 1.303).abs() < 4e-3, "{}", body.location);
+    assert!(body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO, "it rests");
+}
+
+/// Checks a thin stick that falls on its end: each impact takes energy, and it ends lying on the floor.
+#[test]
+fn a_falling_stick_comes_to_lie() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 6
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.stick]
+        shape.cylinder = { radius = 0.02, height = 2 }
+        location = [0, 1.2, 0]
+        orientation = [0, 0, 25]
+        friction = 0.5
+        restitution = 0.2
+        "#,
+    );
+    let highest = frames.windows(2).map(|two| two[1].balance.total - two[0].balance.total).fold(0.0, f64::max);
+    assert!(highest < 1e-4 * frames[0].balance.total, "energy rises by {highest} J");
+    let body = last(&frames).bodies[0];
+    assert!((body.location.y - 0.02).abs() < 1e-6, "{}", body.location);
+    assert_eq!(body.velocity, DVec3::ZERO);
+}
+
+/// Checks two cards that lean on each other at 40 degrees. They need a friction of tan(40°)/2 = 0.42. With 0.5 they stand, with 0.35 they
+/// fall.
+#[test]
+fn two_cards_lean_by_their_friction() {
+    for (friction, stands) in [(0.5, true), (0.35, false)] {
+        let frames = frames(&format!(
+            r#"
+            [simulation]
+            duration = 1
+            gravity = [0, -9.81, 0]
+            contacts = "time-stepping"
+            [environment]
+            ground = {{ friction = {friction} }}
+            [defaults.body]
+            friction = {friction}
+            mass = 0.05
+            shape.box.size = [0.02, 1, 0.7]
+            [body.a]
+            location = [-0.3290542492744594, 0.3894500976563544, 0]
+            orientation = [0, 0, -40]
+            [body.b]
+            location = [0.3290542492744594, 0.3894500976563544, 0]
+            orientation = [0, 0, 40]
+            "#
+        ));
+        let moved = (last(&frames).bodies[0].location - frames[0].bodies[0].location).length();
+        assert!(if stands { moved < 1e-6 } else { moved > 0.1 }, "friction {friction}: moved by {moved}");
+    }
+}
+
+/// Checks two equal balls that meet head-on at 0.0195 s and exchange their velocities. Without forces the scheme gives the closed form, also
+/// if they move far in a step.
+#[test]
+fn fast_balls_exchange_their_velocities() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.04
+        frame_rate = 100
+        step = 0.01
+        contacts = "time-stepping"
+        [environment]
+        ground = false
+        [defaults.body]
+        shape.sphere.radius = 0.05
+        restitution = 1
+        [body.a]
+        location = [-2, 0, 0]
+        velocity = [100, 0, 0]
+        [body.b]
+        location = [2, 0, 0]
+        velocity = [-100, 0, 0]
+        "#,
+    );
+    let [a, b] = [last(&frames).bodies[0], last(&frames).bodies[1]];
+    assert!((a.location.x + 2.1).abs() < 1e-9 && (b.location.x - 2.1).abs() < 1e-9, "{}", a.location);
+    assert!((a.velocity.x + 100.0).abs() < 1e-9 && (b.velocity.x - 100.0).abs() < 1e-9, "{}", a.velocity);
+}
+
+/// Checks that no impact of a die pulls at the floor or rubs more than Coulomb's law allows, and that friction never gives energy.
+#[test]
+fn impacts_of_a_die_obey_the_laws() {
+    let text = r#"
+        [simulation]
+        duration = 0.5
+        frame_rate = 1000
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.die]
+        shape.box.size = [0.02, 0.02, 0.02]
+        location = [0, 0.3, 0]
+        orientation = [20, 0, 30]
+        velocity = [0.5, 0, 0]
+        density = 1200
+        friction = 0.4
+        restitution = 0.3
+        "#;
+    let (frames, impacts) = (frames(text), impacts(text, 0.5));
+    assert!(!impacts.is_empty());
+    for impact in impacts {
+        let push = impact.impulse.dot(impact.normal);
+        let rub = (impact.impulse - push * impact.normal).length();
+        assert!(push > 0.0 && rub <= 0.4 * push * (1.0 + 1e-9), "{impact:?}");
+        assert!(impact.energy >= 0.0, "{impact:?}");
+    }
+    for two in frames.windows(2) {
+        assert!(two[1].balance.accounts.friction <= two[0].balance.accounts.friction + 1e-12);
+    }
+}
+
+/// Checks a coin that rolls on its rim, leaning at 20 degrees. It does not slip, so it keeps its energy but for 0.1 %.
+#[test]
+fn a_leaning_disk_keeps_its_energy() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1
+        frame_rate = 200
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [environment]
+        ground = { friction = 1 }
+        [body.disk]
+        shape.cylinder = { radius = 0.1, height = 0.004 }
+        location = [0, 0.03608139957413869, 0]
+        orientation = [0, 0, -20]
+        angular_velocity = [-10.886196221431137, 3.9622513889821374, 0]
+        friction = 1
+        "#,
+    );
+    let (first, end) = (frames[0].balance.total, last(&frames).balance.total);
+    assert!((end / first - 1.0).abs() < 1e-3, "{first} J, then {end} J");
+}
+
+/// Checks a ball with restitution 1 that falls from 1 m: it keeps its height over ten rebounds to within the path of a step at its highest
+/// speed.
+#[test]
+fn an_elastic_ball_keeps_its_height() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 9.5
+        frame_rate = 100
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.ball]
+        shape.sphere.radius = 0.1
+        location = [0, 1.1, 0]
+        restitution = 1
+        friction = 0
+        "#,
+    );
+    let heights = frames.iter().filter(|frame| frame.time > 8.6).map(|frame| frame.bodies[0].location.y);
+    let height = heights.fold(0.0, f64::max) - 0.1;
+    assert!((height - 1.0).abs() < 4.43 / 240.0, "{height}");
+}
+
+/// Checks boxes that stand on each other until a ball hits them: they rest exactly, press with their weight, and wake.
+#[test]
+fn what_stands_is_held_until_it_is_hit() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1.2
+        frame_rate = 50
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.box]
+        repeat = 2
+        shape.box.size = [0.4, 0.4, 0.4]
+        mass = 1
+        location = [0, "0.2+0.4*i", 0]
+        [body.ball]
+        shape.sphere.radius = 0.1
+        mass = 0.5
+        location = [-2.3, 0.6, 0]
+        velocity = [2, 3, 0]
+        "#,
+    );
+    let early: Vec<_> = frames.iter().filter(|frame| frame.time > 0.1 && frame.time < 0.5).collect();
+    for frame in &early {
+        assert_eq!(frame.bodies[..2], early[0].bodies[..2], "{}", frame.time);
+    }
+    let on_floor =
+        early[5].contacts.iter().filter(|contact| contact.bodies[1] != 1).map(|contact| contact.force.length());
+    assert!((on_floor.sum::<f64>() - 2.0 * 9.81).abs() < 1e-6);
+    assert!((last(&frames).bodies[1].location - early[0].bodies[1].location).length() > 1e-3, "it was not hit");
+    let drift = frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max);
+    assert!(drift < 1e-3, "{drift}");
+}
+
+/// Checks the joint of a bar that leans on the floor: at rest, the hinge and the floor bear half of its weight each. The bar is 2 m long and lies
+/// level, its hinge at one end.
+#[test]
+fn joints_bear_what_contacts_leave() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.5
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.bar]
+        shape.box.size = [2, 0.1, 0.1]
+        location = [0, 0.15, 0]
+        mass = 3
+        [body.foot]
+        shape.sphere.radius = 0.05
+        location = [0.95, 0.05, 0]
+        fixed = true
+        [joint.end.hinge]
+        between = [[-1, 0.15, 0], "bar"]
+        at = [-1, 0.15, 0]
+        axis = [0, 0, 1]
+        "#,
+    );
+    let end = last(&frames);
+    // The foot is 1.95 m from the hinge, the weight 1 m.
+    let on_foot = 3.0 * 9.81 / 1.95;
+    let pushed: DVec3 = end.contacts.iter().map(|contact| contact.force).sum();
+    assert!((pushed.length() - on_foot).abs() < 1e-3 * on_foot, "{pushed}");
+    let reaction = end.reactions[0].force;
+    assert!((reaction - DVec3::Y * (3.0 * 9.81 - on_foot)).length() < 1e-2, "{reaction}");
+}
