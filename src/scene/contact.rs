@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::Body;
 use crate::dynamics::Surface;
 
 /// The method that detects contacts and keeps bodies from passing through each other.
@@ -37,6 +38,18 @@ impl ContactLaw {
             }
         }
     }
+}
+
+/// The largest number of bodies whose contacts Moreau's scheme solves. Its sweeps over all contacts converge for a tower of five boxes, but
+/// not for one of six, which would take a hundred times as long.
+const FEW: usize = 5;
+
+/// Returns true if time stepping solves the contacts of these bodies by Moreau's scheme, with exact joints: few bodies move and collide, and
+/// none is a torus, for which no distance is computed. The engine for many bodies advances all others.
+pub(crate) fn is_by_moreau(bodies: &[Body]) -> bool {
+    let mut colliding = bodies.iter().filter(|body| body.collider.is_some());
+    let moves = |body: &&Body| !body.start.fixed && body.motion.is_none();
+    colliding.clone().filter(moves).count() <= FEW && !colliding.any(|body| body.shape.has_torus())
 }
 
 /// The contact properties of a body.

@@ -10,13 +10,16 @@ use glam::DVec3;
 use crate::dynamics::{
     Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, PairCounter, RigidBody, Shape, UniformGravity, World,
 };
+#[cfg(feature = "time-stepping")]
+use crate::scene::is_by_moreau;
 use crate::scene::{Body, ContactLaw, Scene};
 
-/// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or the time-stepping engine.
+/// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or, for many bodies in contact, the
+/// time-stepping engine.
 /// `pair_counter` counts the evaluated interactions between pairs of bodies.
 pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
-    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) && !is_small(scene) {
+    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) && !is_by_moreau(&scene.bodies) {
         return Box::new(stepping::stepping(scene, pair_counter));
     }
     let mut world = world(scene);
@@ -28,17 +31,6 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
         }
         _ => Box::new(world),
     }
-}
-
-/// The largest number of bodies that collide and that forces move in a scene whose contacts Moreau's scheme solves.
-const SMALL: usize = 64;
-
-/// True if Moreau's scheme solves the contacts of a scene with time stepping.
-#[cfg(feature = "time-stepping")]
-fn is_small(scene: &Scene) -> bool {
-    if std::env::var_os("JABUKA_RAPIER").is_some() { return false; }
-    let moves = |body: &&Body| body.collider.is_some() && !body.start.fixed && body.motion.is_none();
-    scene.bodies.iter().filter(moves).count() <= SMALL
 }
 
 /// Builds the world of a scene in its initial state. A body has the same index in the scene and in the world. A ground that stops bodies

@@ -120,7 +120,8 @@ fn a_falling_stick_comes_to_lie() {
         restitution = 0.2
         "#,
     );
-    let highest = frames.windows(2).map(|two| two[1].balance.total - two[0].balance.total).fold(0.0, f64::max);
+    let highest =
+        frames.windows(2).map(|two| two[1].balance.total - two[0].balance.total).fold(0.0, f64::max);
     assert!(highest < 1e-4 * frames[0].balance.total, "energy rises by {highest} J");
     let body = last(&frames).bodies[0];
     assert!((body.location.y - 0.02).abs() < 1e-6, "{}", body.location);
@@ -290,10 +291,16 @@ fn what_stands_is_held_until_it_is_hit() {
     for frame in &early {
         assert_eq!(frame.bodies[..2], early[0].bodies[..2], "{}", frame.time);
     }
-    let on_floor =
-        early[5].contacts.iter().filter(|contact| contact.bodies[1] != 1).map(|contact| contact.force.length());
+    let on_floor = early[5]
+        .contacts
+        .iter()
+        .filter(|contact| contact.bodies[1] != 1)
+        .map(|contact| contact.force.length());
     assert!((on_floor.sum::<f64>() - 2.0 * 9.81).abs() < 1e-6);
-    assert!((last(&frames).bodies[1].location - early[0].bodies[1].location).length() > 1e-3, "it was not hit");
+    assert!(
+        (last(&frames).bodies[1].location - early[0].bodies[1].location).length() > 1e-3,
+        "it was not hit"
+    );
     let drift = frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max);
     assert!(drift < 1e-3, "{drift}");
 }

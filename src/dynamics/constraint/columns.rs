@@ -105,13 +105,7 @@ impl Solver {
     /// Appends the velocity changes under a unit impulse along a constraint row when joints are active. The reactions of the joints move
     /// other bodies of the mechanism as well. The column of a row along which the joints block all motion is empty. `moved` and `unknown` are
     /// working memory.
-    fn push_held_column(
-        &self,
-        row: usize,
-        columns: &mut Columns,
-        moved: &mut [Member],
-        unknown: &mut [f64],
-    ) {
+    fn push_held_column(&self, row: usize, columns: &mut Columns, moved: &mut [Member], unknown: &mut [f64]) {
         let Some(structure) = &self.structure else { return };
         let directions = &self.jacobian[structure.directions_of(row)];
         let mut mechanisms: Vec<usize> =
@@ -120,8 +114,7 @@ impl Solver {
         mechanisms.dedup();
         let rows = || mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].rows).copied();
         let mut members: Vec<usize> = directions.iter().map(|direction| direction.member).collect();
-        members
-            .extend(mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].members));
+        members.extend(mechanisms.iter().flat_map(|&mechanism| &structure.mechanisms[mechanism].members));
         members.sort_unstable();
         members.dedup();
         for direction in directions {

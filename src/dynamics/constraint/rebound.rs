@@ -150,9 +150,10 @@ impl Solver {
         let closes = |row: usize, place: &Place| {
             let pushed = match place.constraint.checked_sub(self.joints()) {
                 Some(contact) => self.has_pushed(contact),
-                None => self.joint_forces.iter().any(|&(constraint, of, _)| {
-                    constraint == place.constraint && of == row - place.row
-                }),
+                None => self
+                    .joint_forces
+                    .iter()
+                    .any(|&(constraint, of, _)| constraint == place.constraint && of == row - place.row),
             };
             self.laws[row] == Law::Inequality && rates[row] < goals[row] && !pushed
         };

@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::super::contact::LastingContact;
 use super::super::{ContactSnapshot, Loads, Model, State};
-use super::solver::Solver;
 use super::Law;
 use super::modes::Mode;
+use super::solver::Solver;
 use super::sweep::Purpose;
 
 /// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces
@@ -58,7 +58,9 @@ impl Solver {
                 continue;
             };
             self.modes[row] = match self.laws[row] {
-                Law::SpeedMotor { limit } => Mode::Pushed(if limit.is_finite() { force / limit } else { 0.0 }),
+                Law::SpeedMotor { limit } => {
+                    Mode::Pushed(if limit.is_finite() { force / limit } else { 0.0 })
+                }
                 _ => Mode::Pushed(force),
             };
         }

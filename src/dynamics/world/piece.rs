@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{ContactPolicy, World};
 use super::event::Event;
+use super::{ContactPolicy, World};
 use crate::dynamics::{BodyId, Breakdown, System};
 
 /// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.

@@ -100,9 +100,8 @@ impl World {
             self.leave_contacts();
             return;
         };
-        let was_in_crowd = |bodies: &BTreeSet<usize>| {
-            is_stepped || bodies.iter().any(|&body| collider.was_in_crowd(body))
-        };
+        let was_in_crowd =
+            |bodies: &BTreeSet<usize>| is_stepped || bodies.iter().any(|&body| collider.was_in_crowd(body));
         let (heaps, others): (Vec<_>, Vec<_>) = new.into_iter().partition(was_in_crowd);
         let mut held = self.seen_by_sweeps(t, heaps);
         held.extend(self.seen_as_decided(t, others));

@@ -56,7 +56,8 @@ impl Collider {
     /// Returns the largest overlap of two bodies at the contacts of the crowd (the bodies that Moreau's scheme advances), m; 0 if none
     /// overlap.
     pub(in crate::dynamics) fn penetration(&self, model: &Model, state: &State) -> f64 {
-        let overlap = |place: &Arc<LastingContact>| -place.gap(place.bodies.map(|body| pose(body, model, state)));
+        let overlap =
+            |place: &Arc<LastingContact>| -place.gap(place.bodies.map(|body| pose(body, model, state)));
         self.crowd.places.iter().map(overlap).fold(0.0, f64::max)
     }
 

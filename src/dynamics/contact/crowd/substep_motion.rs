@@ -173,7 +173,13 @@ impl Collider {
     }
 
     /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
-    pub(super) fn moment(&mut self, course: &mut SubstepMotion, time: f64, model: &Model, loads: &mut Loads) -> State {
+    pub(super) fn moment(
+        &mut self,
+        course: &mut SubstepMotion,
+        time: f64,
+        model: &Model,
+        loads: &mut Loads,
+    ) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
         let k = ((passed + SAME) as usize).min(last);
