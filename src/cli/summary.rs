@@ -6,7 +6,7 @@ use std::time::Duration;
 use jabuka::diagnostic::visible_path;
 use jabuka::dynamics::LawResidual;
 use jabuka::output::Written;
-use jabuka::scene::ContactLaw;
+use jabuka::scene::{ContactLaw, is_by_moreau};
 use jabuka::simulate::{ContactTotals, EnergyScale};
 use jabuka::{Run, Scene};
 
@@ -72,7 +72,7 @@ pub(super) fn summary(
         contacts = survey
             .contacts
             .zip(scene.simulation.contacts)
-            .map(|(totals, law)| contacts(totals, law, survey.drift_energy))
+            .map(|(totals, law)| contacts(totals, law, scheme(scene), survey.drift_energy))
             .unwrap_or_default(),
         laws = laws(&survey.laws),
         report = report(scene, path, survey.drift),
@@ -106,8 +106,8 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
 
 /// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also returns the largest overlap of
 /// bodies, the largest error of joints, and the energy that joints take if it exceeds the fraction [`DOUBTFUL`] of `scale`. `scale` is the
-/// energy to which the energy error is relative, J.
-fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
+/// energy to which the energy error is relative, J. `scheme` says how contacts are solved.
+fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints, taken_by_joints } = totals;
     let taken =
         format!("impacts   {impacts}; contacts {}; friction {}\n", energy_taken(lost), energy_taken(rubbed));
@@ -122,7 +122,12 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scale: f64) -> String {
         }
         _ => gap,
     };
-    format!("{taken}contacts  bodies {depth} m within each other at most{gap}\n")
+    format!("{taken}contacts  {scheme}bodies {depth} m within each other at most{gap}\n")
+}
+
+/// Returns how time stepping solves the contacts of a scene, if it is not the engine for many bodies.
+fn scheme(scene: &Scene) -> &'static str {
+    if is_by_moreau(&scene.bodies) { "by Moreau's scheme; " } else { "" }
 }
 
 /// Returns the line with the worst residual of the laws that no contact can break. Empty if there are none.
@@ -190,15 +195,15 @@ mod tests {
             ..ContactTotals::default()
         };
         let taken = "impacts   31415; contacts took 0.1235 J; friction took 0 J\n";
-        assert_eq!(contacts(totals, ContactLaw::EventDriven, 1.0), taken);
+        assert_eq!(contacts(totals, ContactLaw::EventDriven, "", 1.0), taken);
         let added = ContactTotals { lost: -159.94, ..totals };
         let line = "impacts   31415; contacts added 159.9 J; friction took 0 J\n";
-        assert_eq!(contacts(added, ContactLaw::EventDriven, 1.0), line);
+        assert_eq!(contacts(added, ContactLaw::EventDriven, "", 1.0), line);
         let depth = "contacts  bodies 0.0012 m within each other at most\n";
-        assert_eq!(contacts(totals, ContactLaw::TimeStepping, 1.0), format!("{taken}{depth}"));
+        assert_eq!(contacts(totals, ContactLaw::TimeStepping, "", 1.0), format!("{taken}{depth}"));
         let joined = ContactTotals { joints: 2.5e-5, ..totals };
         let said = |taken_by_joints: f64| {
-            contacts(ContactTotals { taken_by_joints, ..joined }, ContactLaw::TimeStepping, 1000.0)
+            contacts(ContactTotals { taken_by_joints, ..joined }, ContactLaw::TimeStepping, "", 1000.0)
         };
         assert!(said(-10.0).ends_with("; joints 2.5e-5 m off at most\n"));
         assert!(said(284.04).ends_with("; joints 2.5e-5 m off at most; joints and limits took 284 J\n"));

@@ -46,7 +46,7 @@ const FEW: usize = 5;
 
 /// Returns true if time stepping solves the contacts of these bodies by Moreau's scheme, with exact joints: few bodies move and collide, and
 /// none is a torus, for which no distance is computed. The engine for many bodies advances all others.
-pub(crate) fn is_by_moreau(bodies: &[Body]) -> bool {
+pub fn is_by_moreau(bodies: &[Body]) -> bool {
     let mut colliding = bodies.iter().filter(|body| body.collider.is_some());
     let moves = |body: &&Body| !body.start.fixed && body.motion.is_none();
     colliding.clone().filter(moves).count() <= FEW && !colliding.any(|body| body.shape.has_torus())

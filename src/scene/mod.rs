@@ -37,8 +37,7 @@ use std::path::{Path, PathBuf};
 
 pub use color::Color;
 pub(crate) use color::names as color_names;
-pub(crate) use contact::is_by_moreau;
-pub use contact::{Collider, ContactLaw};
+pub use contact::{Collider, ContactLaw, is_by_moreau};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};

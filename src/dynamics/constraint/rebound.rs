@@ -12,10 +12,14 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::super::{Impact, Loads, Model, State};
-use super::Law;
 use super::solver::Solver;
 use super::structure::Place;
 use super::sweep::Purpose;
+use super::{Direction, Law};
+
+/// A stop that pushed in the last substep needs no impulse if it closes by less than this fraction of the rate that its force changes in a
+/// substep.
+const CARRIED: f64 = 0.1;
 
 /// The impacts within one substep, and the corrections of positions that they cause.
 #[derive(Default)]
@@ -25,6 +29,8 @@ pub(in crate::dynamics) struct Struck {
     /// For each rebounding body, its index and the displacement, m, that the impulse caused before the bodies touched. This displacement
     /// has to be undone.
     pub(in crate::dynamics) early: Vec<(usize, DVec3)>,
+    /// The energy that the impulses gave too much because the loads had not yet worked until the bodies touched, J: 0 or negative.
+    pub(in crate::dynamics) fallen: f64,
 }
 
 /// A contact at which two bodies rebound in this substep.
@@ -37,6 +43,8 @@ struct Rebound {
     time: f64,
     /// The part of the impulse that the contact repeats.
     restitution: f64,
+    /// The change of the closing rate by the loads until the bodies touch, m/s.
+    fall: f64,
 }
 
 /// Combines the impacts at all points of two bodies into one, at the center of their normal impulses.
@@ -72,12 +80,13 @@ impl Solver {
         (state, loads): (&mut State, &Loads),
     ) -> Struck {
         let before = self.rates_of(model, state);
-        if self.counts_soft_impacts && !self.are_closing(&before, goals) {
+        if self.counts_soft_impacts && !self.are_closing((&before, goals), part) {
             return Struck::default();
         }
         let rebounds = self.rebounds((model, loads), (&before, goals), part);
+        // The loads act until the bodies touch. What they add to the approach is reversed with it.
         for rebound in &rebounds {
-            goals[rebound.row] = 0.0;
+            goals[rebound.row] = -rebound.fall;
         }
         let velocities: BTreeMap<usize, DVec3> =
             self.rebounding(&rebounds, model).map(|body| (body, state.velocity[body])).collect();
@@ -92,6 +101,9 @@ impl Solver {
         }
         self.push_all(model, goals, Purpose::Impact, state);
         self.least.clear();
+        for rebound in &rebounds {
+            goals[rebound.row] = 0.0;
+        }
         impulses.iter_mut().zip(&self.unknown).for_each(|(sum, more)| *sum += more);
         let early = self.early(&rebounds, &impulses, (&velocities, state));
         let after = self.rates_of(model, state);
@@ -101,7 +113,8 @@ impl Solver {
             impacts = of_pairs(impacts);
         }
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
-        Struck { impacts, early }
+        let fallen = rebounds.iter().map(|rebound| impulses[rebound.row] * rebound.fall).sum();
+        Struck { impacts, early, fallen }
     }
 
     /// Records impacts without a rebound from now on, too.
@@ -139,35 +152,57 @@ impl Solver {
                 rows: place.rows,
                 time: goal / rate * part,
                 restitution: if rebounds { restitution } else { 0.0 },
+                fall: if rebounds && self.counts_soft_impacts {
+                    goal / rate * part * self.pull(place.row, model, loads)
+                } else {
+                    0.0
+                },
             })
         };
         self.structure.iter().flat_map(|structure| &structure.places).filter_map(rebound).collect()
     }
 
-    /// Returns true if a stop (an inequality c ≥ 0) closes that did not push in the last substep. What already pushed keeps its rate by forces:
+    /// Returns true if a stop (an inequality c ≥ 0) closes faster than its last force explains. What already pushed keeps its rate by forces:
     /// impulses would only take the energy of the small rates that a substep of turning bodies leaves.
-    fn are_closing(&self, rates: &[f64], goals: &[f64]) -> bool {
+    fn are_closing(&self, (rates, goals): (&[f64], &[f64]), part: f64) -> bool {
         let closes = |row: usize, place: &Place| {
-            let pushed = match place.constraint.checked_sub(self.joints()) {
-                Some(contact) => self.has_pushed(contact),
-                None => self
-                    .joint_forces
-                    .iter()
-                    .any(|&(constraint, of, _)| constraint == place.constraint && of == row - place.row),
+            if self.laws[row] != Law::Inequality || rates[row] >= goals[row] {
+                return false;
+            }
+            let force = match place.constraint.checked_sub(self.joints()) {
+                Some(contact) => self.last_push(contact),
+                None => {
+                    let is_it = |(constraint, of, _): &&(usize, usize, f64)| {
+                        *constraint == place.constraint && *of == row - place.row
+                    };
+                    self.joint_forces.iter().find(is_it).map_or(0.0, |(.., force)| *force)
+                }
             };
-            self.laws[row] == Law::Inequality && rates[row] < goals[row] && !pushed
+            rates[row] < goals[row] - CARRIED * part * force * self.columns.weights()[row]
         };
         let mut places = self.structure.iter().flat_map(|structure| &structure.places);
         places.any(|place| (place.row..place.row + place.rows).any(|row| closes(row, place)))
     }
 
-    fn has_pushed(&self, contact: usize) -> bool {
-        self.warm.find(&self.contacts[contact]).is_some_and(|forces| forces[0] > 0.0)
+    /// Returns the normal force of a contact in the last substep, N.
+    fn last_push(&self, contact: usize) -> f64 {
+        self.warm.find(&self.contacts[contact]).map_or(0.0, |forces| forces[0])
     }
 
     /// Returns true if a contact did not push in the last substep, and impacts without a rebound are recorded.
     fn is_new(&self, contact: usize) -> bool {
-        self.counts_soft_impacts && !self.has_pushed(contact)
+        self.counts_soft_impacts && self.last_push(contact) <= 0.0
+    }
+
+    /// Returns the rate by which the loads alone change the rate of a constraint row, m/s².
+    fn pull(&self, row: usize, model: &Model, loads: &Loads) -> f64 {
+        let Some(structure) = &self.structure else { return 0.0 };
+        let of = |direction: &Direction| {
+            let (member, body) = (&self.members[direction.member], structure.bodies[direction.member]);
+            direction.linear.dot(model.inverse_mass()[body] * loads.force[body])
+                + direction.angular.dot(member.turn(loads.torque[body]))
+        };
+        self.jacobian[structure.directions_of(row)].iter().map(of).sum()
     }
 
     /// Returns the movable bodies of rebounding contacts, by index.
@@ -228,7 +263,7 @@ impl Solver {
             place: seen.place + 0.5 * contact.bodies.iter().map(way).sum::<DVec3>(),
             normal: seen.normal,
             impulse: seen.force + seen.friction,
-            energy: (-(row..row + rows).map(work).sum::<f64>()).max(0.0),
+            energy: (-(row..row + rows).map(work).sum::<f64>() - impulses[row] * rebound.fall).max(0.0),
         })
     }
 }

@@ -8,7 +8,7 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::dynamics::{METHODS, Motor, suitable_step};
-use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, thinnest};
+use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
 const ELASTIC: f64 = 0.9;
@@ -41,7 +41,8 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    if !cfg!(feature = "time-stepping") {
+    let is_by_moreau = is_by_moreau(bodies);
+    if !cfg!(feature = "time-stepping") && !is_by_moreau {
         let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
         let help = "build jabuka with its feature `time-stepping`, or take the other scheme: `contacts = \"event-driven\"`";
         let span = table.span("contacts");
@@ -84,8 +85,8 @@ pub(super) fn check(
         let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
         context.diagnostics.push(error.at(span, "").help(OTHER));
     }
-    // Report this warning only once: it is the same for all bodies.
-    if let Some((span, value)) = elastic {
+    // Report this warning only once: it is the same for all bodies. Moreau's scheme keeps the height.
+    if let Some((span, value)) = elastic.filter(|_| !is_by_moreau) {
         let message = format!("a rebound with restitution {} loses height in time stepping", figure(value));
         let label = "a rebound begins at the end of a step, and not at its own time";
         let help = format!(
@@ -157,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_build_without_time_stepping_says_so_at_the_place() {
-        let text = "simulation.contacts = 'time-stepping'\n[body.a]\nshape.sphere.radius = 1\nlocation = [0, 2, 0]\n";
+        let text = "simulation.contacts = 'time-stepping'\n[body.a]\nshape.sphere.radius = 1\nlocation = ['3*i', 2, 0]\nrepeat = 6\n";
         let report = Scene::parse(text).unwrap_err();
         let error = &report.diagnostics[0];
         assert_eq!(error.message, "this build of jabuka has no time stepping");

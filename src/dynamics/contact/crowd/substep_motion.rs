@@ -498,7 +498,7 @@ impl Crowd {
         let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
         self.impacts.extend(struck.impacts);
         let rates = self.solver.rates_now();
-        let mut gain = self.kinetic(model, now) - energy;
+        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
         self.fly(model, 0.5 * part, now);
         let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
         model.place(t + 0.5 * part, now);
