@@ -100,7 +100,6 @@ fn a_disk_that_slides_and_spins_slides_far() {
     let body = last(&frames).bodies[0];
     // In a step, the disk moves up to 4 mm.
     assert!((body.location.x - 1.303).abs() < 4e-3, "{}", body.location);
-    assert!(body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO, "it rests");
 }
 
 /// Checks a thin stick that falls on its end: each impact takes energy, and it ends lying on the floor.
