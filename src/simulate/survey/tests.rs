@@ -182,6 +182,10 @@ fn a_joint_that_gives_way_is_found() {
             [body.heavy]
             location = [1, 0, 0]
             mass = 1000
+            [body.far]
+            repeat = 6
+            location = ['i', 20, 9]
+            collides = true
             [joint.upper.rod]
             between = [[0, 0, 0], 'light']
             [joint.lower.rod]
