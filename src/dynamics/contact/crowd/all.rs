@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::super::super::{Breakdown, Loads, Model, State};
+use glam::DVec3;
+
+use super::super::super::{Accounts, Breakdown, Loads, Model, State};
 use super::super::closest_points::nearest;
 use super::super::collider::Collider;
 use super::super::lasting_contact::LastingContact;
@@ -61,6 +63,16 @@ impl Collider {
         self.crowd.places.iter().map(overlap).fold(0.0, f64::max)
     }
 
+    /// Stores the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of a step, and returns them.
+    pub(super) fn accept_places(&mut self, all: Vec<Arc<LastingContact>>) -> Vec<Arc<LastingContact>> {
+        self.crowd.pushing.clear();
+        self.crowd.course = None;
+        let Crowd { bodies, places, .. } = &mut self.crowd;
+        places.retain(|place| !place.is_of(bodies));
+        places.extend(all.iter().cloned());
+        all
+    }
+
     /// Returns the forces of limits and motors in the last part of a step: the constraint, its row, and the multiplier of each.
     pub(in crate::dynamics) fn joint_forces(&self) -> &[(usize, usize, f64)] {
         self.crowd.solver.joint_forces()
@@ -97,6 +109,32 @@ impl Collider {
 }
 
 impl Crowd {
+    /// Computes the power of the loads without a potential on the crowd (the bodies that Moreau's scheme advances), W: the power that these
+    /// loads would lose if the bodies stood still.
+    pub(super) fn power(&self, model: &Model, t: f64, now: &State) -> Accounts {
+        if self.is_all {
+            // The crowd is all that moves, and its motion is all of the step.
+            let mut loads = Loads::default();
+            if model.does_work() || model.has_guided() {
+                model.sum(t, now, &mut loads);
+                model.bear(now, &mut loads);
+            }
+            return loads.power;
+        }
+        if !model.does_work() {
+            return Accounts::default();
+        }
+        let (mut loads, mut still) = (Loads::default(), now.clone());
+        for &i in &self.bodies {
+            (still.velocity[i], still.angular_momentum[i]) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        model.sum(t, &still, &mut loads);
+        let others = loads.power;
+        model.sum(t, now, &mut loads);
+        loads.power.add(-1.0, others);
+        loads.power
+    }
+
     /// Copies the bodies of the crowd (the bodies that Moreau's scheme advances) and the energy accounts into a state of all bodies.
     pub(super) fn put(&self, from: &State, into: &mut State) {
         for (at, &body) in self.bodies.iter().enumerate() {

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::super::super::constraint::{Purpose, Solver};
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
-use super::super::super::{Accounts, BodyId, Breakdown, Impact, Loads, Model, State};
+use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
 use super::super::collider::{Collider, Scale};
@@ -410,16 +410,6 @@ impl Collider {
         Err(Breakdown::Jammed { bodies, time })
     }
 
-    /// Stores the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of a step, and returns them.
-    fn accept_places(&mut self, all: Vec<Arc<LastingContact>>) -> Vec<Arc<LastingContact>> {
-        self.crowd.pushing.clear();
-        self.crowd.course = None;
-        let Crowd { bodies, places, .. } = &mut self.crowd;
-        places.retain(|place| !place.is_of(bodies));
-        places.extend(all.iter().cloned());
-        all
-    }
-
     /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
     /// any. Points with a gap below `near`, as a fraction of the smaller body's size, count as contacts, too.
     fn touching_in_crowd(
@@ -569,32 +559,6 @@ impl Crowd {
             2.0 * (impulse.dot(now.velocity[i]) + turn.dot(model.angular_velocity(i, now)))
         };
         self.bodies.iter().zip(first).map(work).sum()
-    }
-
-    /// Computes the power of the loads without a potential on the crowd (the bodies that Moreau's scheme advances), W: the power that these
-    /// loads would lose if the bodies stood still.
-    fn power(&self, model: &Model, t: f64, now: &State) -> Accounts {
-        if self.is_all {
-            // The crowd is all that moves, and its motion is all of the step.
-            let mut loads = Loads::default();
-            if model.does_work() || model.has_guided() {
-                model.sum(t, now, &mut loads);
-                model.bear(now, &mut loads);
-            }
-            return loads.power;
-        }
-        if !model.does_work() {
-            return Accounts::default();
-        }
-        let (mut loads, mut still) = (Loads::default(), now.clone());
-        for &i in &self.bodies {
-            (still.velocity[i], still.angular_momentum[i]) = (DVec3::ZERO, DVec3::ZERO);
-        }
-        model.sum(t, &still, &mut loads);
-        let others = loads.power;
-        model.sum(t, now, &mut loads);
-        loads.power.add(-1.0, others);
-        loads.power
     }
 
     /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
