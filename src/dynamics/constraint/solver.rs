@@ -15,6 +15,7 @@ use super::friction::FrictionPair;
 use super::last_forces::LastForces;
 use super::member::{BodyConstants, Member};
 use super::modes::Mode;
+use super::refine::Pause;
 use super::structure::{Place, Structure};
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
@@ -82,6 +83,8 @@ pub(in crate::dynamics) struct Solver {
     pub(super) columns: Columns,
     /// The contact forces that the last Gauss–Seidel sweeps found, from which the next sweeps start.
     pub(super) warm: LastForces,
+    /// Whether Newton's method is left out at present.
+    pub(super) pause: Pause,
     /// The forces of limits and motors that the last sweeps found: the constraint, its row, and the multiplier.
     pub(super) joint_forces: Vec<(usize, usize, f64)>,
     /// True if impacts without a rebound are recorded, too.

@@ -238,6 +238,8 @@ impl Solver {
         let members = self.members.clone();
         let mut goals = goals.to_vec();
         self.sweep_warmly(&goals, purpose, tolerance);
+        let largest = fastest.max(self.forced);
+        self.refine(&goals, purpose, (largest, tolerance), &members);
         let moved: Vec<f64> = self.rows.iter().map(|row| row.rate).collect();
         let now = self.rates_now();
         if purpose != Purpose::Impact && self.adds_energy(&moved, &now, tolerance) {
@@ -247,6 +249,7 @@ impl Solver {
             }
             self.members.clone_from(&members);
             self.sweep_warmly(&goals, purpose, tolerance);
+            self.refine(&goals, purpose, (largest, tolerance), &members);
         }
         // In the second phase of an impact, contacts give back a part of the energy that the first phase has taken.
         if self.least.is_empty() && self.adds_energy(&goals, before, tolerance) {
