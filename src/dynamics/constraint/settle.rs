@@ -22,6 +22,9 @@ const ITERATIONS: usize = 60;
 /// With friction, the projection stops if the remaining error exceeds this fraction of the error in the iteration before.
 const STAYS: f64 = 0.95;
 
+/// An iteration that leaves more than this fraction of the largest error converges slowly. Friction then yields to joints and normals.
+const SLOWLY: f64 = 0.1;
+
 /// The projection diverges if the error grows by more than this factor in one iteration.
 const DIVERGED: f64 = 10.0;
 
@@ -45,7 +48,7 @@ impl Solver {
         let known = self.structure.as_ref().filter(|_| !of_all).map(|structure| &structure.bodies[..]);
         trial.take_over(state, known);
         model.place(t + dt, &mut trial);
-        let mut before = f64::INFINITY;
+        let (mut before, mut yields) = (f64::INFINITY, false);
         for _ in 0..ITERATIONS {
             let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
             for &i in bodies.filter(|&&i| model.inverse_mass()[i] != 0.0) {
@@ -57,11 +60,21 @@ impl Solver {
             }
             self.measure(t + dt, &trial);
             self.rows.iter_mut().zip(&left).for_each(|(row, left)| row.violation -= left);
-            let worst = self.worst();
+            if yields {
+                self.yield_friction();
+            }
+            let mut worst = self.worst();
+            if !yields && worst > SLOWLY * before && !self.grips.is_empty() {
+                yields = true;
+                self.yield_friction();
+                (worst, before) = (self.worst(), f64::INFINITY);
+            }
             let is_enough = worst > 0.5 * before && self.are_kept();
             // The equations of friction at several points can contradict each other, so the error may stay.
             let stays = self.factor.is_soft() && worst > STAYS * before;
-            if worst <= 1.0 || is_enough || stays {
+            // With friction, a small error may still shrink: far from the origin, what is left of it would change the angular momentum.
+            let may_shrink = !self.grips.is_empty() && worst > 0.0 && worst <= SLOWLY * before;
+            if (worst <= 1.0 && !may_shrink) || is_enough || stays {
                 break;
             }
             if worst > DIVERGED * before {
@@ -85,6 +98,14 @@ impl Solver {
         self.is_aiming = false;
         // The errors of some constraint rows are measured differently while the velocities are corrected.
         self.measured = f64::NAN;
+    }
+
+    /// Drops the errors of friction: what has slipped stays. The slip within a step is known to the accuracy of the method only, so joints
+    /// and normals, which are exact, can contradict it.
+    fn yield_friction(&mut self) {
+        for grip in &self.grips {
+            self.rows[grip.row..grip.row + 2].iter_mut().for_each(|row| row.violation = 0.0);
+        }
     }
 
     /// Projects a state onto the constraints. Moves the bodies the shortest distance, in the metric of the mass matrix M, to satisfy all
@@ -122,6 +143,10 @@ impl Solver {
             }
             // If nearly redundant constraint rows contradict each other, the softness keeps bodies from moving far.
             self.factor.solve(&mut self.unknown);
+            if self.factor.is_soft() {
+                self.move_at_once(state);
+                continue;
+            }
             let Solver { structure: Some(structure), members, jacobian, unknown, .. } = &*self else {
                 return;
             };
@@ -133,6 +158,24 @@ impl Solver {
                     state.orientation[i] = (DQuat::from_scaled_axis(turn) * state.orientation[i]).normalize();
                 }
             });
+        }
+    }
+
+    /// Moves the bodies by the shifts M⁻¹ Jᵀ Λ, where `unknown` holds Λ. Where friction repeats what joints say, the shifts of single equations
+    /// are large and nearly cancel. Turns made one after another would leave a rotation of the second order, so their sum is made at once.
+    fn move_at_once(&mut self, state: &mut State) {
+        let Solver { structure: Some(structure), members, jacobian, unknown, .. } = self else { return };
+        // The velocities of the members serve as working memory. The next measurement restores them.
+        for member in members.iter_mut() {
+            (member.velocity, member.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
+        }
+        move_members(structure, jacobian, unknown, members);
+        for (member, &i) in members.iter().zip(&structure.bodies) {
+            let turn = member.angular_velocity;
+            state.location[i] += member.velocity;
+            if turn != DVec3::ZERO {
+                state.orientation[i] = (DQuat::from_scaled_axis(turn) * state.orientation[i]).normalize();
+            }
         }
     }
 
