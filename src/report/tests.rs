@@ -197,7 +197,10 @@ fn runs_that_share_a_mistake_converge_but_are_not_called_good() {
     assert_eq!((*contacts, *agreement), ("event-driven", Agreement::Parted));
     assert!(*distance > true_one - verdict.error, "{distance} {true_one}");
     let said = assessment.to_text("s.toml");
-    assert!(!said.contains("good") && !said.contains("is off by") && said.contains("is wrong"), "{said}");
+    assert!(
+        !said.contains("good") && !said.contains("point is off by") && said.contains("is wrong"),
+        "{said}"
+    );
     assert_eq!(assessment.recommended, None);
 
     let exact = three_balls("event-driven");

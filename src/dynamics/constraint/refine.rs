@@ -17,7 +17,7 @@ const LEFT: f64 = 1e-4;
 const BETTER: f64 = 0.5;
 
 /// After failures in a row, Newton's method is left out for a number of times that doubles up to this one.
-const LONGEST_PAUSE: u32 = 64;
+const LONGEST_PAUSE: u32 = 256;
 
 /// Leaves Newton's method out for a while after it has failed. Flowing grains would otherwise cost much time in vain.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,6 +53,9 @@ impl Solver {
         (largest, tolerance): (f64, f64),
         members: &[Member],
     ) {
+        if self.pause.goes_on() {
+            return;
+        }
         let Some(structure) = &self.structure else { return };
         let mut unknown = self.unknown.clone();
         let mut has_changed = None;
@@ -63,9 +66,6 @@ impl Solver {
             let residual = island.residual(&numbers.iter().map(velocities).collect());
             if residual <= LEFT * largest {
                 continue;
-            }
-            if has_changed.is_none() && self.pause.goes_on() {
-                return;
             }
             let is_better = island.solve(tolerance) < BETTER * residual;
             has_changed = Some(has_changed == Some(true) || is_better);
