@@ -28,8 +28,8 @@ impl Envelope {
 
     /// Returns about how many multiplications a factorization takes.
     pub(super) fn work(&self) -> f64 {
-        let width = |(row, &first): (usize, &usize)| ((row + 1 - first) as f64).powi(2);
-        0.5 * self.first.iter().enumerate().map(width).sum::<f64>()
+        let width = |(row, &first): (usize, &usize)| (row + 1 - first) as f64;
+        0.5 * self.first.iter().enumerate().map(width).map(|width| width * width).sum::<f64>()
     }
 
     /// Sets all entries to zero.
@@ -140,11 +140,12 @@ mod tests {
         let first: Vec<usize> = (0..23_usize).map(|row| row.saturating_sub(1 + row * 7 % 9)).collect();
         let mut matrix = Envelope::new(first.clone());
         let mut dense = vec![vec![0.0; 23]; 23];
-        for row in 0..23 {
-            for column in first[row]..=row {
+        for (row, &first) in first.iter().enumerate() {
+            for column in first..=row {
                 let entry = if row == column { 20.0 } else { libm::sin((row * 31 + column * 17) as f64) };
                 matrix.add(row, column, entry);
-                (dense[row][column], dense[column][row]) = (entry, entry);
+                dense[row][column] = entry;
+                dense[column][row] = entry;
             }
         }
         let right: Vec<f64> = (0..23).map(|row| libm::cos(f64::from(row))).collect();

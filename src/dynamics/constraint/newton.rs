@@ -381,11 +381,10 @@ impl Round<'_> {
     fn assemble(&self, wishes: &[f64], order: &[usize], matrix: &mut Envelope) {
         matrix.clear();
         for (body, &place) in self.island.bodies.iter().zip(order) {
-            let inertia = body.inertia.to_cols_array_2d();
-            for i in 0..3 {
+            for (i, column) in body.inertia.to_cols_array_2d().iter().enumerate() {
                 matrix.add(6 * place + i, 6 * place + i, body.mass);
-                for j in 0..=i {
-                    matrix.add(6 * place + 3 + i, 6 * place + 3 + j, inertia[i][j]);
+                for (j, entry) in column.iter().enumerate().take(i + 1) {
+                    matrix.add(6 * place + 3 + i, 6 * place + 3 + j, *entry);
                 }
             }
         }
