@@ -2,11 +2,41 @@
 //! default step, against closed forms. The scheme is of first order, so tolerances are a small multiple of what a step can change.
 
 use glam::DVec3;
-use jabuka::Scene;
+use jabuka::diagnostic::Code;
 use jabuka::dynamics::{Dynamics as _, Impact};
 use jabuka::simulate::{Frame, world};
+use jabuka::{Run, Scene};
 
 use crate::common::frames;
+
+/// An arm that leans on a stop of its own base, which turns at 6 rad/s about its middle. Nothing brakes them.
+const ARM_ON_STOP: &str = r#"
+    [simulation]
+    duration = 2
+    contacts = "time-stepping"
+    [environment]
+    ground = false
+    [defaults.body]
+    friction = 0
+    [body.base]
+    shape.box.size = [2, 0.2, 0.2]
+    angular_velocity = [0, 0, 6]
+    mass = 4
+    [body.arm]
+    shape.box.size = [1, 0.1, 0.1]
+    location = [0.5, 0.15, 0]
+    velocity = [-0.9, 3, 0]
+    angular_velocity = [0, 0, 6]
+    mass = 1
+    [joint.axle.hinge]
+    between = [[0, 0, 0], "base"]
+    axis = [0, 0, 1]
+    [joint.elbow.hinge]
+    between = ["base", "arm"]
+    at = [0.05, -0.1, 0]
+    axis = [0, 0, 1]
+    collides = true
+"#;
 
 /// Returns the last of some frames.
 fn last(frames: &[Frame]) -> &Frame {
@@ -337,43 +367,29 @@ fn joints_bear_what_contacts_leave() {
     assert!((reaction - DVec3::Y * (3.0 * 9.81 - on_foot)).length() < 1e-2, "{reaction}");
 }
 
-/// Checks an arm without friction that leans on a stop of its own turning base. Nothing brakes them: in a quarter of a turn and more, they keep
-/// their angular velocity of 6 rad/s to a tenth of the square of the angle in half a step.
+/// Checks an arm without friction on a stop of its own turning base: in a quarter of a turn and more, they keep their angular velocity of
+/// 6 rad/s to a tenth of the square of the angle in half a step.
 #[test]
 fn an_arm_on_a_stop_turns_with_its_base() {
-    let frames = frames(
-        r#"
-        [simulation]
-        duration = 2
-        contacts = "time-stepping"
-        [environment]
-        ground = false
-        [defaults.body]
-        friction = 0
-        [body.base]
-        shape.box.size = [2, 0.2, 0.2]
-        angular_velocity = [0, 0, 6]
-        mass = 4
-        [body.arm]
-        shape.box.size = [1, 0.1, 0.1]
-        location = [0.5, 0.15, 0]
-        velocity = [-0.9, 3, 0]
-        angular_velocity = [0, 0, 6]
-        mass = 1
-        [joint.axle.hinge]
-        between = [[0, 0, 0], "base"]
-        axis = [0, 0, 1]
-        [joint.elbow.hinge]
-        between = ["base", "arm"]
-        at = [0.05, -0.1, 0]
-        axis = [0, 0, 1]
-        collides = true
-        "#,
-    );
+    let frames = frames(ARM_ON_STOP);
     for body in &last(&frames).bodies {
         let allowed = 0.1 * (6.0_f64 / 480.0).powi(2) * 6.0;
         assert!((body.angular_velocity.z - 6.0).abs() < allowed, "{}", body.angular_velocity);
     }
+}
+
+/// Checks that friction that adds energy is never quiet. With friction, the arm on the stop loses some of its angular velocity, which is
+/// wrong: friction adds energy, and impacts take it.
+#[test]
+fn friction_that_adds_energy_is_warned_of() {
+    let codes = |text: &str| {
+        let scene = Scene::parse(text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        run.warnings().iter().map(|warning| warning.code).collect::<Vec<_>>()
+    };
+    assert!(!codes(ARM_ON_STOP).contains(&Code::EnergyAdded));
+    let rough = ARM_ON_STOP.replace("friction = 0", "friction = 0.5");
+    assert!(codes(&rough).contains(&Code::EnergyAdded));
 }
 
 /// Checks that moments within steps show the motion, and change no bit of the run. A falling ball follows the parabola, for which the scheme is
