@@ -140,13 +140,13 @@ mod tests {
         let first: Vec<usize> = (0..23_usize).map(|row| row.saturating_sub(1 + row * 7 % 9)).collect();
         let mut matrix = Envelope::new(first.clone());
         let mut dense = vec![vec![0.0; 23]; 23];
-        for (row, &first) in first.iter().enumerate() {
-            for column in first..=row {
-                let entry = if row == column { 20.0 } else { libm::sin((row * 31 + column * 17) as f64) };
-                matrix.add(row, column, entry);
-                dense[row][column] = entry;
-                dense[column][row] = entry;
-            }
+        let places =
+            first.iter().enumerate().flat_map(|(row, &first)| (first..=row).map(move |column| (row, column)));
+        for (row, column) in places {
+            let entry = if row == column { 20.0 } else { libm::sin((row * 31 + column * 17) as f64) };
+            matrix.add(row, column, entry);
+            dense[row][column] = entry;
+            dense[column][row] = entry;
         }
         let right: Vec<f64> = (0..23).map(|row| libm::cos(f64::from(row))).collect();
         let mut found = right.clone();
