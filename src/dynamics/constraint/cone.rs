@@ -96,7 +96,7 @@ impl Solver {
             };
         }
         for grip in self.grips.iter().filter(|grip| self.slips(grip)) {
-            let goal = UNREACHABLE * size * grip.push;
+            let goal = UNREACHABLE * size * self.unit(grip.row) * grip.push;
             (goals[grip.row], goals[grip.row + 1]) = (goal.x, goal.y);
         }
         let contacts = self.unknown.clone();
@@ -199,8 +199,9 @@ impl Solver {
                 Mode::Slid
             } else if slip.length() > slight * self.unit(row) {
                 let force = self.grips[i].of(&self.unknown);
+                let clear = CLEAR_SLIP * self.largest_acceleration * self.unit(row);
+                let is_clear = slip.length() > clear || force == DVec2::ZERO;
                 let grip = &mut self.grips[i];
-                let is_clear = slip.length() > CLEAR_SLIP * self.largest_acceleration || force == DVec2::ZERO;
                 grip.push = if is_clear { -slip.normalize() } else { force.normalize() };
                 (grip.heading, grip.is_beginning) = (-grip.push, true);
                 Mode::Slid

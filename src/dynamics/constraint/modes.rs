@@ -299,18 +299,18 @@ impl Solver {
             }
         }
         self.modes = decided;
-        let slight = SLIGHT * self.largest_rate;
-        let Solver { structure: Some(structure), jacobian, unknown, rows, laws, members, .. } = self else {
-            return false;
-        };
         if !are_found {
             return false;
         }
+        let slight: Vec<f64> = (0..n).map(|i| SLIGHT * self.largest_rate * self.unit(i)).collect();
+        let Solver { structure: Some(structure), jacobian, unknown, rows, laws, members, .. } = self else {
+            return false;
+        };
         let mut moved = members.clone();
         let mut after = vec![0.0; n];
         jacobian::move_members(structure, jacobian, unknown, &mut moved);
         jacobian::rates(structure, jacobian, &moved, rows, &mut after);
-        if (0..n).any(|i| touched[i] && after[i] < rates[i].min(0.0) - slight) {
+        if (0..n).any(|i| touched[i] && after[i] < rates[i].min(0.0) - slight[i]) {
             return false;
         }
         jacobian::push(structure, jacobian, unknown, model, state);

@@ -4,7 +4,6 @@ use glam::{DQuat, DVec3};
 
 use super::super::integrator::drift_body;
 use super::super::{Model, State};
-use super::Row;
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
 use super::solver::Solver;
 
@@ -40,8 +39,9 @@ impl Solver {
         self.first.clone_from(&self.jacobian);
         self.first_rates.clear();
         self.first_rates.extend(self.rows.iter().map(|row| row.rate));
-        let sudden = |row: &Row| row.violation.abs() > LARGEST_CORRECTION * self.largest_rate * dt;
-        let is_sudden = !self.contacts.is_empty() && self.rows.iter().any(sudden);
+        let largest = LARGEST_CORRECTION * self.largest_rate * dt;
+        let sudden = |row: usize| self.rows[row].violation.abs() > largest * self.unit(row);
+        let is_sudden = !self.contacts.is_empty() && (0..self.rows.len()).any(sudden);
         let left: Vec<f64> = self.rows.iter().filter(|_| is_sudden).map(|row| row.violation).collect();
         let mut trial = std::mem::take(&mut self.trial);
         let of_all = trial.len() != state.len();

@@ -82,7 +82,6 @@ impl Solid {
         let tree = is_surface.then(|| Tree::new(parts.iter().map(|part| part.box_in(&body, &body))).into());
         let reach = parts.iter().map(Part::reach).fold(0.0, f64::max);
         let size = parts.iter().map(Part::size).fold(f64::INFINITY, f64::min);
-        let size = if size.is_finite() { size } else { 1.0 };
         Some(Solid { parts: parts.into(), tree, is_surface, reach, size })
     }
 
@@ -92,7 +91,7 @@ impl Solid {
         self.reach
     }
 
-    /// Returns a typical size of the body, m: the smallest thickness of its convex parts. 1 for a plane.
+    /// Returns a typical size of the body, m: the smallest thickness of its convex parts. Infinite for a plane.
     pub(in crate::dynamics) fn size(&self) -> f64 {
         self.size
     }

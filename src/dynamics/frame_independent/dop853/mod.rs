@@ -124,7 +124,7 @@ impl Dop853 {
         self.elapsed += h;
     }
 
-    /// Returns a suitable length of the first step, s. Source: Hairer, Nørsett & Wanner, II.4.
+    /// Returns a suitable length of the first step, s. Source: Hairer, Nørsett & Wanner, II.4, where the unit of time is the first guess.
     fn first_step(&mut self, field: &mut Field<'_>, now: Time) -> f64 {
         // Slopes and curvatures are divided by the allowed error. Values of the state would be about 1/tolerance in these units.
         let rate = self.largest(field, |dop, i| dop.slopes[0][i]);
@@ -136,7 +136,8 @@ impl Dop853 {
         flat::find_slope(field, now.after(guess).seconds(), &self.stage, &mut self.slopes[1]);
         let bend = self.largest(field, |dop, i| dop.slopes[1][i] - dop.slopes[0][i]) / guess;
         let steepest = bend.max(rate * rate * self.tolerance);
-        (100.0 * guess).min(eighth_root(0.01 / (steepest * self.tolerance)).min(100.0) * guess)
+        // An eighth root needs a number without a unit, so both rates are in units of 1/guess.
+        eighth_root(0.01 / (steepest * self.tolerance * guess * guess)).min(100.0) * guess
     }
 
     /// Returns the largest magnitude of a quantity over all entries of the list, each divided by its allowed error.
