@@ -14,7 +14,7 @@ const WORSE: f64 = 2.0;
 const TINY: f64 = 1e-14;
 
 /// The accelerator of a fixed-point iteration, with the history of the last sweeps.
-pub(super) struct Anderson {
+pub(in crate::dynamics) struct Anderson {
     /// The square root of each value's weight, one entry per value.
     scale: Vec<f64>,
     /// The values from which the next sweep starts.
@@ -44,7 +44,7 @@ struct Sweep {
 impl Anderson {
     /// Creates an accelerator from the values before the first sweep. The squared norm of a change is the sum of its components' squares,
     /// each times its entry of `weights`.
-    pub(super) fn from(values: &[f64], weights: &[f64]) -> Anderson {
+    pub(in crate::dynamics) fn from(values: &[f64], weights: &[f64]) -> Anderson {
         Anderson {
             scale: weights.iter().map(|weight| weight.sqrt()).collect(),
             before: values.to_vec(),
@@ -58,7 +58,7 @@ impl Anderson {
 
     /// Takes the values that a sweep has found and returns the correction to add to them, one entry per value. The next sweep then starts
     /// nearer to the limit.
-    pub(super) fn go_further(&mut self, found: &[f64]) -> &[f64] {
+    pub(in crate::dynamics) fn go_further(&mut self, found: &[f64]) -> &[f64] {
         let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
         let change = found.iter().zip(&self.before).zip(&self.scale);
         overwrite(&mut step.change, change.map(|((found, before), scale)| scale * (found - before)));

@@ -43,6 +43,7 @@ mod solver;
 mod structure;
 mod sweep;
 
+pub(super) use anderson::Anderson;
 pub use ball::Ball;
 pub use coordinate::Coordinate;
 pub(super) use factor::IMPLIED;

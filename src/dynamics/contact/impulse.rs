@@ -4,10 +4,15 @@
 //! u⁺ = u⁻ + W Λ. Where Λₙ > 0, uₙ⁺ = −e uₙ⁻. The friction impulse Λₜ opposes the remaining slip, with |Λₜ| ≤ μ Λₙ. Sources: F. Pfeiffer &
 //! C. Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), chapter 8; for the sweeps, J. J. Moreau, *Unilateral contact and dry
 //! friction in finite freedom dynamics* (1988), section 13.
+//!
+//! Several points with friction can share an impulse in many ways. A sweep changes all points at the same time, so the way that is found
+//! does not depend on their order.
 
 use std::f64::consts::TAU;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3, DVec4};
+
+use super::super::constraint::Anderson;
 
 /// The largest number of sweeps for the impulses at coupled contact points.
 const SWEEPS: usize = 2_000;
@@ -46,34 +51,79 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     if let ([bounce], [rate], [goal]) = (bounces, rates, &goals[..]) {
         return vec![single(bounce, *rate, *goal, response)];
     }
-    let n = 3 * rates.len();
-    let entry = |row: usize, column: usize| response[row * n + column];
+    let shares = Shares::of(rates.len(), response);
     let mut impulses = vec![DVec3::ZERO; rates.len()];
+    let mut anderson = Anderson::from(&vec![0.0; 3 * rates.len()], &shares.weights());
     for _ in 0..SWEEPS {
+        let before = impulses.clone();
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
-        for place in 0..rates.len() {
-            let rate = |axis: usize, impulses: &[DVec3]| {
-                let row = 3 * place + axis;
-                let pushed = (0..n).map(|column| entry(row, column) * impulses[column / 3][column % 3]);
-                rates[place][axis] + pushed.sum::<f64>()
-            };
-            let before = impulses[place];
-            let first = 3 * place;
-            let normal = before.x - (rate(0, &impulses) - goals[place]) / entry(first, first);
-            impulses[place].x = normal.max(0.0);
-            let stiff = entry(first + 1, first + 1) + entry(first + 2, first + 2);
-            let slip = DVec2::new(rate(1, &impulses), rate(2, &impulses));
-            let tangent = DVec2::new(before.y, before.z) - slip / stiff;
-            let tangent = tangent.clamp_length_max(bounces[place].friction * impulses[place].x);
-            (impulses[place].y, impulses[place].z) = (tangent.x, tangent.y);
-            change = change.max((impulses[place] - before).abs().max_element());
-            size = size.max(impulses[place].abs().max_element());
+        for (place, impulse) in impulses.iter_mut().enumerate() {
+            let now = rates[place] + changed(response, &before, place);
+            let normal = (impulse.x - (now.x - goals[place]) / shares.normal[place]).max(0.0);
+            let tangent = impulse.yz() - now.yz() / shares.tangent[place];
+            let tangent = tangent.clamp_length_max(bounces[place].friction * normal);
+            *impulse = DVec3::new(normal, tangent.x, tangent.y);
+            change = change.max((*impulse - before[place]).length());
+            size = size.max(impulse.length());
         }
         if change <= SETTLED * size {
             break;
         }
+        let found: Vec<f64> = impulses.iter().flat_map(DVec3::to_array).collect();
+        for (impulse, further) in impulses.iter_mut().zip(anderson.go_further(&found).as_chunks::<3>().0) {
+            *impulse += DVec3::from_array(*further);
+        }
     }
     impulses
+}
+
+/// Returns the change of the velocities of a contact point by the impulses at all points.
+fn changed(response: &[f64], impulses: &[DVec3], place: usize) -> DVec3 {
+    let n = 3 * impulses.len();
+    let row = |axis: usize| {
+        let entries = response[(3 * place + axis) * n..].as_chunks::<3>().0;
+        entries.iter().zip(impulses).map(|(entry, impulse)| DVec3::from_array(*entry).dot(*impulse)).sum()
+    };
+    DVec3::new(row(0), row(1), row(2))
+}
+
+/// The responses by which the points divide their rates in a sweep: for each point, the sums of the norms of its couplings with all points.
+/// With these, points that change their impulses at the same time never do too much together: the matrix of the sums, less W, has no
+/// negative eigenvalue. A norm does not depend on the directions of the tangents.
+struct Shares {
+    /// The response along the normal and along the tangents of each point, 1/kg.
+    normal: Vec<f64>,
+    tangent: Vec<f64>,
+}
+
+impl Shares {
+    fn of(places: usize, response: &[f64]) -> Shares {
+        let entry = |row: usize, column: usize| response[row * 3 * places + column];
+        let sum = |place: usize, of: &dyn Fn([usize; 3], [usize; 3]) -> f64| {
+            let axes = |place: usize| [3 * place, 3 * place + 1, 3 * place + 2];
+            (0..places).map(|other| of(axes(place), axes(other))).sum::<f64>()
+        };
+        let normal = |[n, ..]: [usize; 3], [m, u, w]: [usize; 3]| {
+            entry(n, m).abs() + DVec2::new(entry(n, u), entry(n, w)).length()
+        };
+        let tangent = |[_, s, t]: [usize; 3], [m, u, w]: [usize; 3]| {
+            let block = DVec4::new(entry(s, u), entry(s, w), entry(t, u), entry(t, w));
+            DVec2::new(entry(s, m), entry(t, m)).length() + block.length()
+        };
+        Shares {
+            normal: (0..places).map(|place| sum(place, &normal)).collect(),
+            tangent: (0..places).map(|place| sum(place, &tangent)).collect(),
+        }
+    }
+
+    /// Returns the weight of each component of the impulses.
+    fn weights(&self) -> Vec<f64> {
+        self.normal
+            .iter()
+            .zip(&self.tangent)
+            .flat_map(|(normal, tangent)| [*normal, *tangent, *tangent])
+            .collect()
+    }
 }
 
 /// Returns the normal velocity after the impact. It is negative for a point that separates before the impact but is pushed by other
@@ -254,5 +304,34 @@ mod tests {
         for impulse in all {
             assert!((impulse.x - 0.375).abs() < 1e-12, "{impulse}");
         }
+    }
+
+    /// A box lands on an edge and sticks. Friction along the edge can be shared by its two ends in many
+    /// ways. The shares do not depend on the order of the ends.
+    #[test]
+    fn the_order_of_places_does_not_matter() {
+        let arms = [DVec3::new(0.3, -0.2, 0.5), DVec3::new(0.3, -0.2, -0.4)];
+        let axes = [DVec3::Y, DVec3::X, DVec3::Z];
+        let inverse_inertia = DVec3::new(9.0, 4.0, 13.0);
+        let rate = |arm: DVec3| {
+            let velocity = DVec3::new(0.3, -1.0, 0.2) + DVec3::new(0.4, 1.3, -0.2).cross(arm);
+            DVec3::from_array(axes.map(|axis| axis.dot(velocity)))
+        };
+        let found = |arms: [DVec3; 2]| {
+            let mut response = Vec::new();
+            for (arm, axis) in arms.iter().flat_map(|arm| axes.map(|axis| (*arm, axis))) {
+                for (other, along) in arms.iter().flat_map(|arm| axes.map(|axis| (*arm, axis))) {
+                    let turned = (inverse_inertia * other.cross(along)).cross(arm);
+                    response.push(axis.dot(along + turned));
+                }
+            }
+            impulses(&[Bounce { restitution: 0.3, friction: 3.0 }; 2], &arms.map(rate), &response)
+        };
+        let (one, other) = (found(arms), found([arms[1], arms[0]]));
+        assert!(
+            (one[0] - other[1]).length() < 1e-13 && (one[1] - other[0]).length() < 1e-13,
+            "{one:?} {other:?}"
+        );
+        assert!(one[0].x > 0.1 && one[1].x > 0.1, "{one:?}");
     }
 }
