@@ -56,6 +56,35 @@ pub(crate) fn that_keep_joints() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.constraints)
 }
 
+/// Returns the largest energy drift, by magnitude, of all frames.
+pub(crate) fn drift(frames: &[Frame]) -> f64 {
+    frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
+}
+
+/// Returns the frames of two boxes that stand on each other until a ball hits them, 0.7 s after the start. `settings` are further lines of
+/// `[simulation]`.
+pub(crate) fn boxes_that_a_ball_hits(settings: &str) -> Vec<Frame> {
+    frames(&format!(
+        r#"
+        [simulation]
+        duration = 1.2
+        frame_rate = 50
+        gravity = [0, -9.81, 0]
+        {settings}
+        [body.box]
+        repeat = 2
+        shape.box.size = [0.4, 0.4, 0.4]
+        mass = 1
+        location = [0, "0.2+0.4*i", 0]
+        [body.ball]
+        shape.sphere.radius = 0.1
+        mass = 0.5
+        location = [-2.3, 0.6, 0]
+        velocity = [2, 3, 0]
+        "#
+    ))
+}
+
 /// The gravitational acceleration of worlds from [`falling`], m/s².
 pub(crate) const G: f64 = 9.81;
 

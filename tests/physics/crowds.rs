@@ -1,14 +1,7 @@
 //! Tests of two cases in which event-driven contacts are replaced: bodies with too many events are advanced by time-stepping, and bodies
 //! at rest are held in place.
 
-use jabuka::simulate::Frame;
-
-use crate::common::frames;
-
-/// Returns the largest energy drift, by magnitude, of all frames.
-fn drift(frames: &[Frame]) -> f64 {
-    frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
-}
+use crate::common::{boxes_that_a_ball_hits, drift, frames};
 
 /// Checks the energy balance of a falling chain. Its links hit each other and the floor thousands of times within 0.01 s. With
 /// velocity-Verlet, the accounts have a relative error of the square of the step: ω² h² / 24 = 2e-5 for ω = 5/s.
@@ -74,25 +67,9 @@ fn slow_slips_come_to_an_end() {
 /// Checks that standing boxes are held without changing a bit until a ball hits them. Then they move, and their energy is balanced.
 #[test]
 fn what_stands_still_is_held_until_something_hits_it() {
-    let frames = frames(
-        r#"
-        [simulation]
-        duration = 1.2
-        frame_rate = 50
-        integrator = "velocity-verlet"
-        gravity = [0, -9.81, 0]
-        contacts = "event-driven"
-        [body.box]
-        repeat = 2
-        shape.box.size = [0.4, 0.4, 0.4]
-        mass = 1
-        location = [0, "0.2+0.4*i", 0]
-        [body.ball]
-        shape.sphere.radius = 0.1
-        mass = 0.5
-        location = [-2.3, 0.6, 0]
-        velocity = [2, 3, 0]
-        "#,
+    let frames = boxes_that_a_ball_hits(
+        r#"integrator = "velocity-verlet"
+        contacts = "event-driven""#,
     );
     let early: Vec<_> = frames.iter().filter(|frame| frame.time > 0.1 && frame.time < 0.5).collect();
     for frame in &early {

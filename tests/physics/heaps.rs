@@ -2,14 +2,8 @@
 
 use glam::DVec3;
 use jabuka::dynamics::ContactSnapshot;
-use jabuka::simulate::Frame;
 
-use crate::common::frames;
-
-/// Returns the largest energy drift, by magnitude, of all frames.
-fn drift(frames: &[Frame]) -> f64 {
-    frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max)
-}
+use crate::common::{drift, frames};
 
 /// Checks that a ball that spins about the vertical keeps spinning: a point contact exerts no torque about its normal.
 #[test]

@@ -7,7 +7,7 @@ use jabuka::dynamics::{Dynamics as _, Impact};
 use jabuka::simulate::{Frame, world};
 use jabuka::{Run, Scene};
 
-use crate::common::frames;
+use crate::common::{boxes_that_a_ball_hits, drift, frames};
 
 /// An arm that leans on a stop of its own base, which turns at 6 rad/s about its middle. Nothing brakes them.
 const ARM_ON_STOP: &str = r#"
@@ -298,25 +298,7 @@ fn an_elastic_ball_keeps_its_height() {
 /// Checks boxes that stand on each other until a ball hits them: they rest exactly, press with their weight, and wake.
 #[test]
 fn what_stands_is_held_until_it_is_hit() {
-    let frames = frames(
-        r#"
-        [simulation]
-        duration = 1.2
-        frame_rate = 50
-        gravity = [0, -9.81, 0]
-        contacts = "time-stepping"
-        [body.box]
-        repeat = 2
-        shape.box.size = [0.4, 0.4, 0.4]
-        mass = 1
-        location = [0, "0.2+0.4*i", 0]
-        [body.ball]
-        shape.sphere.radius = 0.1
-        mass = 0.5
-        location = [-2.3, 0.6, 0]
-        velocity = [2, 3, 0]
-        "#,
-    );
+    let frames = boxes_that_a_ball_hits(r#"contacts = "time-stepping""#);
     let early: Vec<_> = frames.iter().filter(|frame| frame.time > 0.1 && frame.time < 0.5).collect();
     for frame in &early {
         assert_eq!(frame.bodies[..2], early[0].bodies[..2], "{}", frame.time);
@@ -331,7 +313,7 @@ fn what_stands_is_held_until_it_is_hit() {
         (last(&frames).bodies[1].location - early[0].bodies[1].location).length() > 1e-3,
         "it was not hit"
     );
-    let drift = frames.iter().map(|frame| frame.balance.drift.abs()).fold(0.0, f64::max);
+    let drift = drift(&frames);
     assert!(drift < 1e-3, "{drift}");
 }
 

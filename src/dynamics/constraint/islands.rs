@@ -11,6 +11,7 @@ use super::super::sets::Sets;
 use super::Law;
 use super::anderson::Anderson;
 use super::solver::Solver;
+use super::structure::{Place, Structure};
 use super::sweep::{Stopping, even_out, stiffest};
 
 /// A constraint row of a contact (normal or tangent) in the form that Gauss–Seidel sweeps need.
@@ -162,50 +163,59 @@ impl Solver {
         }
     }
 
-    /// Groups the contacts into islands. Fixed bodies belong to no island, so they do not connect contacts.
+    /// Groups the constraints by the moving bodies that couple them. Fixed bodies couple nothing.
+    pub(super) fn coupled<'a>(&self, structure: &'a Structure) -> Vec<Vec<&'a Place>> {
+        let mut sets = Sets::new(self.members.len());
+        let moving =
+            |place: &'a Place| place.bodies.iter().copied().filter(|&body| self.members[body].can_move());
+        for place in &structure.places {
+            let mut bodies = moving(place);
+            let Some(first) = bodies.next() else { continue };
+            bodies.for_each(|body| sets.unite(first, body));
+        }
+        let mut groups: Vec<Vec<&Place>> = vec![Vec::new(); self.members.len()];
+        for place in &structure.places {
+            if let Some(body) = moving(place).next() {
+                groups[sets.first(body)].push(place);
+            }
+        }
+        groups.retain(|places| !places.is_empty());
+        groups
+    }
+
+    /// Collects the contacts of each island.
     fn islands(&self, goals: &[f64], with_friction: bool) -> Vec<Island> {
         let Some(structure) = &self.structure else { return Vec::new() };
-        let mut sets = Sets::new(self.members.len());
-        let both = |row: usize| {
-            let directions = &self.jacobian[structure.directions_of(row)];
-            [directions[0].member, directions[directions.len() - 1].member]
+        let collect = |places: Vec<&Place>| {
+            let mut island = Island::default();
+            for place in places {
+                self.add_contact(&mut island, place, goals, with_friction);
+            }
+            island
         };
-        let moves = |member: usize| self.members[member].inverse_mass != 0.0;
-        for place in &structure.places {
-            let [a, b] = both(place.row);
-            if moves(a) && moves(b) {
-                sets.unite(a, b);
-            }
+        self.coupled(structure).into_iter().map(collect).collect()
+    }
+
+    /// Adds the rows of a contact to an island.
+    fn add_contact(&self, island: &mut Island, place: &Place, goals: &[f64], with_friction: bool) {
+        let normal = island.lines.len();
+        island.normals.push(normal);
+        let rows = if with_friction { place.rows } else { 1 };
+        for (row, &goal) in goals.iter().enumerate().skip(place.row).take(rows) {
+            let line = self.line(row, goal, &mut island.terms);
+            island.lines.push(line);
+            island.impulses.push(self.unknown[row]);
         }
-        let mut islands: Vec<Island> = Vec::new();
-        let mut known: Vec<Option<usize>> = vec![None; self.members.len()];
-        let mut grips = self.grips.iter().peekable();
-        for place in &structure.places {
-            let own = both(place.row).into_iter().find(|&member| moves(member));
-            let set = own.map_or(0, |member| sets.first(member));
-            let island = *known[set].get_or_insert_with(|| {
-                islands.push(Island::default());
-                islands.len() - 1
-            });
-            let island = &mut islands[island];
-            let normal = island.lines.len();
-            island.normals.push(normal);
-            let rows = if with_friction { place.rows } else { 1 };
-            for (row, &goal) in goals.iter().enumerate().skip(place.row).take(rows) {
-                let line = self.line(row, goal, &mut island.terms);
-                island.lines.push(line);
-                island.impulses.push(self.unknown[row]);
-            }
-            while let Some(grip) = grips.next_if(|grip| grip.row < place.row + place.rows) {
-                if with_friction {
-                    let first = normal + grip.row - place.row;
-                    let [u, w] = [&island.lines[first], &island.lines[first + 1]];
-                    let weight = stiffest([u.weight, w.weight], island.coupling(u, w));
-                    island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
-                }
-            }
+        if !with_friction {
+            return;
         }
-        islands
+        let start = self.grips.partition_point(|grip| grip.row < place.row);
+        for grip in self.grips[start..].iter().take_while(|grip| grip.row < place.row + place.rows) {
+            let first = normal + grip.row - place.row;
+            let [u, w] = [&island.lines[first], &island.lines[first + 1]];
+            let weight = stiffest([u.weight, w.weight], island.coupling(u, w));
+            island.pairs.push(Pair { first, normal, coefficient: grip.coefficient, weight });
+        }
     }
 
     /// Creates the [`Line`] of a contact row, and appends its terms to `terms`. The velocities of fixed bodies count as part of the

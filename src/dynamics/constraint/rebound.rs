@@ -17,9 +17,9 @@ use super::structure::Place;
 use super::sweep::Purpose;
 use super::{Direction, Law};
 
-/// A stop that pushed in the last substep needs no impulse if it closes by less than this fraction of the rate that its force changes in a
-/// substep.
-const CARRIED: f64 = 0.1;
+/// A contact that pushed in the last substep closes a little before each substep. Its force stops it within the substep, so it gets no impulse
+/// if its closing rate is below this fraction of the rate that its force changes in a substep.
+const CLOSING_LEFT_TO_FORCES: f64 = 0.1;
 
 /// The impacts within one substep, and the corrections of positions that they cause.
 #[derive(Default)]
@@ -178,7 +178,7 @@ impl Solver {
                     self.joint_forces.iter().find(is_it).map_or(0.0, |(.., force)| *force)
                 }
             };
-            rates[row] < goals[row] - CARRIED * part * force * self.columns.weights()[row]
+            rates[row] < goals[row] - CLOSING_LEFT_TO_FORCES * part * force * self.columns.weights()[row]
         };
         let mut places = self.structure.iter().flat_map(|structure| &structure.places);
         places.any(|place| (place.row..place.row + place.rows).any(|row| closes(row, place)))

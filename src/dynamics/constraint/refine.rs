@@ -2,12 +2,11 @@
 
 use glam::{DMat3, DVec3};
 
-use super::super::sets::Sets;
 use super::Law;
 use super::member::Member;
 use super::newton::{Bound, Inert, Island, Line, Term};
 use super::solver::Solver;
-use super::structure::{Place, Structure};
+use super::structure::Place;
 use super::sweep::Purpose;
 
 /// Newton's method takes over where the sweeps leave an error of a rate above this fraction of the largest rate before the impulses.
@@ -60,6 +59,9 @@ impl Solver {
         let mut unknown = self.unknown.clone();
         let mut has_changed = None;
         for places in self.coupled(structure) {
+            if places.iter().all(|place| place.constraint < self.joints()) {
+                continue;
+            }
             let (mut island, numbers) = self.island(&places, (goals, purpose), members, &unknown);
             let velocities =
                 |&member: &usize| [self.members[member].velocity, self.members[member].angular_velocity];
@@ -88,26 +90,6 @@ impl Solver {
         }
     }
 
-    /// Groups the constraints that moving bodies couple.
-    fn coupled<'a>(&self, structure: &'a Structure) -> Vec<Vec<&'a Place>> {
-        let mut sets = Sets::new(self.members.len());
-        let moving =
-            |place: &'a Place| place.bodies.iter().copied().filter(|&body| self.members[body].can_move());
-        for place in &structure.places {
-            let mut bodies = moving(place);
-            let Some(first) = bodies.next() else { continue };
-            bodies.for_each(|body| sets.unite(first, body));
-        }
-        let mut groups: Vec<Vec<&Place>> = vec![Vec::new(); self.members.len()];
-        for place in &structure.places {
-            if let Some(body) = moving(place).next() {
-                groups[sets.first(body)].push(place);
-            }
-        }
-        groups.retain(|places| places.iter().any(|place| place.constraint >= self.joints()));
-        groups
-    }
-
     /// Collects an island: its bodies with their velocities in `members`, and the rows of its constraints with the impulses in `unknown`.
     /// Returns it with the index of the member of each body.
     fn island(
@@ -124,15 +106,14 @@ impl Solver {
             self.grips.binary_search_by_key(&row, |grip| grip.row).ok().map(|at| &self.grips[at])
         };
         for place in places {
-            let mut normal = 0;
+            // The first row of a contact is its normal row. Without it, its friction has no bound, and is left out, too.
+            let mut normal = None;
             for row in place.row..place.row + place.rows {
                 let at = island.lines.len();
-                if row == place.row {
-                    normal = at;
-                }
                 let (bound, goal) = match (self.laws[row], purpose) {
                     (Law::Equality, _) if self.held[row] => (Bound::Any, 0.0),
                     (Law::Inequality, _) if self.columns.weights()[row] > 0.0 => {
+                        normal = normal.or(Some(at));
                         (Bound::AtLeast(self.least(row)), goals[row])
                     }
                     (Law::SpeedMotor { limit }, Purpose::Forces(time))
@@ -140,9 +121,12 @@ impl Solver {
                     {
                         (Bound::AtMost(limit * time), 0.0)
                     }
-                    (Law::Friction { .. }, _) => match grips(row) {
-                        Some(grip) => (Bound::Disc { coefficient: grip.coefficient, normal }, goals[row]),
-                        None => (Bound::Second, goals[row]),
+                    (Law::Friction { .. }, _) => match (normal, grips(row)) {
+                        (None, _) => continue,
+                        (Some(normal), Some(grip)) => {
+                            (Bound::Disc { coefficient: grip.coefficient, normal }, goals[row])
+                        }
+                        (Some(_), None) => (Bound::Second, goals[row]),
                     },
                     _ => continue,
                 };

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::World;
 use super::event::Event;
-use super::{ContactPolicy, World};
 use crate::dynamics::{BodyId, Breakdown, System};
 
 /// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.
@@ -186,11 +186,11 @@ impl World {
 
     /// Starts contacts at the current state. Overlapping bodies are an error; touching bodies have impacts or stay in contact.
     pub(super) fn begin_contacts(&mut self) {
-        let Some(collider) = &mut self.collider else { return };
-        if self.policy == ContactPolicy::TimeStepping {
+        if self.is_stepped() {
             // Overlapping bodies are moved apart in the first step.
             return;
         }
+        let Some(collider) = &mut self.collider else { return };
         let closed = self.solver.contacts();
         if let Some(breakdown) = collider.start(&self.model, self.time, &self.state, closed) {
             self.solver.fail(breakdown);

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{ContactPolicy, World};
+use super::World;
 use crate::dynamics::contact::{Collider, LastingContact};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
@@ -82,7 +82,7 @@ impl World {
         let Some(collider) = self.collider.as_ref() else { return };
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
         self.rest.calm.resize(self.model.len(), 0);
-        let is_stepped = self.policy == ContactPolicy::TimeStepping;
+        let is_stepped = self.is_stepped();
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
             let speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
             let slow = if is_stepped || collider.was_in_crowd(i) { CREEP * slow } else { slow };
