@@ -41,8 +41,8 @@ impl ContactLaw {
 }
 
 /// The largest number of moving bodies that Moreau's scheme advances. Its time for a step grows faster than that of the engine for many
-/// bodies, and most machines of more bodies would take ten times as long.
-const FEW: usize = 5;
+/// bodies: machines of this size take about ten times as long, and more for more.
+const FEW: usize = 20;
 
 /// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints: forces move only few of them, and none that
 /// collides is a torus, for which no distance is computed. The engine for many bodies advances all others.

@@ -306,13 +306,14 @@ impl Collider {
     }
 
     /// Prepares the search for contacts at a state, and records which bodies are present. Returns a breakdown if a body that has just
-    /// appeared overlaps another one.
+    /// appeared overlaps another one by more than `part` of the smaller one's
+    /// size, and by more than rounding errors explain.
     pub(in crate::dynamics) fn start(
         &mut self,
         model: &Model,
-        time: f64,
-        state: &State,
+        (time, state): (f64, &State),
         closed: &[Arc<LastingContact>],
+        part: f64,
     ) -> Option<Breakdown> {
         self.meet_bodies(model);
         let Collider { contacts, solids, is_known, .. } = self;
@@ -327,6 +328,7 @@ impl Collider {
             let poses = [a, b].map(|i| pose(i, model, state));
             let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
             let tolerated = Scale::of(bodies, [x, y], (model, state)).tolerance(OVERLAP);
+            let tolerated = tolerated.max(part * x.size().min(y.size()));
             (near.gap < -tolerated).then_some(-near.gap)
         };
         let (found, _) = overlapping(contacts, solids, (model, state), overlap);

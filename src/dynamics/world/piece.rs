@@ -24,6 +24,9 @@ const INSTANT: f64 = 1e-13;
 /// The largest number of iterations to find the time at which two bodies touch. Each iteration squares the relative error of this time.
 const TOUCHES: usize = 12;
 
+/// Moreau's scheme moves bodies apart that overlap by at most this fraction of the smaller one's size when they appear.
+const MOVED_APART: f64 = 0.1;
+
 impl World {
     /// Makes a step of `dt` from time `t` (s), or a shorter one that ends at the first event. Returns the length of the step, s, and the
     /// event. If events are possible, `before` holds the state at the start of the step.
@@ -184,15 +187,13 @@ impl World {
         has_struck
     }
 
-    /// Starts contacts at the current state. Overlapping bodies are an error; touching bodies have impacts or stay in contact.
+    /// Starts contacts at the current state. Overlapping bodies are an error; touching bodies have impacts or stay in contact. Moreau's scheme
+    /// moves bodies apart that overlap a little.
     pub(super) fn begin_contacts(&mut self) {
-        if self.is_stepped() {
-            // Overlapping bodies are moved apart in the first step.
-            return;
-        }
+        let part = if self.is_stepped() { MOVED_APART } else { 0.0 };
         let Some(collider) = &mut self.collider else { return };
         let closed = self.solver.contacts();
-        if let Some(breakdown) = collider.start(&self.model, self.time, &self.state, closed) {
+        if let Some(breakdown) = collider.start(&self.model, (self.time, &self.state), closed, part) {
             self.solver.fail(breakdown);
             return;
         }

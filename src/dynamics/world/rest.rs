@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::World;
 use crate::dynamics::contact::{Collider, LastingContact};
@@ -84,7 +84,14 @@ impl World {
         self.rest.calm.resize(self.model.len(), 0);
         let is_stepped = self.is_stepped();
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
-            let speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
+            let speed = if is_stepped {
+                // The velocities at the ends of substeps swing about those in the middle, which move the bodies.
+                let way = self.state.location[i] - self.before.location[i];
+                let turn = angle(self.before.orientation[i], self.state.orientation[i]);
+                (way.length() + turn * collider.reach(i)) / self.step
+            } else {
+                self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state)
+            };
             let slow = if is_stepped || collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
@@ -322,6 +329,11 @@ impl World {
         let touched = collider.touched_at_rest(&self.model, &self.state);
         self.let_go(&touched)
     }
+}
+
+/// Returns the angle between two orientations, rad, if it is small.
+fn angle(before: DQuat, after: DQuat) -> f64 {
+    2.0 * (after - before).length().min((after + before).length())
 }
 
 #[cfg(test)]

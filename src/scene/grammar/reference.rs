@@ -108,7 +108,7 @@ joints are described in the same way for both schemes. Choose by scene:
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Few bodies**: if forces move at most five bodies, and none that collides is a torus, Moreau's scheme computes their contacts. Joints are exact then, bodies
+- **Few bodies**: if forces move at most twenty bodies, and none that collides is a torus, Moreau's scheme computes their contacts. Joints are exact then, bodies
   do not sink into each other, and rebounds keep their height. What a step can change sets the accuracy.
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give
   way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
