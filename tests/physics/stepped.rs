@@ -4,7 +4,7 @@
 use glam::DVec3;
 use jabuka::diagnostic::Code;
 use jabuka::dynamics::{Dynamics as _, Impact};
-use jabuka::simulate::{Frame, world};
+use jabuka::simulate::{Frame, survey, world};
 use jabuka::{Run, Scene};
 
 use crate::common::{boxes_that_a_ball_hits, drift, frames};
@@ -296,11 +296,10 @@ fn an_elastic_ball_keeps_its_height() {
 }
 
 /// Checks a tower of twenty boxes for 10 s. It must not move by more than the gaps that are left when it comes to rest, 1e-9 of a box at each
-/// level, and hold still then. Gauss–Seidel sweeps alone let it fall.
+/// level, and hold still then. Gauss–Seidel sweeps alone let it fall. The little energy that it gains and loses earns no warning.
 #[test]
 fn a_tower_of_twenty_stands_still() {
-    let frames = frames(
-        r#"
+    let text = r#"
         [simulation]
         duration = 10
         frame_rate = 5
@@ -312,8 +311,12 @@ fn a_tower_of_twenty_stands_still() {
         mass = 1
         friction = 0.5
         location = [0, "0.5+i", 0]
-        "#,
-    );
+        "#;
+    let scene = Scene::parse(text).unwrap();
+    let found = survey(&scene, |_| {}).unwrap();
+    let warnings = jabuka::motion_warnings::all(&scene, &found);
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let frames = frames(text);
     for (level, (block, early)) in last(&frames).bodies.iter().zip(&frames[2].bodies).enumerate().take(20) {
         let place = DVec3::Y * (level as f64 + 0.5);
         assert!((block.location - place).length() < 1e-6, "{level}: {}", block.location);

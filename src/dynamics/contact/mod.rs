@@ -44,6 +44,7 @@ pub(super) use group::Parting;
 pub(super) use lasting_contact::LastingContact;
 pub use laws::{LawResidual, MotionLaw};
 pub(super) use solid::{Pose, Solid};
+pub(super) use strike::kinetic;
 pub use surface::{ContactProperties, Surface};
 pub(super) use tree::Tree;
 

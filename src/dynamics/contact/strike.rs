@@ -355,7 +355,7 @@ fn middle(
 }
 
 /// Computes the kinetic energy of a body that loads can move, J.
-pub(super) fn kinetic(body: usize, model: &Model, state: &State) -> f64 {
+pub(in crate::dynamics) fn kinetic(body: usize, model: &Model, state: &State) -> f64 {
     let mass = if model.inverse_mass()[body] == 0.0 { 0.0 } else { model.mass()[body] };
     let turning = state.angular_momentum[body].dot(model.angular_velocity(body, state));
     0.5 * (mass * state.velocity[body].length_squared() + if mass == 0.0 { 0.0 } else { turning })

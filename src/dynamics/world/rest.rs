@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::World;
-use crate::dynamics::contact::{Collider, LastingContact};
+use crate::dynamics::contact::{Collider, LastingContact, kinetic};
 use crate::dynamics::{ContactSnapshot, Loads, System};
 
 /// The number of consecutive steps at rest after which bodies are held in place.
@@ -113,6 +113,8 @@ impl World {
         let mut held = self.seen_by_sweeps(t, heaps);
         held.extend(self.seen_as_decided(t, others));
         for &body in held.iter().flat_map(|island| &island.bodies) {
+            // Moreau's scheme leaves a little motion, which contacts end.
+            self.state.accounts.impacts -= kinetic(body, &self.model, &self.state);
             self.model.freeze(body, &mut self.state);
         }
         self.rest.islands.extend(held);
