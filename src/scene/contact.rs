@@ -42,13 +42,14 @@ impl ContactLaw {
 
 /// The largest number of moving bodies that Moreau's scheme advances. Its time for a step grows faster than that of the engine for many
 /// bodies: machines of this size take about ten times as long, and more for more.
-const FEW: usize = 20;
+const MOST_BY_MOREAU: usize = 20;
 
 /// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints: forces move only few of them, and none that
 /// collides is a torus, for which no distance is computed. The engine for many bodies advances all others.
 pub fn is_by_moreau(bodies: &[Body]) -> bool {
     let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none());
-    moving.count() <= FEW && !bodies.iter().any(|body| body.collider.is_some() && body.shape.has_torus())
+    moving.count() <= MOST_BY_MOREAU
+        && !bodies.iter().any(|body| body.collider.is_some() && body.shape.has_torus())
 }
 
 /// The contact properties of a body.

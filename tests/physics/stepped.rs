@@ -325,6 +325,29 @@ fn a_tower_of_twenty_stands_still() {
     }
 }
 
+/// Checks a disk that spins on a smooth floor by one whole turn in each step. It must go on, although each step leaves it as it was.
+#[test]
+fn what_turns_once_in_a_step_is_not_at_rest() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 0.2
+        step = 0.004
+        frame_rate = 25
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [body.disk]
+        shape.cylinder = { radius = 0.1, height = 0.05 }
+        mass = 1
+        location = [0, 0.025, 0]
+        angular_velocity = [0, "2*pi/0.004", 0]
+        friction = 0
+        "#,
+    );
+    let spin = last(&frames).bodies[0].angular_velocity.y;
+    assert!((spin * 0.004 / std::f64::consts::TAU - 1.0).abs() < 1e-9, "{spin}");
+}
+
 /// Checks bodies that overlap deeply at the start, which would shoot apart. Bodies that overlap by less than a tenth of their thickness are
 /// moved apart.
 #[test]

@@ -30,10 +30,10 @@ const MAX_ROUNDS: usize = 40;
 /// Islands whose matrix takes more multiplications to factorize are left to the sweeps: large heaps.
 const MAX_WORK: f64 = 2e7;
 
-/// After this number of steps of Newton's method, a round goes on only while each step leaves less than `FAST` of the imbalance. Where many
+/// After this number of steps of Newton's method, a round goes on only while each step leaves less than `FAST_REMAINDER` of the imbalance. Where many
 /// contacts slide on each other, as in grains that flow, the steps go back and forth, and more of them do not help.
-const STEPS: usize = 6;
-const FAST: f64 = 0.1;
+const USUAL_STEPS: usize = 6;
+const FAST_REMAINDER: f64 = 0.1;
 
 /// A round ends when the momenta balance within this fraction of the tolerance.
 const LARGEST_IMBALANCE: f64 = 0.1;
@@ -329,7 +329,7 @@ impl Round<'_> {
             if imbalance <= tolerance {
                 return Some(impulses);
             }
-            if step >= STEPS && imbalance > FAST * before {
+            if step >= USUAL_STEPS && imbalance > FAST_REMAINDER * before {
                 break;
             }
             before = imbalance;

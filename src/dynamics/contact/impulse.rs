@@ -54,7 +54,7 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     let shares = Shares::of(rates.len(), response);
     let mut impulses = vec![DVec3::ZERO; rates.len()];
     let mut anderson = Anderson::from(&vec![0.0; 3 * rates.len()], &shares.weights());
-    for _ in 0..SWEEPS {
+    for sweep in 1..=SWEEPS {
         let before = impulses.clone();
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for (place, impulse) in impulses.iter_mut().enumerate() {
@@ -66,7 +66,8 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
             change = change.max((*impulse - before[place]).length());
             size = size.max(impulse.length());
         }
-        if change <= SETTLED * size {
+        // The extrapolation may break the laws, so the last sweep gets none.
+        if change <= SETTLED * size || sweep == SWEEPS {
             break;
         }
         let found: Vec<f64> = impulses.iter().flat_map(DVec3::to_array).collect();

@@ -47,7 +47,7 @@ impl World {
         self.check_rest(t);
         if self.is_stepped() {
             self.step_by_moreau(t, dt, moments, see);
-            self.hold_still(t + dt);
+            self.hold_still(t + dt, dt);
             return;
         }
         self.is_sudden = self.next_jump(t, dt).is_some();
@@ -55,7 +55,7 @@ impl World {
             self.decide_all(t);
             self.follow_events(t, dt, moments, see);
         }
-        self.hold_still(t + dt);
+        self.hold_still(t + dt, dt);
     }
 
     /// Makes a step of `dt` seconds in pieces that end at events, such as impacts. Calls `see` with a snapshot at each of `moments`.

@@ -77,21 +77,22 @@ impl Rest {
 }
 
 impl World {
-    /// Holds in place the bodies that have rested long enough. Must be called at the end of each step.
-    pub(super) fn hold_still(&mut self, t: f64) {
+    /// Holds in place the bodies that have rested long enough. Must be called at the end of each step; `dt` is its length,
+    /// s.
+    pub(super) fn hold_still(&mut self, t: f64, dt: f64) {
         let Some(collider) = self.collider.as_ref() else { return };
+        let swing = self.solver.usual_change(dt);
         let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
         self.rest.calm.resize(self.model.len(), 0);
         let is_stepped = self.is_stepped();
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
-            let speed = if is_stepped {
-                // The velocities at the ends of substeps swing about those in the middle, which move the bodies.
+            let mut speed = self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state);
+            // The velocities at the ends of substeps swing a little about those in the middle, which move the bodies.
+            if is_stepped && speed <= swing {
                 let way = self.state.location[i] - self.before.location[i];
                 let turn = angle(self.before.orientation[i], self.state.orientation[i]);
-                (way.length() + turn * collider.reach(i)) / self.step
-            } else {
-                self.state.velocity[i].length() + collider.spin(i, &self.model, &self.state)
-            };
+                speed = (way.length() + turn * collider.reach(i)) / dt;
+            }
             let slow = if is_stepped || collider.was_in_crowd(i) { CREEP * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
