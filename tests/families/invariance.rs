@@ -214,9 +214,9 @@ fn free_bodies() {
     });
 }
 
-/// All changes, as for free bodies. In long runs, about one scene in twenty still breaks, for two known reasons. Whether Moreau's scheme
-/// takes over bodies that bounce lower than rounding errors depends on these errors. And where friction can be shared by several contacts,
-/// its sweeps find shares that depend on the order of the contacts.
+/// All changes, as for free bodies. In long runs, about one scene in twenty still breaks, for two known reasons. First, some
+/// bounces are lower than the rounding errors of the coordinates. These errors then decide whether Moreau's scheme takes over. Second, several
+/// contacts can share friction in many ways. The sweeps of Moreau's scheme find a way that depends on the order of the contacts.
 #[test]
 fn event_driven_contacts() {
     family("event-driven contacts", 23, 0.6, |random| {

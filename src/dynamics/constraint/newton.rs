@@ -18,8 +18,8 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::envelope::{Envelope, narrow_order};
 
-/// The stiffness ρ of a row, as a multiple of its effective mass: in the first round, and at most. It grows from round to round. With a small
-/// stiffness, a round needs few steps; with a large one, few rounds are needed.
+/// The stiffness ρ of a row in the first round, and the largest one, as multiples of the row's effective mass. The stiffness grows from round
+/// to round. A small stiffness makes each round short; a large one makes the rounds few.
 const FIRST_STIFFNESS: f64 = 1e2;
 const LARGEST_STIFFNESS: f64 = 1e6;
 const STIFFNESS_GROWTH: f64 = 30.0;
@@ -464,7 +464,7 @@ fn slope(gradient: &Velocities, step: &Velocities) -> f64 {
 mod tests {
     use super::*;
 
-    /// The tolerance of the search, m/s. Impulses without gravity's factor are sums of up to 120 kg m/s.
+    /// The tolerance of the search, m/s.
     const TOLERANCE: f64 = 1e-10;
 
     /// Adds a cube with edges of 1 m, and returns its index.

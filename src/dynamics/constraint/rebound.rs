@@ -17,8 +17,8 @@ use super::structure::Place;
 use super::sweep::Purpose;
 use super::{Direction, Law};
 
-/// A contact that pushed in the last substep closes a little before each substep. Its force stops it within the substep, so it gets no impulse
-/// if its closing rate is below this fraction of the rate that its force changes in a substep.
+/// Bodies that press on each other often approach slowly at the start of a substep. The contact force stops them within the substep, so they
+/// need no impulse. Slowly means: slower than this fraction of the change of the rate by the contact force in a substep.
 const CLOSING_LEFT_TO_FORCES: f64 = 0.1;
 
 /// The impacts within one substep, and the corrections of positions that they cause.

@@ -306,8 +306,7 @@ impl Collider {
     }
 
     /// Prepares the search for contacts at a state, and records which bodies are present. Returns a breakdown if a body that has just
-    /// appeared overlaps another one by more than `part` of the smaller one's
-    /// size, and by more than rounding errors explain.
+    /// appeared overlaps another body. Allowed are overlaps by rounding errors, and by the fraction `part` of the smaller body's size.
     pub(in crate::dynamics) fn start(
         &mut self,
         model: &Model,

@@ -14,7 +14,7 @@ use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
 use super::closest_points::ClosestPoints;
 use super::collider::{Collider, SLIGHT, Touching};
-use super::impulse::{Bounce, impulses};
+use super::impulse::{Bounce, changed, impulses};
 use super::lasting_contact::{LastingContact, spoke};
 use super::laws::LawResidual;
 use super::path::pose;
@@ -291,18 +291,12 @@ impl Collider {
 /// Computes the impulses of an impact, as [`impulses`] does. With friction, Newton's law of restitution can add energy (Kane's paradox);
 /// the restitution is then the largest that adds none. Source: W. J. Stronge, Proc. R. Soc. Lond. A 431 (1990) 169.
 fn without_gain(bounce: Bounce, before: &[DVec3], response: &[f64]) -> Vec<DVec3> {
-    let n = 3 * before.len();
     let find = |restitution: f64| {
         let all = impulses(&vec![Bounce { restitution, ..bounce }; before.len()], before, response);
-        let change = |row: usize| -> f64 {
-            let terms = (0..n).map(|column| response[row * n + column] * all[column / 3][column % 3]);
-            terms.sum()
-        };
         let (mut work, mut size) = (0.0, 0.0);
-        for row in 0..n {
-            let (impulse, before) = (all[row / 3][row % 3], before[row / 3][row % 3]);
-            work += impulse * (before + 0.5 * change(row));
-            size += (impulse * before).abs();
+        for (place, (impulse, before)) in all.iter().zip(before).enumerate() {
+            work += impulse.dot(*before + 0.5 * changed(response, &all, place));
+            size += (*impulse * *before).abs().element_sum();
         }
         (all, work > GAIN * size)
     };
@@ -348,8 +342,8 @@ fn middle(
     let response = response_to(bodies, &all, 1, context, joints);
     let own: Vec<f64> = (0..9).map(|i| response[i / 3 * 3 + i % 3]).collect();
     let impulse = impulses(&[bounce], &[rate], &own)[0];
-    let changed = |row: usize| (0..3).map(|column| response[row * 3 + column] * impulse[column]).sum::<f64>();
-    let after = |at: usize| DVec3::new(changed(3 * at), changed(3 * at + 1), changed(3 * at + 2));
+    let moved = |row: usize| (0..3).map(|column| response[row * 3 + column] * impulse[column]).sum::<f64>();
+    let after = |at: usize| DVec3::new(moved(3 * at), moved(3 * at + 1), moved(3 * at + 2));
     let is_turned = (1..n / 3).any(|at| (after(at) - after(0)).length() > ALIKE * speed);
     (!is_turned).then_some((place, rate, impulse))
 }

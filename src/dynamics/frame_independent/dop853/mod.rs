@@ -136,7 +136,7 @@ impl Dop853 {
         flat::find_slope(field, now.after(guess).seconds(), &self.stage, &mut self.slopes[1]);
         let bend = self.largest(field, |dop, i| dop.slopes[1][i] - dop.slopes[0][i]) / guess;
         let steepest = bend.max(rate * rate * self.tolerance);
-        // An eighth root needs a number without a unit, so both rates are in units of 1/guess.
+        // Multiplied by the square of the guess, the steepest change is a number without a unit. Only such numbers have an eighth root.
         eighth_root(0.01 / (steepest * self.tolerance * guess * guess)).min(100.0) * guess
     }
 
