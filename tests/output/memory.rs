@@ -45,10 +45,11 @@ fn compare(frames: u32, arguments: &[&str]) {
             .spawn();
         peak(child.unwrap())
     };
-    let (few, many) = (compile(100), compile(frames));
+    // The last reading before a short process ends may come before its peak, above all on a busy machine.
+    let few = (0..5).map(|_| compile(100)).max().unwrap_or(0);
+    let many = compile(frames);
     assert!(few > 1_000_000, "a process needs more than {few} bytes: nothing was measured");
-    // Each frame keeps 40 bytes for its size and digest, and about 12 for the position of its state. The last reading of the first peak
-    // may be about 1 MB too low.
+    // Each frame keeps 40 bytes for its size and digest, and about 12 for the position of its state. The readings may differ by about 1 MB.
     let most = few as f64 * 1.1 + 1e6 + 60.0 * f64::from(frames);
     assert!(many as f64 <= most, "100 frames need {few} bytes, {frames} frames {many}");
 }
