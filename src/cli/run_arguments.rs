@@ -141,8 +141,8 @@ pub(super) fn simulated_to_breakdown<'a>(
 /// If the simulation of a scene is saved from time to time, Ctrl-C says so.
 fn announce_checkpoints(scene: &Scene, cache: &Cache) {
     // Only the engine for many bodies saves its state.
-    let is_saved =
-        scene.simulation.contacts == Some(ContactLaw::TimeStepping) && !is_by_moreau(&scene.bodies);
+    let is_saved = scene.simulation.contacts == Some(ContactLaw::TimeStepping)
+        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty());
     if is_saved && cache.folder().is_some() {
         interrupt::announced();
     }

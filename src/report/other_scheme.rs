@@ -9,7 +9,7 @@ use super::measure::ComparedBodies;
 use super::setting::Setting;
 use super::trials::factor;
 use crate::dynamics::{METHODS, Method, Motor, Snapshot, suitable_step};
-use crate::scene::{ContactLaw, JointKind, Scene, thinnest};
+use crate::scene::{ContactLaw, JointKind, Scene, is_by_moreau, thinnest};
 
 /// The comparison of a run with contacts with the same run under the other contact law.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -242,6 +242,9 @@ fn refused(scene: &Scene, law: ContactLaw) -> Option<&'static str> {
     }
     if !cfg!(feature = "time-stepping") {
         return Some("this build of jabuka has no time stepping");
+    }
+    if is_by_moreau(&scene.bodies, !scene.joints.is_empty()) {
+        return None;
     }
     let rolls =
         |surface: crate::dynamics::Surface| surface.rolling_friction.is_some_and(|rolling| rolling > 0.0);

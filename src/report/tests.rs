@@ -170,7 +170,7 @@ fn a_momentum_that_the_forces_do_not_conserve_drifts() {
 }
 
 /// A ball hits two others that touch, all equal and elastic. The last one leaves with the whole velocity, and the others rest. Eighteen more
-/// balls lie far away, so that there are too many for Moreau's scheme.
+/// balls lie far away, two of them on a rod, so that there are too many for Moreau's scheme.
 #[cfg(feature = "time-stepping")]
 fn three_balls(contacts: &str) -> Scene {
     let ball = "shape.sphere.radius = 0.1\nmass = 1\nrestitution = 1\nlocation";
@@ -178,7 +178,8 @@ fn three_balls(contacts: &str) -> Scene {
         "simulation = {{ duration = 1, frame_rate = 50, contacts = '{contacts}' }}\nenvironment.ground = false\n\
          [body.a]\n{ball} = [-0.5, 0, 0]\nvelocity = [1, 0, 0]\n\
          [body.b]\n{ball} = [0, 0, 0]\n[body.c]\n{ball} = [0.2, 0, 0]\n\
-         [body.far]\nrepeat = 18\n{ball} = ['i', 5, 0]\n"
+         [body.far]\nrepeat = 18\n{ball} = ['i', 5, 0]\n\
+         [joint.far.rod]\nbetween = ['far[0]', 'far[1]']\n"
     ))
 }
 
@@ -258,7 +259,7 @@ fn what_the_errors_of_both_schemes_explain_is_no_contradiction() {
 #[test]
 fn where_the_other_scheme_is_not_run_the_reason_is_said() {
     let text = "simulation = { duration = 0.2, gravity = [0, -9.81, 0], contacts = 'event-driven' }\n\
-                [body.b]\nshape.sphere.radius = 0.1\nlocation = [0, 1, 0]\nrolling_friction = 0.1\n";
+                [body.b]\nrepeat = 61\nshape.sphere.radius = 0.1\nlocation = ['i', 1, 0]\nrolling_friction = 0.1\n";
     let (assessment, verdict) = assessed(&scene(text), 1e-3);
     assert!(matches!(verdict.other_scheme, Some(OtherScheme::NotRun { contacts: "time-stepping", .. })));
     let said = assessment.to_text("s.toml");

@@ -40,15 +40,16 @@ impl ContactLaw {
     }
 }
 
-/// The largest number of moving bodies that Moreau's scheme advances. Its time for a step grows faster than that of the engine for many
-/// bodies: machines of this size take about ten times as long, and more for more.
-const MOST_BY_MOREAU: usize = 20;
+/// The largest numbers of moving bodies that Moreau's scheme advances, without joints and with joints. Its time for a step grows faster than
+/// that of the engine for many bodies. Scenes of these sizes take some seconds, which is three to ten times as long.
+const MOST_WITHOUT_JOINTS: usize = 60;
+const MOST_WITH_JOINTS: usize = 20;
 
 /// Returns true if time stepping advances these bodies by Moreau's scheme, with exact joints: forces move only few of them, and none that
 /// collides is a torus, for which no distance is computed. The engine for many bodies advances all others.
-pub fn is_by_moreau(bodies: &[Body]) -> bool {
+pub fn is_by_moreau(bodies: &[Body], has_joints: bool) -> bool {
     let moving = bodies.iter().filter(|body| !body.start.fixed && body.motion.is_none());
-    moving.count() <= MOST_BY_MOREAU
+    moving.count() <= if has_joints { MOST_WITH_JOINTS } else { MOST_WITHOUT_JOINTS }
         && !bodies.iter().any(|body| body.collider.is_some() && body.shape.has_torus())
 }
 

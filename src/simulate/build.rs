@@ -19,7 +19,9 @@ use crate::scene::{Body, ContactLaw, Scene};
 /// `pair_counter` counts the evaluated interactions between pairs of bodies.
 pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
-    if scene.simulation.contacts == Some(ContactLaw::TimeStepping) && !is_by_moreau(&scene.bodies) {
+    if scene.simulation.contacts == Some(ContactLaw::TimeStepping)
+        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty())
+    {
         return Box::new(stepping::stepping(scene, pair_counter));
     }
     let mut world = world(scene);

@@ -484,3 +484,91 @@ fn moments_within_steps_change_nothing() {
         assert!((moment.bodies[0].location.y - height).abs() < 1e-12, "{}", moment.time);
     }
 }
+
+/// Checks rolling friction: a ball that rolls on the ground slows down by a = g c/r / (1 + 2/5), with the coefficient c and the radius r.
+#[test]
+fn rolling_friction_slows_a_ball() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 4
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [environment]
+        ground = { height = 0, friction = 0.5, rolling_friction = 0.01 }
+        [body.ball]
+        shape.sphere.radius = 0.2
+        location = [0, 0.2, 0]
+        velocity = [1.5, 0, 0]
+        angular_velocity = [0, 0, -7.5]
+        "#,
+    );
+    let (slowing, ball) = (9.81 * 0.01 / 0.2 / 1.4, &last(&frames).bodies[0]);
+    let place = 1.5 * 4.0 - 0.5 * slowing * 16.0;
+    assert!((ball.location.x - place).abs() < 1e-5, "{} {place}", ball.location);
+    assert!((ball.velocity.x - (1.5 - 4.0 * slowing)).abs() < 1e-9, "{}", ball.velocity);
+}
+
+/// Checks a rope over two fixed points with 1 kg and 2 kg at its ends: the heavier one falls by g/3.
+#[test]
+fn a_pulley_carries_two_balls() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1
+        gravity = [0, -9.81, 0]
+        contacts = "time-stepping"
+        [defaults.body]
+        shape.sphere.radius = 0.1
+        [body.left]
+        location = [-1, 3, 0]
+        mass = 1
+        [body.right]
+        location = [1, 3, 0]
+        mass = 2
+        [joint.over.pulley]
+        between = ["left", "right"]
+        over = [[-1, 5, 0], [1, 5, 0]]
+        "#,
+    );
+    let way = 0.5 * 9.81 / 3.0;
+    for (body, height) in last(&frames).bodies.iter().zip([3.0 + way, 3.0 - way]) {
+        assert!((body.location.y - height).abs() < 1e-9, "{} {height}", body.location);
+    }
+}
+
+/// Checks two wheels in gear: a torque on the first turns both, with the inertia I₁ + r² I₂ for the ratio r.
+#[test]
+fn a_gear_turns_two_wheels() {
+    let frames = frames(
+        r#"
+        [simulation]
+        duration = 1
+        contacts = "time-stepping"
+        [environment]
+        ground = false
+        [defaults.body]
+        shape.cylinder = { radius = 0.5, height = 0.1 }
+        [body.a]
+        location = [-1, 0, 0]
+        mass = 1
+        torque = [0, 0.7, 0]
+        [body.b]
+        location = [1, 0, 0]
+        mass = 2
+        [joint.left.hinge]
+        between = [[-1, 0, 0], "a"]
+        axis = [0, 1, 0]
+        [joint.right.hinge]
+        between = [[1, 0, 0], "b"]
+        axis = [0, 1, 0]
+        [joint.teeth.gear]
+        joints = ["left", "right"]
+        ratio = -2
+        "#,
+    );
+    let rate = 0.7 / (0.125 + 4.0 * 0.25);
+    for (body, rate) in last(&frames).bodies.iter().zip([rate, -2.0 * rate]) {
+        assert!((body.angular_velocity.y - rate).abs() < 1e-9, "{} {rate}", body.angular_velocity);
+    }
+}

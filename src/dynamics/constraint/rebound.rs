@@ -19,7 +19,7 @@ use super::{Direction, Law};
 
 /// Bodies that press on each other often approach slowly at the start of a substep. The contact force stops them within the substep, so they
 /// need no impulse. Slowly means: slower than this fraction of the change of the rate by the contact force in a substep.
-const CLOSING_LEFT_TO_FORCES: f64 = 0.1;
+pub(super) const CLOSING_LEFT_TO_FORCES: f64 = 0.1;
 
 /// The impacts within one substep, and the corrections of positions that they cause.
 #[derive(Default)]
@@ -48,7 +48,7 @@ struct Rebound {
 }
 
 /// Combines the impacts at all points of two bodies into one, at the center of their normal impulses.
-fn of_pairs(points: Vec<Impact>) -> Vec<Impact> {
+pub(super) fn of_pairs(points: Vec<Impact>) -> Vec<Impact> {
     let mut pairs: BTreeMap<[usize; 2], Vec<Impact>> = BTreeMap::new();
     points.into_iter().for_each(|point| pairs.entry(point.bodies).or_default().push(point));
     let one = |points: Vec<Impact>| {

@@ -2,18 +2,19 @@
 
 use glam::{DMat3, DVec3};
 
+use super::super::sets::Sets;
 use super::Law;
 use super::member::Member;
 use super::newton::{Bound, Inert, Island, Line, Term};
 use super::solver::Solver;
-use super::structure::Place;
+use super::structure::{Place, Structure};
 use super::sweep::Purpose;
 
 /// Newton's method takes over where the sweeps leave an error of a rate above this fraction of the largest rate before the impulses.
-const LEFT: f64 = 1e-4;
+pub(super) const LEFT: f64 = 1e-4;
 
 /// Newton's method has helped if it leaves less than this part of the error.
-const BETTER: f64 = 0.5;
+pub(super) const BETTER: f64 = 0.5;
 
 /// After failures in a row, Newton's method is left out for a number of times that doubles up to this one.
 const LONGEST_PAUSE: u32 = 256;
@@ -29,14 +30,14 @@ pub(super) struct Pause {
 
 impl Pause {
     /// Returns true if the method is left out this time.
-    fn goes_on(&mut self) -> bool {
+    pub(super) fn goes_on(&mut self) -> bool {
         let goes_on = self.left > 0;
         self.left = self.left.saturating_sub(1);
         goes_on
     }
 
     /// Notes whether the method has improved any impulses.
-    fn note(&mut self, has_helped: bool) {
+    pub(super) fn note(&mut self, has_helped: bool) {
         self.length = if has_helped { 0 } else { (2 * self.length).clamp(1, LONGEST_PAUSE) };
         self.left = self.length;
     }
@@ -88,6 +89,26 @@ impl Solver {
                 self.columns.apply(row, impulse, &mut self.members);
             }
         }
+    }
+
+    /// Groups the constraints by the moving bodies that couple them. Fixed bodies couple nothing.
+    fn coupled<'a>(&self, structure: &'a Structure) -> Vec<Vec<&'a Place>> {
+        let mut sets = Sets::new(self.members.len());
+        let moving =
+            |place: &'a Place| place.bodies.iter().copied().filter(|&body| self.members[body].can_move());
+        for place in &structure.places {
+            let mut bodies = moving(place);
+            let Some(first) = bodies.next() else { continue };
+            bodies.for_each(|body| sets.unite(first, body));
+        }
+        let mut groups: Vec<Vec<&Place>> = vec![Vec::new(); self.members.len()];
+        for place in &structure.places {
+            if let Some(body) = moving(place).next() {
+                groups[sets.first(body)].push(place);
+            }
+        }
+        groups.retain(|places| !places.is_empty());
+        groups
     }
 
     /// Collects an island: its bodies with their velocities in `members`, and the rows of its constraints with the impulses in `unknown`.

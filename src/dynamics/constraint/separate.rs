@@ -8,10 +8,10 @@ use super::sweep::{Purpose, Stopping};
 use super::{Law, Row};
 
 /// Overlaps below this fraction of the smallest body's size are ignored.
-const SHALLOW: f64 = 1e-9;
+pub(super) const SHALLOW: f64 = 1e-9;
 
 /// The Gauss–Seidel sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
-const APART: f64 = 1e-5;
+pub(super) const APART: f64 = 1e-5;
 
 impl Solver {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
@@ -35,13 +35,9 @@ impl Solver {
         self.unknown.fill(0.0);
         let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
         let deepest = depths.fold(0.0, f64::max);
-        if self.joints() == 0 {
-            self.sweep_islands(&goals, false, Stopping::fast(APART * deepest));
-        } else {
-            self.sweep_until(Stopping::fast(APART * deepest), |solver| {
-                solver.sweep_rows(&goals, Purpose::Impact)
-            });
-        }
+        self.sweep_until(Stopping::fast(APART * deepest), |solver| {
+            solver.sweep_rows(&goals, Purpose::Impact)
+        });
         let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
         for (&body, member) in bodies.zip(&self.members).filter(|(_, member)| member.inverse_mass != 0.0) {
             state.location[body] += member.velocity;

@@ -161,6 +161,9 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Clo
     let local = Patch::Point { at: centre, radius: ball.radius };
     // Adjacent triangles can meet at a slight angle, which leaves a crack for a ball.
     let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
+    if let Some(i) = part.half.and_then(|half| feature_of_box(centre - part.centre, half, -edge)) {
+        return (meet(patch, pose, &part.features[i].patch, at), i);
+    }
     let mut best: Option<(f64, f64, usize)> = None;
     for (i, feature) in part.features.iter().enumerate().filter(|(_, feature)| !feature.is_seam) {
         let found = meet_placed(&local, &feature.patch);
@@ -184,6 +187,28 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Clo
     // The closest point is outside of this triangle, so another triangle is nearer and this one does not count.
     let gap = if part.surface.is_some() && inside <= edge { f64::INFINITY } else { found.gap };
     (ClosestPoints { gap, ..found }, i)
+}
+
+/// Returns the index of the feature of a box that is nearest to a point outside, given from the center of the box. `None` inside the box,
+/// and within `edge` of the border between two features, m. The features are in the order of
+/// [`features_of_box`](super::feature::features_of_box).
+fn feature_of_box(place: DVec3, half: DVec3, edge: f64) -> Option<usize> {
+    let (beyond, place) = ((place.abs() - half).to_array(), place.to_array());
+    if beyond.iter().any(|beyond| beyond.abs() <= edge) {
+        return None;
+    }
+    let is_out = |axis: usize| usize::from(beyond[axis] > 0.0);
+    let is_high = |axis: usize| usize::from(place[axis] > 0.0);
+    match [is_out(0), is_out(1), is_out(2)] {
+        [0, 0, 0] => None,
+        [1, 0, 0] => Some(is_high(0)),
+        [0, 1, 0] => Some(2 + is_high(1)),
+        [0, 0, 1] => Some(4 + is_high(2)),
+        [0, 1, 1] => Some(6 + 2 * is_high(1) + is_high(2)),
+        [1, 0, 1] => Some(10 + 2 * is_high(2) + is_high(0)),
+        [1, 1, 0] => Some(14 + 2 * is_high(0) + is_high(1)),
+        _ => Some(18 + 4 * is_high(0) + 2 * is_high(1) + is_high(2)),
+    }
 }
 
 /// Computes the closest points of two convex parts.

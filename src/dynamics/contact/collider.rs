@@ -193,7 +193,10 @@ impl Collider {
                 continue;
             }
             let is_closed = closed.iter().any(|contact| contact.bodies == pair.bodies);
-            if is_closed || crowd.holds(pair.bodies, model) || is_passive(pair.bodies, model) {
+            if is_closed
+                || crowd.holds(pair.bodies, |body| crowd.has(body), model)
+                || is_passive(pair.bodies, model)
+            {
                 continue;
             }
             let ways = super::pairs::way(Some(x), &paths[a]) + super::pairs::way(Some(y), &paths[b]);
@@ -284,7 +287,7 @@ impl Collider {
         for pair in &mut pairs.list {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            if crowd.holds(pair.bodies, model) || is_passive(pair.bodies, model) {
+            if crowd.holds(pair.bodies, |body| crowd.has(body), model) || is_passive(pair.bodies, model) {
                 continue;
             }
             let scale = Scale::of(pair.bodies, [x, y], (model, state));

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use self::heap::is_heap;
 use self::substep_motion::SubstepMotion;
-use super::super::constraint::Solver;
+use super::super::constraint::{Pile, Solver};
 use super::super::{BodyId, ContactSnapshot, Impact, Loads, Model, State};
 use super::collider::{Collider, Touching};
 use super::lasting_contact::LastingContact;
@@ -28,15 +28,17 @@ const AGAIN: u32 = 16;
 #[derive(Clone, Default)]
 pub(in crate::dynamics) struct Crowd {
     bodies: BTreeSet<usize>,
+    /// Finds the impulses if there are joints. `pile` finds them otherwise.
     solver: Solver,
+    pile: Pile,
     /// The motion of the crowd (the bodies that Moreau's scheme advances) until the end of the step; `None` until it is computed.
     course: Option<SubstepMotion>,
     /// The contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
     places: Vec<Arc<LastingContact>>,
     /// The impacts in the last substep of Moreau's scheme.
     impacts: Vec<Impact>,
-    /// The pairs of bodies with contact forces between them in the last substep.
-    pushing: BTreeSet<[usize; 2]>,
+    /// The pairs of bodies with contact forces between them in the last substep, in ascending order.
+    pushing: Vec<[usize; 2]>,
     /// For each body that joined the crowd (the bodies that Moreau's scheme advances) recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
     /// How well the laws that no contact can break have been kept.
@@ -102,15 +104,17 @@ impl Crowd {
 
     /// Returns true if Moreau's scheme handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
     /// immovable. A body held at rest is not immovable: whatever hits it releases it.
-    pub(super) fn holds(&self, bodies: [usize; 2], model: &Model) -> bool {
-        if self.bodies.is_empty() {
-            return false;
-        }
-        let is_in = |body: &usize| self.bodies.contains(body);
+    /// `is_in` tells whether a body is in the crowd (the bodies that Moreau's scheme advances).
+    pub(super) fn holds(&self, bodies: [usize; 2], is_in: impl Fn(usize) -> bool, model: &Model) -> bool {
         let is_immovable = |body: usize| {
             if self.is_all { model.inverse_mass()[body] == 0.0 } else { !model.can_move(body) }
         };
-        bodies.iter().any(is_in) && bodies.iter().all(|body| is_in(body) || is_immovable(*body))
+        bodies.iter().any(|&body| is_in(body)) && bodies.iter().all(|&body| is_in(body) || is_immovable(body))
+    }
+
+    /// Returns true if a body is in the crowd (the bodies that Moreau's scheme advances).
+    pub(super) fn has(&self, body: usize) -> bool {
+        self.bodies.contains(&body)
     }
 }
 
@@ -141,12 +145,12 @@ impl Collider {
     ) -> Vec<ContactSnapshot> {
         let is_here = |place: &&Arc<LastingContact>| place.is_of(&self.crowd.bodies);
         let places: Vec<_> = self.crowd.places.iter().filter(is_here).cloned().collect();
+        if model.constraints().is_empty() {
+            let of_pile = if self.crowd.is_all { self.places_of_pile(model, state) } else { Vec::new() };
+            let all = of_pile.iter().chain(places.iter().map(|place| &**place));
+            return self.crowd.pile.last_forces(all, model, state);
+        }
         self.crowd.solver.last_forces(places, model, t, state)
-    }
-
-    /// Returns the contacts of the crowd's bodies at the end of the last step.
-    pub(in crate::dynamics) fn last_places(&self) -> &[Arc<LastingContact>] {
-        &self.crowd.places
     }
 
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
@@ -157,6 +161,10 @@ impl Collider {
         (t, state): (f64, &State),
         loads: &Loads,
     ) -> Vec<ContactSnapshot> {
+        if model.constraints().is_empty() {
+            let places = places.iter().map(|place| (**place).clone()).collect();
+            return self.crowd.pile.forces_at_rest(places, (model, state), loads);
+        }
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 

@@ -107,7 +107,8 @@ impl LastingContact {
         self.meet(poses).gap
     }
 
-    fn meet(&self, poses: [Pose; 2]) -> ClosestPoints {
+    /// Returns the closest points of the two features.
+    pub(in crate::dynamics) fn meet(&self, poses: [Pose; 2]) -> ClosestPoints {
         meet(&self.touch.patches[0], &poses[0], &self.touch.patches[1], &poses[1])
     }
 }

@@ -37,12 +37,14 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 pub(super) use ball::Ball;
+pub(super) use closest_points::ClosestPoints;
 pub(super) use collider::Collider;
 #[cfg(feature = "time-stepping")]
 pub(super) use collider::crowded;
 pub(super) use group::Parting;
 pub(super) use lasting_contact::LastingContact;
 pub use laws::{LawResidual, MotionLaw};
+pub(super) use path::pose;
 pub(super) use solid::{Pose, Solid};
 pub(super) use strike::kinetic;
 pub use surface::{ContactProperties, Surface};

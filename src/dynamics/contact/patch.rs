@@ -163,6 +163,11 @@ impl Patch {
 pub(in crate::dynamics) fn meet(a: &Patch, pa: &Pose, b: &Patch, pb: &Pose) -> ClosestPoints {
     // Coordinates are relative to the first body, to keep precision far from the origin.
     let origin = pa.location;
+    if let (Patch::Point { at: DVec3::ZERO, radius: ra }, Patch::Point { at: DVec3::ZERO, radius: rb }) =
+        (a, b)
+    {
+        return balls(DVec3::ZERO, *ra, pb.location - origin, *rb, DVec3::ZERO).moved(origin);
+    }
     let a = a.placed(&Pose { location: DVec3::ZERO, orientation: pa.orientation });
     let b = b.placed(&Pose { location: pb.location - origin, orientation: pb.orientation });
     meet_placed(&a, &b).moved(origin)
@@ -318,8 +323,10 @@ fn balls(a: DVec3, ra: f64, b: DVec3, rb: f64, away: DVec3) -> ClosestPoints {
 
 impl Pose {
     /// Transforms a point from body axes to world axes.
+    #[inline]
     pub(in crate::dynamics) fn point(&self, point: DVec3) -> DVec3 {
-        self.location + self.orientation * point
+        // The centers of balls are frequent.
+        if point == DVec3::ZERO { self.location } else { self.location + self.orientation * point }
     }
 
     /// Transforms a point from world axes to body axes.

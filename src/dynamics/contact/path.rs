@@ -104,7 +104,7 @@ impl Path {
 }
 
 /// Returns the pose of body `i` in a state.
-pub(super) fn pose(i: usize, model: &Model, state: &State) -> Pose {
+pub(in crate::dynamics) fn pose(i: usize, model: &Model, state: &State) -> Pose {
     Pose { location: state.location[i], orientation: model.world_from_body(i, state) }
 }
 

@@ -29,9 +29,22 @@ pub(in crate::dynamics) struct Touch {
     features: [(usize, Option<usize>); 2],
 }
 
+impl Touch {
+    /// Returns the same contact point, with its closest points measured again.
+    pub(in crate::dynamics) fn with(&self, meeting: ClosestPoints) -> Touch {
+        Touch { meeting, ..*self }
+    }
+}
+
 /// Finds all contact points of two solids with gaps below `within`, m, which must be small compared to their sizes. Each point is listed
 /// once, in a deterministic order.
 pub(in crate::dynamics) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -> Vec<Touch> {
+    if a.is_ball() && b.is_ball() {
+        let patches = [a, b].map(|ball| ball.parts()[0].features[0].patch);
+        let meeting = meet(&patches[0], pa, &patches[1], pb);
+        let features = [(0, Some(0)); 2];
+        return if meeting.gap <= within { vec![Touch { patches, meeting, features }] } else { Vec::new() };
+    }
     let mut all = Vec::new();
     for_pairs(a, pa, b, pb, within, &mut |i, j| {
         let (a, b) = (&a.parts()[i], &b.parts()[j]);

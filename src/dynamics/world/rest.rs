@@ -101,7 +101,8 @@ impl World {
             |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
         let is_due = self.rest.calm.iter().enumerate().any(is_due);
         if is_due && is_stepped {
-            self.solver.take_contacts(collider.last_places().to_vec());
+            let places = collider.last_places(&self.model, &self.state);
+            self.solver.take_contacts(places);
         }
         let new = if is_due { self.calm_islands() } else { Vec::new() };
         let Some(collider) = self.collider.as_ref().filter(|_| !new.is_empty()) else {

@@ -24,7 +24,9 @@ impl World {
             see(self.picture_within(moment));
         }
         let Self { model, state, solver, collider: Some(collider), .. } = self else { return };
-        if let Err(breakdown) = collider.end_course(model, t + dt, state) {
+        if model.constraints().is_empty() {
+            collider.end_pile(model, t + dt, state);
+        } else if let Err(breakdown) = collider.end_course(model, t + dt, state) {
             solver.fail(breakdown);
         }
     }
@@ -98,5 +100,137 @@ fn load_with(contacts: &[ContactSnapshot], model: &mut Model, state: &State) {
                 model.set_constant_torque(body, model.constant_torque(body) + torque);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DQuat, DVec3};
+
+    use super::super::super::constraint::{Pile, Purpose, Solver};
+    use super::super::super::{Dynamics, Loads, RigidBody, Shape, Surface, UniformGravity};
+    use super::super::ContactPolicy;
+    use super::*;
+
+    const DT: f64 = 1.0 / 240.0;
+
+    /// Returns a heap of boxes and balls after some steps, in which some still slide, roll and fall. `gravity` points down, m/s².
+    fn heap(gravity: f64, rolling_friction: Option<f64>) -> World {
+        let mut world = World::new();
+        world.set_contact_policy(ContactPolicy::TimeStepping);
+        let mut shapes = vec![Shape::Plane { normal: DVec3::Y }];
+        world.add(RigidBody { fixed: true, ..RigidBody::new(&shapes[0], 1.0) });
+        for i in 0..8 {
+            let x = f64::from(i);
+            let shape = if i % 2 == 0 {
+                Shape::Box { size: DVec3::new(1.0, 0.5, 0.8) }
+            } else {
+                Shape::Sphere { radius: 0.4 }
+            };
+            let place = DVec3::new(0.2 * libm::sin(2.3 * x), 0.4 + 0.9 * x, 0.2 * libm::cos(1.7 * x));
+            let turn = DQuat::from_rotation_y(x) * DQuat::from_rotation_x(0.1 * x);
+            let body = RigidBody::new(&shape, 1.0 + 0.3 * x).with_location(place).with_orientation(turn);
+            world.add(body.with_velocity(DVec3::new(0.3, -0.1 * x, 0.1)));
+            shapes.push(shape);
+        }
+        world.add_force(UniformGravity { acceleration: -gravity * DVec3::Y });
+        let surface = Surface { restitution: Some(0.1), friction: Some(0.4), rolling_friction };
+        world.collide(Contacts { surfaces: vec![Some(surface); shapes.len()], ..Contacts::default() });
+        world.add_shapes(shapes);
+        world.set_step(DT);
+        let _ = world.snapshot();
+        world
+    }
+
+    /// The pile finds the same velocities as the general solver, which finds the impulses from another order of the rows.
+    #[test]
+    fn a_pile_obeys_the_laws_of_the_general_solver() {
+        for rolling in [None, Some(0.02)] {
+            let mut world = heap(9.81, rolling);
+            let mut contacts = 0;
+            for step in 0..120 {
+                world.advance_to(f64::from(step + 1) * DT);
+                let World { model, state, collider: Some(collider), .. } = &world else {
+                    panic!("no contacts")
+                };
+                let places = collider.last_places(model, state);
+                contacts += places.len();
+                let mut loads = Loads::default();
+                model.sum(world.time, state, &mut loads);
+                let mut free = state.clone();
+                for (i, velocity) in free.velocity.iter_mut().enumerate() {
+                    *velocity += DT * model.inverse_mass()[i] * loads.force[i];
+                }
+                let (mut by_pile, mut by_solver) = (free.clone(), free.clone());
+
+                let mut pile = Pile::default();
+                pile.take_contacts(
+                    places.iter().map(|place| (**place).clone()).collect(),
+                    false,
+                    (model, state),
+                );
+                pile.aim(DT, 1e-5);
+                pile.push_all(model, DT, &mut by_pile);
+
+                let mut solver = Solver::default();
+                solver.find_by_sweeps();
+                solver.take_contacts(places);
+                solver.forget();
+                solver.prepare_sweeps(model, world.time, &mut by_solver);
+                let goals: Vec<f64> = solver.gaps(1e-5).iter().map(|gap| -gap / DT).collect();
+                solver.push_all(model, &goals, Purpose::Forces(DT), &mut by_solver);
+
+                for body in 0..model.len() {
+                    let off = by_pile.velocity[body].distance(by_solver.velocity[body]);
+                    let fastest = free.velocity.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+                    assert!(
+                        off < 1e-3 * fastest,
+                        "step {step}: body {body} is off by {off} of {fastest} m/s"
+                    );
+                }
+            }
+            assert!(contacts > 300, "{contacts}");
+        }
+    }
+
+    /// Impulses between bodies change neither their momentum nor their angular momentum, push only, and stay in the cones of friction.
+    #[test]
+    fn impulses_of_a_pile_keep_momenta_and_cones() {
+        let mut world = heap(9.81, None);
+        let mut pushing = 0;
+        for step in 0..100 {
+            world.advance_to(f64::from(step + 1) * DT);
+            let World { model, state, collider: Some(collider), .. } = &world else { panic!("no contacts") };
+            // Without the ground, nothing holds the heap, so its momenta stay.
+            let mut places = collider.last_places(model, state);
+            places.retain(|place| place.bodies[0] != 0);
+            let places: Vec<_> = places.iter().map(|place| (**place).clone()).collect();
+            let momenta = |state: &State| {
+                let of = |body: usize| {
+                    let momentum = model.mass()[body] * state.velocity[body];
+                    [momentum, state.angular_momentum[body] + state.location[body].cross(momentum)]
+                };
+                (1..model.len()).map(of).fold([DVec3::ZERO; 2], |[a, b], [x, y]| [a + x, b + y])
+            };
+            let mut pushed = state.clone();
+            for (i, velocity) in pushed.velocity.iter_mut().enumerate().skip(1) {
+                *velocity += DVec3::Y * libm::sin(1.3 * i as f64);
+            }
+            let before = momenta(&pushed);
+            let mut pile = Pile::default();
+            pile.take_contacts(places.clone(), false, (model, state));
+            pile.aim(DT, 1e-5);
+            pile.push_all(model, DT, &mut pushed);
+            // Friction acts at both ends of a gap, which is at most 1e-5 of a body's size here.
+            for ((before, after), tolerance) in before.into_iter().zip(momenta(&pushed)).zip([1e-12, 1e-9]) {
+                assert!((after - before).length() < tolerance * before.length().max(1.0), "{before} {after}");
+            }
+            for contact in pile.last_forces(&places, model, state) {
+                let push = contact.force.dot(contact.normal);
+                assert!(push >= 0.0 && contact.friction.length() <= 0.4 * push * (1.0 + 1e-9), "{contact:?}");
+                pushing += usize::from(push > 0.0);
+            }
+        }
+        assert!(pushing > 30, "{pushing}");
     }
 }

@@ -16,6 +16,10 @@ const ELASTIC: f64 = 0.9;
 /// The help text that suggests event-driven contacts.
 const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
 
+/// The help text that suggests event-driven contacts, where few bodies need no other scheme.
+const OTHER_OR_FEW: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`; so can time stepping of at most sixty moving bodies, \
+                            or twenty where there are joints, and no torus";
+
 /// Chooses a timestep that suits the thinnest colliding body, if the scene does not give `step`.
 pub(super) fn choose_step(
     root: &View<'_>,
@@ -41,7 +45,7 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let table = root.table("simulation");
-    let is_by_moreau = is_by_moreau(bodies);
+    let is_by_moreau = is_by_moreau(bodies, !root.named("joint").is_empty());
     if !cfg!(feature = "time-stepping") && !is_by_moreau {
         let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
         let help = "build jabuka with its feature `time-stepping`, or take the other scheme: `contacts = \"event-driven\"`";
@@ -81,9 +85,9 @@ pub(super) fn check(
         }
         of_ground(key).into_iter().for_each(|(span, value)| see(key, span, value));
     }
-    for span in rolling {
+    for span in rolling.into_iter().filter(|_| !is_by_moreau) {
         let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
-        context.diagnostics.push(error.at(span, "").help(OTHER));
+        context.diagnostics.push(error.at(span, "").help(OTHER_OR_FEW));
     }
     // Report this warning only once: it is the same for all bodies. Moreau's scheme keeps the height.
     if let Some((span, value)) = elastic.filter(|_| !is_by_moreau) {
@@ -106,9 +110,10 @@ const REBOUNDS: [&str; 2] = ["0.82", "95"];
 pub(super) fn check_joints(
     root: &View<'_>,
     simulation: &SimulationSettings,
-    joints: &[Joint],
+    (bodies, joints): (&[Body], &[Joint]),
     context: &mut Context<'_>,
 ) {
+    let is_by_moreau = is_by_moreau(bodies, !joints.is_empty());
     if simulation.contacts != Some(ContactLaw::TimeStepping) {
         return;
     }
@@ -123,11 +128,11 @@ pub(super) fn check_joints(
         let motor = match &joint.kind {
             JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
             JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
-            JointKind::Pulley(_) => {
+            JointKind::Pulley(_) if !is_by_moreau => {
                 wrong(format!("time stepping has no pulley, as `{name}` is one"), span, "", OTHER);
                 None
             }
-            JointKind::Gear(_) => {
+            JointKind::Gear(_) if !is_by_moreau => {
                 wrong(format!("time stepping has no gear, as `{name}` is one"), span, "", OTHER);
                 None
             }

@@ -108,15 +108,15 @@ joints are described in the same way for both schemes. Choose by scene:
 | torus | refused | a ring of capsules |
 | rolling friction | yes | refused |
 
-- **Few bodies**: if forces move at most twenty bodies, and none that collides is a torus, Moreau's scheme computes their contacts. Joints are exact then, bodies
-  do not sink into each other, and rebounds keep their height. What a step can change sets the accuracy.
+- **Few bodies**: if forces move at most sixty bodies, or at most twenty where there are joints, and none that collides is a torus, Moreau's scheme computes
+  their contacts. Joints are exact then, bodies do not sink into each other, rebounds keep their height, and gears, pulleys and rolling friction work. What a step can change sets the accuracy.
 - **Energy**: the work of contacts, joints and motors is booked, and is not part of the drift. So the drift says nothing about joints that give
   way or contacts that take too much: the summary names the energy that each of them took. The drift is relative to the largest kinetic
   energy, or to the energy that contacts took, or to the work of motions and motors, if that is more: bodies that only settle hardly move.
 - **The step**: `step` determines the accuracy. Contacts are as stiff as the step allows: with half the step, piles sink a quarter as deep. By
   default, the step is 1/240 s, halved until the thinnest body sinks in by at most 3 % of its thickness under ten times its weight. This gives
   1/240 s for a thickness of 10 cm, and 1/960 s for 1 cm. `step` can be longer or shorter. In a tower, each body carries all bodies above it, so
-  low bodies sink in more. A slender tower of twenty bodies can fall; with half the step, it stands.
+  low bodies sink in more. Of many bodies, a slender tower can fall; with half the step, it stands.
 - **Sliding and spinning**: a body that slides and spins at once on several points gets the full friction against both. In reality, each weakens
   the other. Use `event-driven` contacts for such bodies.
 - **Flat faces** press with their corners or rims, in both schemes. So a disk that spins on its face stops in two thirds of the time that an even

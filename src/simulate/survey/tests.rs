@@ -138,7 +138,7 @@ fn the_given_ground_counts_and_the_default_one_does_not() {
     assert_eq!(survey.crossings[0].plane, None);
 }
 
-/// Boxes that settle in a stack hardly move. Their energy error is relative to the energy that contacts took.
+/// Boxes that settle in stacks hardly move. Their energy error is relative to the energy that contacts took.
 #[cfg(feature = "time-stepping")]
 #[test]
 fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
@@ -150,8 +150,8 @@ fn a_drift_is_small_where_contacts_take_more_than_ever_moved() {
         contacts = 'time-stepping'
         [body.box]
         shape.box.size = [1, 1, 1]
-        location = [0, '0.5 + i', 0]
-        repeat = 8
+        location = ['2*i', '0.5 + j', 0]
+        repeat.grid.count = [8, 8]
         ",
     );
     let taken = survey.contacts.unwrap();

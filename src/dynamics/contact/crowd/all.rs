@@ -7,9 +7,10 @@ use glam::DVec3;
 use super::super::super::{Accounts, Breakdown, Loads, Model, State};
 use super::super::closest_points::nearest;
 use super::super::collider::Collider;
-use super::super::lasting_contact::LastingContact;
+use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::path::pose;
 use super::Crowd;
+use super::substep_motion::{DEEP, LEAN, REPAIRS, separate_pile};
 
 impl Collider {
     /// Makes all present bodies that forces move the crowd (the bodies that Moreau's scheme advances).
@@ -32,7 +33,7 @@ impl Collider {
         let course = self.course(model, (t, dt), (state, state), loads);
         let failure = course.failure();
         self.crowd.put(course.last(), state);
-        self.fastest = self.fastest.max(self.crowd.solver.fastest());
+        self.fastest = self.fastest.max(self.crowd.solver.fastest()).max(self.crowd.pile.fastest());
         self.crowd.course = Some(course);
         failure
     }
@@ -58,13 +59,55 @@ impl Collider {
     /// Returns the largest overlap of two bodies at the contacts of the crowd (the bodies that Moreau's scheme advances), m; 0 if none
     /// overlap.
     pub(in crate::dynamics) fn penetration(&self, model: &Model, state: &State) -> f64 {
-        let overlap =
-            |place: &Arc<LastingContact>| -place.gap(place.bodies.map(|body| pose(body, model, state)));
-        self.crowd.places.iter().map(overlap).fold(0.0, f64::max)
+        let overlap = |place: &LastingContact| -place.gap(place.bodies.map(|body| pose(body, model, state)));
+        let of_pile = self.crowd.pile.contacts().map(overlap);
+        of_pile.chain(self.crowd.places.iter().map(|place| overlap(place))).fold(0.0, f64::max)
+    }
+
+    /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
+    pub(in crate::dynamics) fn last_places(&self, model: &Model, state: &State) -> Vec<Arc<LastingContact>> {
+        let mut all = self.crowd.places.clone();
+        if self.crowd.is_all {
+            all.extend(self.places_of_pile(model, state).into_iter().map(Arc::new));
+        }
+        all
+    }
+
+    /// Returns the contacts of the pile at which bodies touch.
+    pub(super) fn places_of_pile(&self, model: &Model, state: &State) -> Vec<LastingContact> {
+        let touching = |place: &LastingContact| {
+            let poses = place.bodies.map(|body| pose(body, model, state));
+            let meeting = place.meet(poses);
+            (meeting.gap <= self.touching_gap(place.bodies, model, state)).then(|| LastingContact {
+                spoke: spoke(&place.touch.patches, [&poses[0], &poses[1]], &meeting),
+                touch: place.touch.with(meeting),
+                ..place.clone()
+            })
+        };
+        self.crowd.pile.contacts().filter_map(touching).collect()
+    }
+
+    /// Ends a step of the pile: separates bodies that overlap too deeply.
+    pub(in crate::dynamics) fn end_pile(&mut self, model: &Model, time: f64, state: &mut State) {
+        for _ in 0..REPAIRS {
+            let is_deep = |place: &LastingContact| {
+                place.gap(place.bodies.map(|body| pose(body, model, state))) < -DEEP * place.size
+            };
+            if !self.crowd.pile.contacts().any(is_deep) {
+                break;
+            }
+            // What is moved apart must not be moved into its neighbors. Bodies that stay jammed overlap by what those around them allow,
+            // which the report of the run says.
+            let (all, _) = self.touching_in_crowd(model, state, LEAN);
+            self.crowd.pile.take_contacts(all, false, (model, state));
+            separate_pile(&mut self.crowd.pile, model, time, state);
+        }
+        self.crowd.course = None;
     }
 
     /// Stores the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of a step, and returns them.
-    pub(super) fn accept_places(&mut self, all: Vec<Arc<LastingContact>>) -> Vec<Arc<LastingContact>> {
+    pub(super) fn accept_places(&mut self, all: Vec<LastingContact>) -> Vec<Arc<LastingContact>> {
+        let all: Vec<_> = all.into_iter().map(Arc::new).collect();
         self.crowd.pushing.clear();
         self.crowd.course = None;
         let Crowd { bodies, places, .. } = &mut self.crowd;

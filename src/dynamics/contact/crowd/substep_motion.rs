@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::super::constraint::{Purpose, Solver};
+use super::super::super::constraint::{Pile, Purpose, Solver, Strike};
 use super::super::super::energy::mechanical;
 use super::super::super::integrator::drift_body;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
@@ -38,14 +38,14 @@ const FAR: f64 = 0.12;
 pub(super) const GRASP: f64 = 1e-5;
 
 /// Bodies are jammed if they overlap at the end of the step by more than this fraction of the smaller body's size.
-const DEEP: f64 = 0.01;
+pub(super) const DEEP: f64 = 0.01;
 
 /// The largest number of attempts to separate jammed bodies. After them, the run fails.
-const REPAIRS: usize = 50;
+pub(super) const REPAIRS: usize = 50;
 
 /// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
 /// smaller body's size. Lower bounces do not count as free flight.
-const LEAN: f64 = 0.01;
+pub(super) const LEAN: f64 = 0.01;
 
 /// How often a substep is halved because its impulses add energy. If they still do, the run fails.
 const MOST_HALVINGS: u32 = 6;
@@ -252,6 +252,7 @@ impl Collider {
             now.clone_from(&before);
             crowd.impacts.truncate(impacts);
             crowd.solver.start_cold();
+            crowd.pile.start_cold();
             let half = 0.5 * part;
             self.advance_part(crowd, course, model, (time, half, halvings + 1), now, loads);
             for (i, location) in now.location.iter_mut().enumerate() {
@@ -278,8 +279,10 @@ impl Collider {
     /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
     /// advances) handles.
     pub(super) fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
+        let mut is_in = vec![false; self.solids.len()];
+        self.crowd.bodies.iter().for_each(|&body| is_in[body] = true);
         let margin = |i: usize| match &self.solids[i] {
-            Some(solid) if self.crowd.bodies.contains(&i) => {
+            Some(solid) if is_in[i] => {
                 let speed =
                     state.velocity[i].length() + model.angular_velocity(i, state).length() * solid.reach();
                 2.0 * speed * dt + 0.1 * solid.size()
@@ -287,12 +290,15 @@ impl Collider {
             _ => 0.0,
         };
         let margins: Vec<f64> = (0..self.solids.len()).map(margin).collect();
-        let mut pairs = match self.pairs.within(&margins) {
-            Some(known) => known.to_vec(),
-            None => near(&self.contacts, &self.solids, &margins, (model, state)),
-        };
-        pairs.retain(|pair| self.crowd.holds(pair.bodies, model));
-        pairs
+        let is_held = |pair: &Pair| self.crowd.holds(pair.bodies, |body| is_in[body], model);
+        match self.pairs.within(&margins) {
+            Some(known) => known.iter().filter(|pair| is_held(pair)).cloned().collect(),
+            None => {
+                let mut pairs = near(&self.contacts, &self.solids, &margins, (model, state));
+                pairs.retain(is_held);
+                pairs
+            }
+        }
     }
 
     /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to
@@ -313,18 +319,16 @@ impl Collider {
     /// Returns the number of substeps in a step of `dt` seconds: fast bodies need more. If all bodies are in the crowd, those that meet no
     /// other do not count.
     fn parts(&self, model: &Model, state: &State, dt: f64, pairs: &[Pair]) -> f64 {
-        let mut counted = self.crowd.bodies.clone();
-        if self.crowd.is_all {
-            let near: BTreeSet<usize> = pairs.iter().flat_map(|pair| pair.bodies).collect();
-            counted.retain(|body| near.contains(body));
-        }
+        let mut is_near = vec![!self.crowd.is_all; self.solids.len()];
+        pairs.iter().flat_map(|pair| pair.bodies).for_each(|body| is_near[body] = true);
         let way = |&i: &usize| {
             let (size, reach) =
                 self.solids[i].as_ref().map_or((f64::INFINITY, 0.0), |solid| (solid.size(), solid.reach()));
             let speed = state.velocity[i].length() + model.angular_velocity(i, state).length() * reach;
             speed * dt / (FAR * size)
         };
-        counted.iter().map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
+        let counted = self.crowd.bodies.iter().filter(|&&body| is_near[body]);
+        counted.map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
     }
 
     /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds. If all bodies are in
@@ -335,7 +339,7 @@ impl Collider {
         state: &State,
         pairs: &[Pair],
         (part, is_all): (f64, bool),
-    ) -> Vec<Arc<LastingContact>> {
+    ) -> Vec<LastingContact> {
         let mut all = Vec::new();
         for pair in pairs {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
@@ -360,7 +364,7 @@ impl Collider {
         pair: &Pair,
         [x, y]: [&Solid; 2],
         within: f64,
-    ) -> Vec<Arc<LastingContact>> {
+    ) -> Vec<LastingContact> {
         let [p, q] = pair.bodies.map(|body| pose(body, model, state));
         let closed = |touch: Touch| LastingContact {
             bodies: pair.bodies,
@@ -370,7 +374,7 @@ impl Collider {
             size: self.size(pair.bodies),
             still: 0.0,
         };
-        touches(x, &p, y, &q, within).into_iter().map(|touch| Arc::new(closed(touch))).collect()
+        touches(x, &p, y, &q, within).into_iter().map(closed).collect()
     }
 
     /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the
@@ -394,9 +398,14 @@ impl Collider {
             jammed = deep;
             // What is moved apart must not be moved into its neighbors.
             let (all, _) = self.touching_in_crowd(model, state, LEAN);
-            let solver = &mut self.crowd.solver;
+            let Crowd { pile, solver, is_all, .. } = &mut self.crowd;
+            if model.constraints().is_empty() {
+                pile.take_contacts(all, !*is_all, (model, state));
+                separate_pile(pile, model, time, state);
+                continue;
+            }
             solver.find_by_sweeps();
-            solver.take_contacts(all);
+            solver.take_contacts(all.into_iter().map(Arc::new).collect());
             solver.forget();
             solver.hold_joints(model, time, state);
             separate(solver, model, time, state);
@@ -412,19 +421,17 @@ impl Collider {
 
     /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
     /// any. Points with a gap below `near`, as a fraction of the smaller body's size, count as contacts, too.
-    fn touching_in_crowd(
+    pub(super) fn touching_in_crowd(
         &self,
         model: &Model,
         state: &State,
         near: f64,
-    ) -> (Vec<Arc<LastingContact>>, Option<[usize; 2]>) {
+    ) -> (Vec<LastingContact>, Option<[usize; 2]>) {
         let (mut all, mut deep) = (Vec::new(), None);
         for pair in self.crowd_pairs(model, state, 0.0) {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
             let size = self.size(pair.bodies);
-            let is_pushing = self.crowd.pushing.contains(&pair.bodies);
-            let touching = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(NEAR);
-            let within = if is_pushing { GRASP * size } else { touching }.max(near * size);
+            let within = self.touching_gap(pair.bodies, model, state).max(near * size);
             let places = self.places_within(model, state, &pair, [x, y], within);
             if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
                 deep = Some(pair.bodies);
@@ -432,6 +439,17 @@ impl Collider {
             all.extend(places);
         }
         (all, deep)
+    }
+}
+
+impl Collider {
+    /// Returns the gap up to which two bodies touch, m.
+    pub(super) fn touching_gap(&self, bodies: [usize; 2], model: &Model, state: &State) -> f64 {
+        if self.crowd.pushing.binary_search(&bodies).is_ok() {
+            return GRASP * self.size(bodies);
+        }
+        let [Some(x), Some(y)] = bodies.map(|body| self.solids[body].as_ref()) else { return 0.0 };
+        Scale::of(bodies, [x, y], (model, state)).tolerance(NEAR)
     }
 }
 
@@ -451,7 +469,7 @@ impl Crowd {
     /// possible contacts. Returns the energy that the impulses have added, which breaks a law; `None` without impulses.
     fn advance(
         &mut self,
-        closed: Vec<Arc<LastingContact>>,
+        closed: Vec<LastingContact>,
         model: &Model,
         (t, part): (f64, f64),
         now: &mut State,
@@ -459,8 +477,11 @@ impl Crowd {
     ) -> Option<LawResidual> {
         let joints = model.constraints().len();
         self.pushing.clear();
-        if closed.is_empty() && joints == 0 {
-            self.solver.take_contacts(closed);
+        if joints == 0 && !closed.is_empty() {
+            return self.advance_pile(closed, model, (t, part), (now, loads));
+        }
+        if joints == 0 {
+            self.pile.take_contacts(closed, !self.is_all, (model, now));
             self.fly(model, 0.5 * part, now);
             if self.is_all {
                 model.place(t + 0.5 * part, now);
@@ -479,7 +500,7 @@ impl Crowd {
         let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
         let solver = &mut self.solver;
         solver.find_by_sweeps();
-        solver.take_contacts(closed);
+        solver.take_contacts(closed.into_iter().map(Arc::new).collect());
         solver.forget();
         // Bodies may approach only so fast that their gap does not close before the end of the substep.
         solver.prepare_sweeps(model, t, now);
@@ -531,10 +552,62 @@ impl Crowd {
             now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
         }
         self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
+        self.pushing.sort_unstable();
         self.fly(model, 0.5 * part, now);
         model.place(t + part, now);
         shift(struck.early, model, t + part, now);
         separate(&mut self.solver, model, t + part, now);
+        residual
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) as [`advance`](Self::advance) does, if there are no joints.
+    fn advance_pile(
+        &mut self,
+        closed: Vec<LastingContact>,
+        model: &Model,
+        (t, part): (f64, f64),
+        (now, loads): (&mut State, &mut Loads),
+    ) -> Option<LawResidual> {
+        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
+        self.pile.take_contacts(closed, !self.is_all, (model, now));
+        self.pile.aim(part, GRASP);
+        model.sum(t, now, loads);
+        let strike = Strike { time: t, part, counts_soft: self.is_all };
+        let struck = self.pile.strike_all(model, strike, (now, loads));
+        self.impacts.extend(struck.impacts);
+        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
+        self.pile.aim_at_middle();
+        self.fly(model, 0.5 * part, now);
+        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
+        model.place(t + 0.5 * part, now);
+        model.sum(t + 0.5 * part, now, loads);
+        self.pile.measure(model, now);
+        let until_middle = now.accounts;
+        self.kick(model, 0.5 * part, now, loads);
+        let kicked = self.kinetic(model, now);
+        self.pile.push_all(model, 0.5 * part, now);
+        // The second half of the substep repeats the impulses, at the same velocities.
+        let booked = now.accounts;
+        now.accounts.add(1.0, booked);
+        now.accounts.add(-1.0, until_middle);
+        gain += self.given(model, 0.5 * part, (&first, now), loads);
+        let power = self.power(model, t + 0.5 * part, now);
+        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
+        now.accounts.add(part, power);
+        let mut residual = None;
+        if let Some((bodies, impulses)) = self.pile.hardest_contact() {
+            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
+            self.laws.note_moment(0.0, self.pile.least_size() * impulses, bodies, t);
+        }
+        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
+            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
+            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
+        }
+        self.pushing.extend(self.pile.pushing());
+        self.fly(model, 0.5 * part, now);
+        model.place(t + part, now);
+        shift(struck.early, model, t + part, now);
+        separate_pile(&mut self.pile, model, t + part, now);
         residual
     }
 
@@ -590,6 +663,15 @@ fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
     if solver.are_within(t, state) {
         let before = mechanical(model, t, state);
         solver.separate(state);
+        state.accounts.impacts += mechanical(model, t, state) - before;
+    }
+}
+
+/// Moves overlapping bodies of a pile apart. The change of energy is booked as work of impacts.
+pub(super) fn separate_pile(pile: &mut Pile, model: &Model, t: f64, state: &mut State) {
+    if pile.are_within(model, state) {
+        let before = mechanical(model, t, state);
+        pile.separate(model, state);
         state.accounts.impacts += mechanical(model, t, state) - before;
     }
 }
