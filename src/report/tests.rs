@@ -147,7 +147,7 @@ fn momenta_are_told_from_what_acts_from_outside() {
 fn gravity_and_the_ground_change_the_momentum_of_bodies_that_settle() {
     let text = "simulation = { duration = 1, gravity = [0, -9.81, 0], contacts = 'time-stepping' }\n\
                 [body.b]\nshape.box.size = [0.4, 0.2, 0.2]\nlocation = [0, 0.1, 0]\n\
-                repeat.grid = { count = [1, 21, 1], spacing = [0, 0.2, 0] }\n";
+                repeat.grid = { count = [3, 21, 1], spacing = [1, 0.2, 0] }\n";
     let (_, resting) = assessed(&scene(text), 1e-3);
     for found in [resting.linear_momentum, resting.angular_momentum] {
         assert_eq!(found, Conserved::Changed);
