@@ -12,11 +12,12 @@ use super::{Island, Pile};
 /// An island with more points than this has many.
 const MANY: usize = 60;
 
-/// Where many bodies flow, sweeps end at a tolerance that is coarser by this factor: 1e-5 of the largest rate.
-const COARSER: f64 = 100.0;
+/// Where many bodies flow, sweeps for forces end at a tolerance that is coarser by this factor: 1e-5 of the largest rate. Impacts have this
+/// tolerance in every island.
+const COARSER_BY: f64 = 100.0;
 
 /// Where many bodies rest, sweeps end at a tolerance that is finer by this factor. In a tower, a sweep can change little while much is left.
-const FINER: f64 = 0.01;
+const FINER_BY: f64 = 0.01;
 
 /// In an island at rest, sweeps and Newton's method take turns, at most this many times.
 const ROUNDS_AT_REST: usize = 3;
@@ -55,10 +56,10 @@ impl Pile {
     /// Finds the impulses of an island, and applies them to the velocities of its bodies.
     pub(super) fn find(&mut self, island: &Island, purpose: Purpose, limits: Limits) {
         let motion = self.motion(island, purpose);
-        let factor = match motion {
-            Motion::OfFew => 1.0,
-            Motion::ManyRest => FINER,
-            Motion::ManyFlow => COARSER,
+        let factor = match (motion, purpose) {
+            (Motion::ManyRest, _) => FINER_BY,
+            (Motion::ManyFlow, Purpose::Forces(_)) => COARSER_BY,
+            _ => 1.0,
         };
         let limits = Limits { tolerance: factor * limits.tolerance, ..limits };
         self.sweep_warmly(island, motion, purpose, limits);
