@@ -4,16 +4,16 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use hmac_sha256::Hash;
+use sha2::{Digest, Sha256};
 
 /// What the scripts of a scene depend on, beside the scene.
-const SOURCES: [&str; 3] = ["Cargo.lock", "src", "templates"];
+const SOURCES: [&str; 4] = ["Cargo.lock", "physics/src", "src", "templates"];
 
 #[allow(clippy::print_stdout, reason = "this is how a build script speaks to cargo")]
 fn main() -> io::Result<()> {
     let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other(format!("{name} is not set")));
     let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?);
-    let mut digest = Hash::new();
+    let mut digest = Sha256::new();
     for source in SOURCES {
         println!("cargo::rerun-if-changed={source}");
         add(&root.join(source), &mut digest)?;
@@ -52,7 +52,7 @@ fn sorted(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Adds a file, or all files of a folder in the order of their names, where it is there.
-fn add(path: &Path, digest: &mut Hash) -> io::Result<()> {
+fn add(path: &Path, digest: &mut Sha256) -> io::Result<()> {
     if path.is_dir() {
         return sorted(path)?.iter().try_for_each(|path| add(path, digest));
     }

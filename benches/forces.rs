@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use jabuka::Scene;
-use jabuka::dynamics::{Accounts, BodyId, Force, LennardJones, Loads, Moment, RigidBody, Shape, World};
+use jabuka::physics::{Accounts, BodyId, Force, LennardJones, Loads, Moment, RigidBody, Shape, World};
 use jabuka::simulate::world;
 
 const BODIES: usize = 10_000;

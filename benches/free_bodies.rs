@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::DVec3;
-use jabuka::dynamics::{METHODS, RigidBody, Shape, UniformGravity, World};
+use jabuka::physics::{METHODS, RigidBody, Shape, UniformGravity, World};
 
 const BODIES: usize = 100_000;
 const STEPS: u32 = 100;

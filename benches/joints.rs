@@ -10,7 +10,7 @@
 use std::time::Instant;
 
 use glam::DVec3;
-use jabuka::dynamics::{Anchor, METHODS, Method, RigidBody, Rod, Shape, UniformGravity, World};
+use jabuka::physics::{Anchor, METHODS, Method, RigidBody, Rod, Shape, UniformGravity, World};
 
 fn main() {
     println!("microseconds a step");

@@ -15,7 +15,7 @@
 mod processor;
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBody, Shape, World};
+use jabuka::physics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBody, Shape, World};
 
 const ECCENTRICITY: f64 = 0.9;
 const ORBITS: f64 = 100.0;

@@ -13,7 +13,7 @@
 mod processor;
 
 use glam::DVec3;
-use jabuka::dynamics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBody, Shape, Snapshot, World};
+use jabuka::physics::{Accuracy, BodyId, Dynamics, Gravitation, Method, RigidBody, Shape, Snapshot, World};
 
 const YEARS: f64 = 1000.0;
 const STEP: f64 = 0.01;

@@ -11,8 +11,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use jabuka::dynamics::{Force, Integrator, Loads, Method, Moment, State, System};
 use jabuka::emit::frame_name;
+use jabuka::physics::{Force, Integrator, Loads, Method, Moment, State, System};
 use jabuka::simulate::{Recorded, world};
 use jabuka::{Run, Scene};
 

@@ -2,7 +2,7 @@
 //!
 //! The names come from the same tables that the check of a scene uses. A new category is one line in [`CATEGORIES`].
 
-use crate::dynamics::Method;
+use crate::physics::Method;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};

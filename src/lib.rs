@@ -5,7 +5,7 @@
 //! | stage | from → to | what it knows |
 //! | --- | --- | --- |
 //! | [`scene`] | text → checked [`Scene`] | the scene language; reports every error at its position |
-//! | [`dynamics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
+//! | [`physics`] | bodies, forces → motion | physics; no TOML and no POV-Ray |
 //! | [`simulate`] | scene → world → frames | how a scene becomes a world of bodies and forces |
 //! | [`report`] | scene → accuracy of its run | how runs are compared; nothing about drawing |
 //! | [`picture`] | frames → contents of their pictures | camera, lights, arrows, texts, in meters; no renderer |
@@ -22,7 +22,7 @@
 //! # Features
 //!
 //! All features are on by default. In your own project, `default-features = false` leaves a library that reads scenes, simulates them, and
-//! makes scripts, tables and models. It has about 40 dependencies, and also works in a browser (`wasm32-unknown-unknown`).
+//! makes scripts, tables and models. It has about 50 dependencies, and also works in a browser (`wasm32-unknown-unknown`).
 //!
 //! | feature | what it adds |
 //! | --- | --- |
@@ -34,11 +34,11 @@
 //!
 //! # Your own forces and methods
 //!
-//! A type that implements [`dynamics::Force`] is a force, and a type that implements [`dynamics::Integrator`] is a method.
-//! [`simulate::world`] makes the world of a scene. Add your force to the world with [`World::add_force`](dynamics::World::add_force), and
-//! set your method with [`World::set_integrator`](dynamics::World::set_integrator). [`simulate::Recorded::of`] runs the world, and
+//! A type that implements [`physics::Force`] is a force, and a type that implements [`physics::Integrator`] is a method.
+//! [`simulate::world`] makes the world of a scene. Add your force to the world with [`World::add_force`](physics::World::add_force), and
+//! set your method with [`World::set_integrator`](physics::World::set_integrator). [`simulate::Recorded::of`] runs the world, and
 //! [`Run::of`] makes scripts of the run. `examples/own_force.rs` does all of this in about a hundred lines. To advance bodies in an
-//! entirely different way, implement [`dynamics::Dynamics`], or make single frames from snapshots with [`simulate::Frame::of`].
+//! entirely different way, implement [`physics::Dynamics`], or make single frames from snapshots with [`simulate::Frame::of`].
 //!
 //! # A snapshot test of a scene
 //!
@@ -68,8 +68,7 @@
 pub mod cache;
 pub mod catalog;
 pub mod diagnostic;
-mod digest;
-pub mod dynamics;
+
 pub mod emit;
 pub mod explain;
 pub mod export;
@@ -82,7 +81,7 @@ pub mod overwrite;
 pub mod picture;
 #[cfg(feature = "preview")]
 pub mod preview;
-pub mod random;
+
 #[cfg(feature = "render")]
 pub mod render;
 pub mod report;
@@ -96,5 +95,6 @@ pub mod surface;
 pub mod system;
 mod threads;
 
+pub use jabuka_physics as physics;
 pub use run::{Run, RunError};
 pub use scene::Scene;

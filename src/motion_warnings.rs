@@ -1,7 +1,7 @@
 //! Warnings about the motion in a simulation, whatever is made of it.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::LawResidual;
+use crate::physics::LawResidual;
 use crate::picture::number::rounded;
 use crate::scene::{ContactLaw, Scene, is_by_moreau, thinnest};
 use crate::simulate::{Corrected, Crossing, Overlap, StretchedJoint, Survey};

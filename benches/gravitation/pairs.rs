@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use glam::DVec3;
-use jabuka::dynamics::{Gravitation, RigidBody, Shape, World};
+use jabuka::physics::{Gravitation, RigidBody, Shape, World};
 
 use super::median;
 

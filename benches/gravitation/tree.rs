@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use glam::DVec3;
-use jabuka::dynamics::{Gravitation, Method, RigidBody, Shape, World};
+use jabuka::physics::{Gravitation, Method, RigidBody, Shape, World};
 
 use super::median;
 

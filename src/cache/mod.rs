@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 use std::{env, fs, io};
 
-use crate::dynamics::PairCounter;
+use crate::physics::PairCounter;
 use crate::scene::Scene;
 use crate::simulate::{Counts, Frame, Moments, Recorded, Recorder, Recording, SimulateError};
 use crate::system;

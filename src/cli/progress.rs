@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use jabuka::Scene;
-use jabuka::dynamics::PairCounter;
 use jabuka::output::OutputError;
+use jabuka::physics::PairCounter;
 use jabuka::simulate::Workload;
 
 use super::{Failure, terminal};

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use jabuka::diagnostic::visible_path;
-use jabuka::dynamics::LawResidual;
 use jabuka::output::Written;
+use jabuka::physics::LawResidual;
 use jabuka::scene::{ContactLaw, is_by_moreau};
 use jabuka::simulate::{ContactTotals, EnergyScale};
 use jabuka::{Run, Scene};

@@ -14,7 +14,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use super::{shapes, text};
-use crate::dynamics::{BodySnapshot, Shape};
+use crate::physics::{BodySnapshot, Shape};
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
 

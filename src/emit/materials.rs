@@ -5,9 +5,9 @@ use serde::Serialize;
 
 use super::sdl::Style;
 use super::text::Identifiers;
-use crate::digest::Sha256;
 use crate::picture;
 use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
+use sha2::{Digest, Sha256};
 
 /// The kind of a material. Templates see it in lower case: `plain`.
 #[derive(Clone, Copy, Debug, Serialize)]

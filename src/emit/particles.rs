@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::sdl::Style;
 use super::text;
-use crate::dynamics::Particle;
+use crate::physics::Particle;
 use crate::picture::decimal_step;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;

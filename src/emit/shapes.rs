@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::meshes::Meshes;
 use super::sdl::Style;
-use crate::dynamics::{Part, Shape, cone_base};
+use crate::physics::{Part, Shape, cone_base};
 
 /// Returns the beginning of the SDL object for a shape in body axes. The caller appends the material, the pose and the closing brace.
 pub(super) fn open(shape: &Shape, meshes: &Meshes, style: Style) -> String {

@@ -11,7 +11,7 @@ use super::sdl::Style;
 use super::showing::NeededMacros;
 use super::span::Span;
 use super::stage::{self, CameraText, StageText};
-use crate::dynamics::{BodySnapshot, Shape};
+use crate::physics::{BodySnapshot, Shape};
 use crate::picture::Plan;
 use crate::scene::{Body, Include, Layout, Scene};
 use crate::simulate::Frame;

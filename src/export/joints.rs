@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::ExportError;
 use super::table::Table;
-use crate::dynamics::BodyId;
+use crate::physics::BodyId;
 use crate::scene::{JointMeasure, JointState};
 use crate::simulate::{Recorded, Selection};
 

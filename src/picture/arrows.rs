@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::beside;
 use super::camera::Placed;
 use super::in_front::lift_from_body;
-use crate::dynamics::{BodyId, BodySnapshot, ContactSnapshot, find};
+use crate::physics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, Body, Color, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 

@@ -4,7 +4,7 @@ use glam::DMat3;
 
 use super::arrows::{Arrow, HEAD};
 use super::camera::Placed;
-use crate::dynamics::BodySnapshot;
+use crate::physics::BodySnapshot;
 use crate::scene::Body;
 use crate::simulate::surface;
 

@@ -7,7 +7,7 @@ use super::arrows::{Arrow, HEAD};
 use super::camera::{Lens, Placed};
 use super::links::Link;
 use super::stage::Stage;
-use crate::dynamics::{BodySnapshot, Shape};
+use crate::physics::{BodySnapshot, Shape};
 use crate::scene::{Body, Quantity, Scene};
 
 /// An arrow that is moved towards the camera keeps at least this fraction of its distance from the camera.

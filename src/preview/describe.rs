@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::run::{Outcome, PreviewRun};
-use crate::dynamics::{self, Shape};
+use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
@@ -160,7 +160,7 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
         step: simulation.step,
         frames: simulation.frames(),
         frame_rate: simulation.frame_rate,
-        methods: dynamics::Method::all().map(|m| Method { name: m.name, summary: m.summary }).collect(),
+        methods: physics::Method::all().map(|m| Method { name: m.name, summary: m.summary }).collect(),
         size: [scene.output.width, scene.output.height],
         preset: preset.name(),
         sky: match scene.environment.sky {

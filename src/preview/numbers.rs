@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::dynamics::Balance;
+use crate::physics::Balance;
 use crate::simulate::Reader;
 
 /// The count of numbers in the energy and momentum balance of a frame.

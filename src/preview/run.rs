@@ -12,7 +12,7 @@ use super::panicked::caught;
 use super::swarms;
 use crate::cache::{Cache, Spill};
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::dynamics::PairCounter;
+use crate::physics::PairCounter;
 use crate::picture::Plan;
 use crate::simulate::{
     Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, Survey,

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::numbers::{put, put_balance};
 use super::run::PreviewRun;
-use crate::dynamics::{BodySnapshot, RigidBody};
+use crate::physics::{BodySnapshot, RigidBody};
 
 /// Encodes the energy and momentum balance of each frame, in the layout of [`put_balance`].
 pub(super) fn balance(run: &PreviewRun, frames: impl Iterator<Item = usize>) -> io::Result<Vec<u8>> {

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::numbers::put;
 use super::run::PreviewRun;
-use crate::dynamics::Particle;
+use crate::physics::Particle;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Swarms;
 

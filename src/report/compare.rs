@@ -8,7 +8,7 @@ use super::measure::{ComparedBodies, Distance, union};
 use super::neighbours::displaced;
 use super::other_scheme::{Apart, Other};
 use super::setting::Setting;
-use crate::dynamics::{Accounts, LawResidual, Snapshot};
+use crate::physics::{Accounts, LawResidual, Snapshot};
 use crate::scene::Scene;
 use crate::simulate::EnergyError;
 

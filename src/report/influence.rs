@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{Anchor, BodyId, Spring};
+use crate::physics::{Anchor, BodyId, Spring};
 use crate::scene::{ForceKind, JointKind, Scene};
 
 /// Whether influences from outside change the total momentum of the bodies that forces move: gravity, other bodies, points of the world,

@@ -1,7 +1,7 @@
 //! Advances several runs side by side, frame by frame, so that they can be compared without storing them.
 
 use super::Stopped;
-use crate::dynamics::Snapshot;
+use crate::physics::Snapshot;
 use crate::scene::Scene;
 use crate::simulate::{SimulateError, Snapshots};
 use crate::threads;

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::dynamics::{BodySnapshot, Shape, Snapshot};
+use crate::physics::{BodySnapshot, Shape, Snapshot};
 use crate::scene::Scene;
 
 /// The bodies that are compared between runs: those that forces move.

@@ -8,7 +8,7 @@ use super::lockstep::{ComparedRun, Ended};
 use super::measure::ComparedBodies;
 use super::setting::Setting;
 use super::trials::factor;
-use crate::dynamics::{METHODS, Method, Motor, Snapshot, suitable_step};
+use crate::physics::{METHODS, Method, Motor, Snapshot, suitable_step};
 use crate::scene::{ContactLaw, JointKind, Scene, is_by_moreau, thinnest};
 
 /// The comparison of a run with contacts with the same run under the other contact law.
@@ -247,7 +247,7 @@ fn refused(scene: &Scene, law: ContactLaw) -> Option<&'static str> {
         return None;
     }
     let rolls =
-        |surface: crate::dynamics::Surface| surface.rolling_friction.is_some_and(|rolling| rolling > 0.0);
+        |surface: crate::physics::Surface| surface.rolling_friction.is_some_and(|rolling| rolling > 0.0);
     let surfaces = scene.bodies.iter().filter_map(|body| Some(body.collider.as_ref()?.surface));
     if surfaces.chain(scene.ground_that_stops().map(|(_, surface)| surface)).any(rolls) {
         return Some("it has no rolling friction");

@@ -1,6 +1,6 @@
 //! The settings of a run that determine its accuracy: the integration method, and its timestep or tolerance.
 
-use crate::dynamics::{Method, World};
+use crate::physics::{Method, World};
 use crate::scene::{ContactLaw, Scene, SimulationSettings};
 use crate::simulate::{evaluations, world};
 
@@ -125,7 +125,7 @@ fn rounded_up(number: f64, digits: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::METHODS;
+    use crate::physics::METHODS;
 
     fn scene(keys: &str) -> Scene {
         Scene::parse(&format!("simulation = {{ {keys} }}\n[body.ball]\nshape.sphere.radius = 1\n")).unwrap()

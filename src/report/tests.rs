@@ -53,7 +53,7 @@ fn on_ellipse(time: f64) -> DVec3 {
 /// Returns the largest distance of a body from its exact position during a run.
 fn true_error(scene: &Scene, body: usize, truth: fn(f64) -> DVec3) -> f64 {
     let distance = |at: Result<_, SimulateError>| {
-        let at: crate::dynamics::Snapshot = at.unwrap();
+        let at: crate::physics::Snapshot = at.unwrap();
         (at.body(body).unwrap().location - truth(at.time)).length()
     };
     Snapshots::new(scene).map(distance).fold(0.0, f64::max)

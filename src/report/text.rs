@@ -6,7 +6,7 @@ use super::neighbours::APART;
 use super::other_scheme::{Agreement, OtherScheme};
 use super::verdict::{AccurateUntil, BrokenLaw, Conserved, Order, Verdict};
 use super::{Assessment, Separation, Trial, Untested};
-use crate::dynamics::Method;
+use crate::physics::Method;
 
 /// The largest number of bodies in the table of errors.
 const NAMED: usize = 5;

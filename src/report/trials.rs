@@ -8,9 +8,9 @@ use super::lockstep::{ComparedRun, Ended, Watch, together};
 use super::measure::{ComparedBodies, union};
 use super::setting::{Setting, refused};
 use super::verdict::Order;
-use crate::dynamics::Method;
+use crate::physics::Method;
 use crate::scene::Scene;
-use crate::simulate::{EnergyError, evaluations};
+use crate::simulate::{EnergyError, evaluations, forces};
 
 /// The result of a test run with one method and one timestep.
 #[derive(Clone, Debug, Serialize)]
@@ -103,7 +103,7 @@ impl Goal<'_> {
     /// Returns the budget of the search, in force evaluations.
     pub(super) fn budget(&self) -> f64 {
         let (scene, bodies) = (self.scene, self.measured.bodies.len() as f64);
-        let pairs = scene.forces.iter().flat_map(|force| force.kind.acting()).map(|force| force.pairs());
+        let pairs = scene.forces.iter().flat_map(|force| forces(&force.kind)).map(|force| force.pairs());
         let contacts = if scene.simulation.contacts.is_some() { 20.0 * bodies } else { 0.0 };
         let pairs: f64 = pairs.map(|pairs| pairs as f64 / 20.0).sum();
         let weight = 2.0 + bodies + 5.0 * scene.joints.len() as f64 + pairs + contacts;

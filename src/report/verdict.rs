@@ -11,7 +11,7 @@ use super::neighbours::{Separation, parting};
 use super::other_scheme::{Other, OtherScheme};
 use super::setting::Setting;
 use super::trials::{Trial, factor};
-use crate::dynamics::{Accounts, LawResidual, Method};
+use crate::physics::{Accounts, LawResidual, Method};
 use crate::scene::{ContactLaw, Scene};
 use crate::simulate::{EnergyScale, evaluations};
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Body;
-use crate::dynamics::Surface;
+use crate::physics::Surface;
 
 /// The method that detects contacts and keeps bodies from passing through each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

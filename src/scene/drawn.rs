@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::expression::{Draw, ExpressionError, Program};
-use crate::dynamics;
-use crate::random::Stream;
+use crate::physics;
+use crate::physics::random::Stream;
 
 /// A constant number, or a formula with random numbers that is sampled anew for each particle.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ impl DrawnFormula {
     }
 }
 
-impl dynamics::Draw for DrawnFormula {
+impl physics::Draw for DrawnFormula {
     fn draw(&self, t: f64, random: &mut Stream) -> f64 {
         self.program.eval(&self.inputs(t, random))
     }
@@ -55,7 +55,7 @@ impl dynamics::Draw for DrawnFormula {
 
 impl Drawn {
     /// Returns the number or formula as a shared trait object for the dynamics.
-    pub fn shared(&self) -> Arc<dyn dynamics::Draw> {
+    pub fn shared(&self) -> Arc<dyn physics::Draw> {
         match self {
             Drawn::Constant(number) => Arc::new(*number),
             Drawn::Formula(formula) => formula.clone(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Color;
-use crate::dynamics::{BodyId, ParticleSource, Surface};
+use crate::physics::{BodyId, ParticleSource, Surface};
 
 /// A particle source and the look of its particles.
 #[derive(Clone, Debug)]

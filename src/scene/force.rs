@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use super::SpringLook;
 use super::law::FormulaLaw;
-use crate::dynamics::{
-    self, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, FormulaForce, Gravitation, J2,
-    LennardJones, Lorentz, Spring,
+use crate::physics::{
+    BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz, Spring,
 };
 
 /// A named force between bodies, on bodies, or on particles. The `force` key of a single body is part of that body instead.
@@ -20,7 +19,7 @@ pub struct Force {
     pub emitters: Vec<usize>,
 }
 
-/// The kinds of forces. A [`BodyId`](dynamics::BodyId) is the index of a body in the scene.
+/// The kinds of forces. A [`BodyId`] is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum ForceKind {
     /// A constant force and torque on each of several bodies.
@@ -55,25 +54,4 @@ pub enum ForceKind {
         /// The look of the springs. `None` if the springs are not drawn.
         look: Option<SpringLook>,
     },
-}
-
-impl ForceKind {
-    /// Returns the force as trait objects for the dynamics. A chain of springs gives one force for each spring.
-    pub fn acting(&self) -> Vec<Arc<dyn dynamics::Force>> {
-        match self {
-            ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],
-            ForceKind::Drag(drag) => vec![Arc::new(drag.clone())],
-            ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
-            ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
-            ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
-            ForceKind::Formula { bodies, law } => {
-                vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))]
-            }
-            ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
-            ForceKind::Buoyancy(buoyancy) => vec![Arc::new(buoyancy.clone())],
-            ForceKind::Dipoles(dipoles) => vec![Arc::new(dipoles.clone())],
-            ForceKind::J2(j2) => vec![Arc::new(j2.clone())],
-            ForceKind::Spring { links, .. } => links.iter().map(|link| Arc::new(*link) as Arc<_>).collect(),
-        }
-    }
 }

@@ -1,14 +1,12 @@
 //! The joints of a checked scene.
 
-use std::sync::Arc;
-
 use glam::DQuat;
 
 use super::timed::Timed;
 use super::{Arrow, Color};
-use crate::dynamics::{
-    Anchor, Ball, BodyId, BodySnapshot, Constraint, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo,
-    Slider, Target,
+use crate::physics::{
+    Anchor, Ball, BodyId, BodySnapshot, Coordinate, Fixed, Gear, Hinge, Pulley, Rod, Rope, Servo, Slider,
+    Target,
 };
 
 /// A joint between two bodies, or between a body and a point of the world.
@@ -28,7 +26,7 @@ pub struct Joint {
     pub arrows: [Option<Arrow>; 2],
 }
 
-/// The kinds of joints. A [`BodyId`](crate::dynamics::BodyId) is the index of a body in the scene.
+/// The kinds of joints. A [`BodyId`](crate::physics::BodyId) is the index of a body in the scene.
 #[derive(Clone, Debug)]
 pub enum JointKind {
     /// A ball joint: keeps two points together.
@@ -59,20 +57,6 @@ pub struct JointLook {
 }
 
 impl JointKind {
-    /// Returns the joint as a constraint for the dynamics.
-    pub fn constraint(&self) -> Arc<dyn Constraint> {
-        match self {
-            JointKind::Ball(ball) => Arc::new(*ball),
-            JointKind::Hinge(hinge) => Arc::new(hinge.clone()),
-            JointKind::Slider(slider) => Arc::new(slider.clone()),
-            JointKind::Fixed(fixed) => Arc::new(*fixed),
-            JointKind::Rod(rod) => Arc::new(*rod),
-            JointKind::Rope(rope) => Arc::new(*rope),
-            JointKind::Pulley(pulley) => Arc::new(pulley.clone()),
-            JointKind::Gear(gear) => Arc::new(*gear),
-        }
-    }
-
     /// Returns the two ends of the joint. For a gear, returns the second end of each of the two coupled joints.
     pub fn between(&self) -> [Anchor; 2] {
         match self {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Color;
 use super::JointKind;
 use super::expression::Program;
-use crate::dynamics::{BodyId, BodySnapshot, Coordinate, Reaction};
+use crate::physics::{BodyId, BodySnapshot, Coordinate, Reaction};
 
 /// A text that is drawn in the picture.
 #[derive(Clone, Debug)]

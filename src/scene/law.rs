@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intricate};
 use crate::diagnostic::Span;
-use crate::dynamics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
+use crate::physics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
 /// The names of the quantities that a force formula can use. A potential can use only the first six.
 pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "vy", "vz", "speed", "t"];

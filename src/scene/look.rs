@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::sdl::FileKind;
 use super::timed::{Timed, TimedVector};
 use super::{Color, LibraryMaterial, Pattern, Preset};
-use crate::dynamics::Surface;
+use crate::physics::Surface;
 
 /// A named material that bodies can have.
 #[derive(Clone, Debug)]

@@ -59,7 +59,7 @@ pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, Spring
 pub use source::Override;
 
 use crate::diagnostic::Report;
-use crate::dynamics::Surface;
+use crate::physics::Surface;
 
 /// Returns whether a scene can have this number of frames.
 #[must_use]

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::motion::BodyMotion;
 use super::{Collider, ContactLaw, Showing};
-use crate::dynamics::{Method, Presence, RigidBody, Shape};
+use crate::physics::{Method, Presence, RigidBody, Shape};
 
 /// The settings of the simulation: times, integrator, gravity and contacts.
 #[derive(Clone, Debug)]

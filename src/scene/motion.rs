@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::timed::{Timed, TimedVector};
-use crate::dynamics::{Kinematics, Motion, Track};
+use crate::physics::{Kinematics, Motion, Track};
 
 /// The prescribed motion of a body.
 #[derive(Clone, Debug)]

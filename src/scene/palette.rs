@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Color, Finish, LibraryMaterial, Look, Material};
-use crate::dynamics::Shape;
+use crate::physics::Shape;
 
 /// The default colors, in the order in which bodies get them. Neighboring colors are easy to distinguish, also for color-blind people.
 const COLORS: [(&str, Color); 8] = [

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::expression::{Code, Constants, ExpressionError, Resolved};
 use crate::diagnostic::Span;
-use crate::dynamics::{Motion, Track};
+use crate::physics::{Motion, Track};
 
 /// A constant number, or a formula of the time.
 #[derive(Clone, Debug)]

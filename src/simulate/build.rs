@@ -1,5 +1,7 @@
 //! Builds the world of a scene.
 
+mod forces;
+mod joints;
 #[cfg(feature = "time-stepping")]
 mod stepping;
 
@@ -7,7 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use crate::dynamics::{
+pub(crate) use self::forces::forces;
+use self::joints::constraint;
+use crate::physics::{
     Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, PairCounter, RigidBody, Shape, UniformGravity, World,
 };
 #[cfg(feature = "time-stepping")]
@@ -39,7 +43,7 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
 /// becomes an additional body, after all bodies of the scene.
 pub fn world(scene: &Scene) -> World {
     let mut world = free_world(scene);
-    scene.joints.iter().for_each(|joint| world.add_shared_constraint(joint.kind.constraint()));
+    scene.joints.iter().for_each(|joint| world.add_shared_constraint(constraint(&joint.kind)));
     if scene.simulation.contacts.is_some() {
         add_ground(&mut world, scene);
         world.collide(contacts(scene));
@@ -62,7 +66,7 @@ fn free_world(scene: &Scene) -> World {
     if scene.simulation.gravity != DVec3::ZERO {
         world.add_force(UniformGravity { acceleration: scene.simulation.gravity });
     }
-    scene.forces.iter().flat_map(|force| force.kind.acting()).for_each(|force| world.add_shared_force(force));
+    scene.forces.iter().flat_map(|force| forces(&force.kind)).for_each(|force| world.add_shared_force(force));
     scene.joints.iter().filter_map(|joint| joint.servo.clone()).for_each(|servo| world.add_force(servo));
     world
 }

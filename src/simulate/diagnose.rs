@@ -2,7 +2,7 @@
 
 use super::{SimulateError, Why};
 use crate::diagnostic::{Code, Diagnostic, Report, Sources};
-use crate::dynamics::Motor;
+use crate::physics::Motor;
 use crate::scene::{JointKind, Scene};
 
 impl SimulateError {

@@ -3,7 +3,7 @@
 
 use super::build;
 use crate::diagnostic::{Sources, Span};
-use crate::dynamics::{self, BodyId};
+use crate::physics::{self, BodyId};
 use crate::scene::Scene;
 
 /// The error of a run in which a position or a velocity becomes infinite or too large to compute with. Either the timestep is too long for
@@ -74,13 +74,13 @@ impl Diverged {
     fn cause(scene: &Scene, body: usize, time: f64) -> Option<(Cause, String)> {
         let mut world = build::world(scene);
         if time > 0.0 {
-            dynamics::Dynamics::advance(&mut world, time, &[], &mut |_| {}).ok()?;
+            physics::Dynamics::advance(&mut world, time, &[], &mut |_| {}).ok()?;
         }
-        let moment = dynamics::Moment { time, state: world.state(), model: world.model() };
+        let moment = physics::Moment { time, state: world.state(), model: world.model() };
         let size = |force: &crate::scene::Force| {
             let room = vec![glam::DVec3::ZERO; world.len()];
-            let mut loads = dynamics::Loads { force: room.clone(), torque: room, ..Default::default() };
-            force.kind.acting().iter().for_each(|force| force.apply(&moment, &mut loads));
+            let mut loads = physics::Loads { force: room.clone(), torque: room, ..Default::default() };
+            build::forces(&force.kind).iter().for_each(|force| force.apply(&moment, &mut loads));
             loads.force[body].abs().max_element().max(loads.torque[body].abs().max_element())
         };
         let own = &scene.bodies[body].start;
@@ -120,10 +120,10 @@ impl ShorterStep {
                 return shorter;
             }
             trial.simulation.step = step;
-            let mut dynamics = build::dynamics(&trial, &dynamics::PairCounter::default());
+            let mut dynamics = build::dynamics(&trial, &physics::PairCounter::default());
             let reached = dynamics.advance(time, &[], &mut |_| {}).and_then(|()| dynamics.snapshot());
-            let is_kept = |snapshot: &dynamics::Snapshot| snapshot.balance.drift.abs() < 1.0;
-            if reached.and_then(dynamics::Snapshot::checked).is_ok_and(|snapshot| is_kept(&snapshot)) {
+            let is_kept = |snapshot: &physics::Snapshot| snapshot.balance.drift.abs() < 1.0;
+            if reached.and_then(physics::Snapshot::checked).is_ok_and(|snapshot| is_kept(&snapshot)) {
                 return ShorterStep::Helps(step);
             }
             shorter = ShorterStep::IsUseless;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::Balance;
+use crate::physics::Balance;
 use crate::scene::ContactLaw;
 
 /// The energy that the energy error of a run is relative to.
@@ -97,7 +97,7 @@ impl EnergyError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::Accounts;
+    use crate::physics::Accounts;
 
     /// The balance of a frame with a kinetic energy, an energy taken by impacts, and an error, J.
     fn balance(kinetic: f64, taken: f64, error: f64) -> Balance {

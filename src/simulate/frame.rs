@@ -2,7 +2,7 @@
 
 use super::simulation::Entry;
 use super::{ImpactCounts, Past, Swarm};
-use crate::dynamics::{Balance, BodySnapshot, ContactSnapshot, LawResidual, Reaction, Snapshot, find};
+use crate::physics::{Balance, BodySnapshot, ContactSnapshot, LawResidual, Reaction, Snapshot, find};
 
 /// The state of a run at one moment.
 #[derive(Clone, Debug, PartialEq)]

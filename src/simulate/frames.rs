@@ -8,7 +8,7 @@ use super::past::History;
 use super::recording::{Reader, Recording};
 use super::simulation::{Entry, Simulation};
 use super::{Frame, Moments, SimulateError};
-use crate::dynamics::PairCounter;
+use crate::physics::PairCounter;
 use crate::scene::Scene;
 
 /// An iterator over the frames of a run. Each frame is simulated or read on demand.

@@ -1,6 +1,6 @@
 //! Counts the impacts in a run.
 
-use crate::dynamics::Impact;
+use crate::physics::Impact;
 use crate::scene::Scene;
 
 /// The numbers of impacts up to a moment. The list is empty if the scene has no contacts.

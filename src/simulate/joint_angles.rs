@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::dynamics::{BodyId, Snapshot, find};
+use crate::physics::{BodyId, Snapshot, find};
 use crate::scene::Scene;
 
 /// The angles of all joints of a scene, counted through full turns.
@@ -43,7 +43,7 @@ impl JointAngles {
             if let (Some(servo), Some(reaction)) = (&joint.servo, reactions.get_mut(number)) {
                 servo.join(reaction, *time, body);
             }
-            let coordinate = joint.kind.coordinate().filter(crate::dynamics::Coordinate::is_angle);
+            let coordinate = joint.kind.coordinate().filter(crate::physics::Coordinate::is_angle);
             if let Some([angle, rate]) = coordinate.and_then(|coordinate| coordinate.seen(body)) {
                 let predicted = last.angle + 0.5 * (last.rate + rate) * (*time - last.time);
                 let turns = libm::round((predicted - angle) / TAU);

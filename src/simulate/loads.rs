@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::Frame;
-use crate::dynamics::{BodySnapshot, ContactSnapshot};
+use crate::physics::{BodySnapshot, ContactSnapshot};
 use crate::scene::{Arrow, Quantity, Scene};
 
 /// A force on a body, shown by an arrow: the body's weight, or the normal force or friction from another body.
@@ -79,7 +79,7 @@ pub fn loads_on(scene: &Scene, bodies: &[BodySnapshot], contacts: &[ContactSnaps
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::Snapshot;
+    use crate::physics::Snapshot;
 
     #[test]
     fn several_places_of_one_contact_make_one_arrow_at_the_centre_of_pressure() {

@@ -48,10 +48,11 @@ mod vectors;
 mod workload;
 
 use crate::diagnostic::{self, Sources};
-use crate::dynamics::{self, BodyId, Breakdown};
+use crate::physics::{self, BodyId, Breakdown};
 use crate::scene::law::quantities_at;
 use crate::scene::{ForceKind, Scene, in_string};
 
+pub(crate) use build::forces;
 pub use build::world;
 pub use diverged::{Cause, Diverged, ShorterStep};
 pub(crate) use energy_error::EnergyError;
@@ -123,11 +124,11 @@ impl PartialEq for Undefined {
 
 impl Undefined {
     /// Creates the error for a force, given by its index in the world. Returns `None` if the force has no formula.
-    fn of(scene: &Scene, force: usize, at: &dynamics::Undefined) -> Option<Undefined> {
+    fn of(scene: &Scene, force: usize, at: &physics::Undefined) -> Option<Undefined> {
         let gravity = usize::from(scene.simulation.gravity != glam::DVec3::ZERO);
         let mut number = force.checked_sub(gravity)?;
         let force = scene.forces.iter().find(|force| {
-            let count = force.kind.acting().len();
+            let count = build::forces(&force.kind).len();
             let is_it = number < count;
             number = number.saturating_sub(count);
             is_it

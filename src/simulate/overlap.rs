@@ -11,7 +11,7 @@ use glam::{DQuat, DVec3};
 
 use self::near::Near;
 use super::Frame;
-use crate::dynamics::{Placed, Shape};
+use crate::physics::{Placed, Shape};
 use crate::scene::{Body, Scene};
 
 /// The tolerance: two bodies count as overlapping if they still overlap after each has shrunk by this fraction.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Bounds, Frame};
-use crate::dynamics::{
+use crate::physics::{
     BodyId, BodySnapshot, Buoyancy, Cloud, ConstantForce, Coulomb, Drag, Field, FormulaForce, Gravitation,
     J2, LennardJones, Lorentz, Method, Obstacle, Particle, RecordedMotion, RigidBody, Scenery, Shape,
     UniformGravity, World, find,

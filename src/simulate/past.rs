@@ -17,7 +17,7 @@ pub use trail_path::{TrailPath, TrailPoint};
 use self::trail_path::{cut, stride, thin};
 use super::simulation::Entry;
 use super::{Frame, Lagging, Moments};
-use crate::dynamics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
+use crate::physics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
 use crate::scene::{Scene, Showing, Trail};
 
 /// The earlier positions of bodies, as a frame shows them.

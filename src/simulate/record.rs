@@ -9,7 +9,7 @@ use super::past::History;
 use super::recording::{Counts, MemoryStore, Recording, Store};
 use super::simulation::Simulation;
 use super::{Exposure, Frame, Frames, Moments, Selection, SimulateError, Survey, Surveyor};
-use crate::dynamics::{Dynamics, Impact, PairCounter};
+use crate::physics::{Dynamics, Impact, PairCounter};
 use crate::scene::Scene;
 
 /// A simulated run with its recording and its survey. Its moments can be read in any order, to draw, measure or export them.

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 
 use super::vectors::{root, shown, surface};
 use super::{Frame, Load, Moments};
-use crate::dynamics::{Anchor, BodySnapshot, Coordinate, Shape};
+use crate::physics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders in a run.

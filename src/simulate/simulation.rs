@@ -3,7 +3,7 @@
 use super::build::dynamics;
 use super::joint_angles::JointAngles;
 use super::{ImpactCounts, Moments, SimulateError};
-use crate::dynamics::{Breakdown, Dynamics, Impact, PairCounter, Snapshot};
+use crate::physics::{Breakdown, Dynamics, Impact, PairCounter, Snapshot};
 use crate::scene::Scene;
 
 /// The state of a run at a frame, or at a requested time between frames.

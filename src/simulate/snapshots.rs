@@ -2,7 +2,7 @@
 
 use super::simulation::Simulation;
 use super::{Moments, SimulateError};
-use crate::dynamics::{PairCounter, Snapshot};
+use crate::physics::{PairCounter, Snapshot};
 use crate::scene::Scene;
 
 /// An iterator over the states of a run at its frames. The states equal those of [`Frames`](super::Frames), bit for bit.

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::Reach;
 use super::strays::Paths;
 use super::vectors::{anchors, axis, root, shown};
-use crate::dynamics::BodySnapshot;
+use crate::physics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
 
 /// The growth factor of the run's space after which the next span is stored.

@@ -20,7 +20,7 @@ use super::requested_sizes::RequestedSizes;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
 use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, SimulateError, Span, world};
-use crate::dynamics::{BodySnapshot, LawResidual};
+use crate::physics::{BodySnapshot, LawResidual};
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
 /// Statistics of a whole run.
@@ -43,7 +43,7 @@ pub struct Survey {
     /// The largest sizes of the requested arrows, trails, ghosts, springs and sliders.
     pub requested: RequestedSizes,
     /// The largest energy error, relative to the energy that `drift_scale` names. (The drift of a single
-    /// [`Balance`](crate::dynamics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from rest.)
+    /// [`Balance`](crate::physics::Balance) is relative to the largest kinetic energy so far, which is small at the start of a run from rest.)
     pub drift: f64,
     /// The energy that the drift is relative to.
     pub drift_scale: EnergyScale,

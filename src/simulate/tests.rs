@@ -14,7 +14,7 @@ const TUMBLE: &str = "
 
 #[test]
 fn a_run_after_a_reset_is_the_first_run_bit_for_bit() {
-    for method in crate::dynamics::METHODS {
+    for method in crate::physics::METHODS {
         let set = crate::scene::Override::new(format!("simulation.integrator={}", method.name));
         let options = crate::scene::Options { overrides: vec![set], ..Default::default() };
         let scene = Scene::parse_with(TUMBLE, &options).unwrap();
@@ -141,7 +141,7 @@ fn a_run_that_diverges_says_why() {
 
 mod between_frames {
     use super::*;
-    use crate::dynamics::METHODS;
+    use crate::physics::METHODS;
     use crate::scene::{Options, Override, Shutter};
 
     const SCENE: &str = "

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Frame;
-use crate::dynamics::{Anchor, BodySnapshot, Shape};
+use crate::physics::{Anchor, BodySnapshot, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
 /// Returns the vector of a body's velocity, acceleration or force, in world axes and SI units.

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::world;
-use crate::dynamics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
+use super::{build, world};
+use crate::physics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
 /// The number of pair interactions that take about as long as writing the script lines of one body.
 const SCRIPT: u64 = 100;
 
-/// The expected number of pair interactions in each frame of a run. It equals the count of a [`PairCounter`](crate::dynamics::PairCounter)
+/// The expected number of pair interactions in each frame of a run. It equals the count of a [`PairCounter`](crate::physics::PairCounter)
 /// if all bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Workload {
@@ -24,7 +24,7 @@ pub struct Workload {
 impl Workload {
     /// Computes the expected number of pair interactions in each frame of a scene.
     pub fn of(scene: &Scene) -> Workload {
-        let forces = scene.forces.iter().flat_map(|force| force.kind.acting());
+        let forces = scene.forces.iter().flat_map(|force| build::forces(&force.kind));
         let pairs = forces.map(|force| force.pairs()).fold(0, u64::saturating_add);
         // The number of steps of an adaptive method is not known in advance.
         if pairs == 0 || scene.simulation.method.take_over.is_some() {
@@ -93,7 +93,7 @@ pub fn evaluations(method: &'static Method) -> u64 {
 mod tests {
     use super::super::Frames;
     use super::*;
-    use crate::dynamics::{METHODS, PairCounter};
+    use crate::physics::{METHODS, PairCounter};
 
     #[test]
     fn what_is_planned_is_what_is_counted_and_it_is_counted_within_an_evaluation() {

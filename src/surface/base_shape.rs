@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Triangles, helix, lathe, mesh, straight};
-use crate::dynamics::Mesh;
+use crate::physics::Mesh;
 
 /// A base shape: a shape in a standard size that many bodies share, each with its own scale. Its axis of symmetry, if any, is y.
 ///

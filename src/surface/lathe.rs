@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Triangles;
 use super::angles::circle;
-use crate::dynamics::cone_base;
+use crate::physics::cone_base;
 
 /// A point of a profile, with the surface normal.
 #[derive(Clone, Copy)]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::{Triangles, normals};
-use crate::dynamics::Mesh;
+use crate::physics::Mesh;
 
 /// Computes the triangles of a mesh about its center, in the units of the mesh. Their normals equal those in the POV-Ray scripts: smooth
 /// if the mesh has a smoothing angle, otherwise one normal per triangle.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::Mesh;
+use crate::physics::Mesh;
 
 /// The normals of a mesh, and their indices at the three corners of each triangle.
 pub(crate) struct Normals {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::BaseShape;
-use crate::dynamics::{Shape, cone_base};
+use crate::physics::{Shape, cone_base};
 use crate::scene::Color;
 
 /// A base shape as a part of a body: it is scaled, then rotated, then moved, in body axes.

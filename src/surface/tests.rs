@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3, Vec3};
 
 use super::*;
-use crate::dynamics::{Compound, Mesh, Part, Shape};
+use crate::physics::{Compound, Mesh, Part, Shape};
 
 /// A tetrahedron with unequal edges.
 fn tetrahedron() -> Mesh {

@@ -11,7 +11,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::Dir;
-use crate::digest::Sha256;
+use sha2::{Digest, Sha256};
 
 /// The number of notes from which on those of removed folders are forgotten.
 const MANY: usize = 10_000;

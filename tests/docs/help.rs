@@ -43,7 +43,9 @@ fn no_text_names_an_option_or_a_command_that_there_is_not() {
     known.extend(FOREIGN.iter().flat_map(|(_, options)| *options));
     let mut texts =
         vec![root().join("README.md"), root().join("CHANGELOG.md"), root().join("templates/README.md")];
-    texts.extend(files(&root().join("src"), &[".rs", ".toml", ".html"]));
+    texts.extend(
+        ["src", "physics"].map(|name| files(&root().join(name), &[".rs", ".toml", ".html"])).concat(),
+    );
     texts.extend(
         ["explanations", "docs", "scenes"].map(|name| files(&root().join(name), &[".md", ".toml"])).concat(),
     );

@@ -1,7 +1,7 @@
 //! Random numbers that are the same on every machine.
 
 use glam::{DQuat, DVec3};
-use jabuka::random::Stream;
+use jabuka::physics::random::Stream;
 
 /// Draws what random scenes are made of.
 pub(crate) struct Random(Stream);

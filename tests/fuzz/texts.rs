@@ -8,8 +8,8 @@ use std::sync::LazyLock;
 use jabuka::Scene;
 use jabuka::catalog::Category;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
-use jabuka::dynamics::Method;
 use jabuka::explain::Explanation;
+use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
 use jabuka::scene::expression::{Formula, Function, Program, Scope};
@@ -34,8 +34,8 @@ const TRIED: [&str; 38] = [
     "diagnostic/source.rs: add",
     "diagnostic/visible.rs: visible",
     "diagnostic/visible.rs: visible_lines",
-    "dynamics/integrator/mod.rs: by_name",
     "explain.rs: of",
+    "integrator/mod.rs: by_name",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
@@ -65,8 +65,6 @@ const TRIED: [&str; 38] = [
 /// Public functions whose text argument is made by jabuka itself and never by a user: names of frames, files and meshes, and options of
 /// POV-Ray.
 const NAMES: [&str; 15] = [
-    "dynamics/shape/mesh/mod.rs: new",
-    "dynamics/shape/mesh/mod.rs: surface",
     "emit/mod.rs: shutter",
     "emit/mod.rs: trail_files",
     "emit/showing/trails.rs: is_trail_file",
@@ -80,6 +78,8 @@ const NAMES: [&str; 15] = [
     "render/record.rs: read",
     "render/record.rs: state",
     "render/record.rs: write",
+    "shape/mesh/mod.rs: new",
+    "shape/mesh/mod.rs: surface",
 ];
 
 /// Generates texts of arbitrary characters, and texts of words from scenes, formulas, labels and SDL.
@@ -226,9 +226,10 @@ fn functions(folder: &Path, root: &Path, found: &mut BTreeSet<String>) {
 
 #[test]
 fn every_public_function_that_takes_a_text_is_tried() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = BTreeSet::new();
-    functions(&root, &root, &mut found);
+    for root in ["src", "physics/src"].map(|folder| Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)) {
+        functions(&root, &root, &mut found);
+    }
     // The functions of the command line and of the preview are not part of the library's interface.
     found.retain(|function| !function.starts_with("cli/") && !function.starts_with("preview/"));
     let listed: BTreeSet<String> = TRIED.iter().chain(&NAMES).map(|&function| function.to_owned()).collect();

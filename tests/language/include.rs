@@ -53,7 +53,7 @@ fn what_a_file_says_itself_counts_key_by_key_and_settings_count_most() {
     assert_eq!((start.mass, start.velocity.x), (5.0, 2.0));
     let other = "include = ['ball.toml']\n[body.ball]\nshape.box.size = [1, 1, 1]\n";
     let scene = read(&[("scene.toml", other), BALL], &[]).unwrap();
-    assert!(matches!(scene.bodies[0].shape, jabuka::dynamics::Shape::Box { .. }));
+    assert!(matches!(scene.bodies[0].shape, jabuka::physics::Shape::Box { .. }));
 }
 
 #[test]

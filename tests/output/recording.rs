@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use jabuka::Run;
 use jabuka::cache::Cache;
-use jabuka::dynamics::{DenseOutput, Integrator, METHODS, Method, PairCounter, State, Step, System};
 use jabuka::output::{self, Folder};
+use jabuka::physics::{DenseOutput, Integrator, METHODS, Method, PairCounter, State, Step, System};
 use jabuka::scene::Scene;
 use jabuka::simulate::{Moments, Recorded, Selection};
 

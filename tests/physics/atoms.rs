@@ -1,7 +1,7 @@
 //! Tests of the Lennard-Jones force against closed forms and conservation laws.
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, LennardJones, METHODS, RigidBody, Shape, World};
+use jabuka::physics::{BodyId, LennardJones, METHODS, RigidBody, Shape, World};
 
 use crate::common::{ball, tolerance, worlds};
 
@@ -31,7 +31,7 @@ fn two_atoms_swing_about_the_lowest_place() {
 
 /// Returns a world with 64 atoms in a cluster, so warm that some escape.
 #[allow(clippy::unwrap_used, reason = "it is part of tests")]
-fn lump(method: &'static jabuka::dynamics::Method, step: f64, smooth: bool) -> World {
+fn lump(method: &'static jabuka::physics::Method, step: f64, smooth: bool) -> World {
     let mut world = World::new();
     world.set_integrator(method);
     world.set_step(step);

@@ -1,7 +1,7 @@
 //! Tests of charged bodies: Coulomb and Lorentz forces against closed forms.
 
 use glam::DVec3;
-use jabuka::dynamics::{Coulomb, Lorentz, METHODS, Method, World};
+use jabuka::physics::{Coulomb, Lorentz, METHODS, Method, World};
 
 use crate::common::{ball, tolerance, worlds};
 

@@ -1,7 +1,7 @@
 //! Tests of motions with closed-form solutions.
 
 use glam::DVec3;
-use jabuka::dynamics::{Drag, METHODS, UniformGravity};
+use jabuka::physics::{Drag, METHODS, UniformGravity};
 
 use crate::common::{air, ball, method, tether, tolerance, worlds};
 

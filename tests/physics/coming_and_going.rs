@@ -1,7 +1,7 @@
 //! Tests of bodies that exist for a limited time: they move, exert forces and count in balances only while they exist.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Coulomb, Drag, Dynamics, Gravitation, Kinematics, METHODS, Method, Motion, Presence,
     RigidBody, Snapshot, Spring, UniformGravity, World,
 };

@@ -1,7 +1,7 @@
 //! Helpers for all tests of the physics.
 
 use glam::DVec3;
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Drag, Force, Loads, METHODS, Method, Moment, RigidBody, Shape, Spring, State,
     UniformGravity, World,
 };

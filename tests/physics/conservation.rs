@@ -1,7 +1,7 @@
 //! Tests of conservation laws: momentum and angular momentum of a closed system.
 
 use glam::DVec3;
-use jabuka::dynamics::{Anchor, METHODS, RigidBody, Shape, Spring, World};
+use jabuka::physics::{Anchor, METHODS, RigidBody, Shape, Spring, World};
 
 use crate::common::tolerance;
 

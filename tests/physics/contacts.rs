@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Contacts, Dynamics, METHODS, Method, RigidBody, Rod, Shape, Surface, UniformGravity,
     World,
 };

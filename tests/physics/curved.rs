@@ -1,7 +1,7 @@
 //! Tests of contacts on curved surfaces, where the contact point moves on both bodies, against closed forms.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{BodyId, Dynamics, RigidBody, Shape, World};
+use jabuka::physics::{BodyId, Dynamics, RigidBody, Shape, World};
 
 use crate::common::{frames, method};
 use crate::contacts::{G, Table, advance, surface};

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, Dynamics, Kinematics, METHODS, Method, Motion, RigidBody, Shape, Snapshot, Spring,
     UniformGravity, World,
 };

@@ -1,7 +1,7 @@
 //! Tests of the energy: how well the methods conserve it, and whether its accounts are right.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Anchor, Drag, METHODS, Method, RigidBody, Shape, Spring, World};
+use jabuka::physics::{Anchor, Drag, METHODS, Method, RigidBody, Shape, Spring, World};
 
 use crate::common::{air, ball, method, tether};
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Dynamics, Freedom, Gear, Hinge, Method, Motor, RigidBody, Rod, Rope, Servo, Shape,
     Slider, Target, World,
 };

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
-use jabuka::dynamics::{
+use jabuka::physics::{
     BodyId, Buoyancy, Dipoles, Gravitation, J2, METHODS, RigidBody, Shape, UniformGravity, World,
 };
 

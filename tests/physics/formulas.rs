@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use jabuka::Scene;
-use jabuka::dynamics::{METHODS, World};
+use jabuka::physics::{METHODS, World};
 use jabuka::simulate::{SimulateError, world};
 
 use crate::common::{frames, tolerance};

@@ -1,7 +1,7 @@
 //! Tests of sliding and rolling friction in all directions, against closed forms.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{BodyId, Shape, Surface, World};
+use jabuka::physics::{BodyId, Shape, Surface, World};
 
 use crate::common::method;
 use crate::contacts::{G, Table, advance, exact, surface};
@@ -20,7 +20,7 @@ fn headings() -> impl Iterator<Item = DVec3> {
 /// Returns a world with a ball of mass 1 in contact with a plane. `friction` is the surface of the ball; the plane has no surface values
 /// of its own. `motion` holds velocity and angular velocity.
 fn ball_on_plane(
-    method: &'static jabuka::dynamics::Method,
+    method: &'static jabuka::physics::Method,
     normal: DVec3,
     friction: Surface,
     motion: (DVec3, DVec3),

@@ -1,7 +1,7 @@
 //! Tests of orbits under Newton's law of gravitation.
 
 use glam::DVec3;
-use jabuka::dynamics::{Gravitation, METHODS, Method, RigidBody, Shape, State, World};
+use jabuka::physics::{Gravitation, METHODS, Method, RigidBody, Shape, State, World};
 
 use crate::common::method;
 
@@ -157,7 +157,7 @@ fn a_cluster_by_a_tree_hardly_drifts() {
         let star = RigidBody::new(&Shape::Sphere { radius: 0.01 }, (0.5 + part(i, 0.236_067)) / 400.0);
         world.add(star.with_location(at).with_velocity(0.3 * DVec3::Y.cross(at)));
     }
-    let bodies = (0..400).map(jabuka::dynamics::BodyId::new).collect();
+    let bodies = (0..400).map(jabuka::physics::BodyId::new).collect();
     let opening_angle = Some(0.5);
     world.add_force(Gravitation { bodies, against: None, constant: 1.0, softening: 0.1, opening_angle });
     world.set_step(0.02);

@@ -1,7 +1,7 @@
 //! Tests of guided bodies, whose motion is prescribed, and of their effect on other bodies.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Kinematics, METHODS, Method, Motion, Shape, Spring, UniformGravity, World,
 };
 
@@ -92,7 +92,7 @@ fn it_is_where_its_motion_says_whatever_pulls_at_it() {
     for method in METHODS {
         let mut world = World::new();
         world.set_integrator(method);
-        let brick = jabuka::dynamics::RigidBody::new(&Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) }, 5.0);
+        let brick = jabuka::physics::RigidBody::new(&Shape::Box { size: DVec3::new(1.0, 2.0, 3.0) }, 5.0);
         let id = world.add(brick.with_force(DVec3::Z).with_torque(DVec3::ONE));
         world.drive(id, Shaken);
         world.add_force(UniformGravity { acceleration: DVec3::NEG_Y });

@@ -1,7 +1,7 @@
 //! Tests of heaps: bodies with many contacts come to rest together, and stay at rest until a disturbance.
 
 use glam::DVec3;
-use jabuka::dynamics::ContactSnapshot;
+use jabuka::physics::ContactSnapshot;
 
 use crate::common::{drift, frames};
 

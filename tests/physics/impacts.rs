@@ -1,7 +1,7 @@
 //! Tests of the order of simultaneous impacts, of impacts at several points, and of the last bounce, against closed forms.
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, Shape, Surface, World};
+use jabuka::physics::{BodyId, Shape, Surface, World};
 
 use crate::common::{frames, method};
 use crate::contacts::{G, Table, advance, exact, surface};

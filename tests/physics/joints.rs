@@ -1,7 +1,7 @@
 //! Tests of joints: closed forms, published values, the order of every method, and the violation of the constraints.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, Ball, BodyId, Breakdown, Dynamics, Fixed, Freedom, Hinge, Kinematics, Method, Motion, Presence,
     RigidBody, Rod, Shape, Slider, UniformGravity, World,
 };

@@ -2,7 +2,7 @@
 //! restitution take energy.
 
 use glam::DVec3;
-use jabuka::dynamics::Balance;
+use jabuka::physics::Balance;
 
 use crate::common::{arm_on_rotor, frames, pressed_arm};
 

@@ -1,7 +1,7 @@
 //! Tests of the order of each method, measured as the slope of the error's logarithm over that of the step.
 
 use glam::DVec3;
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
 };
 

@@ -1,7 +1,7 @@
 //! Tests of ropes over pulleys, fixed and movable, against closed forms and an independent integration.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{Anchor, BodyId, Dynamics, Kinematics, Motion, Pulley, RigidBody, Shape};
+use jabuka::physics::{Anchor, BodyId, Dynamics, Kinematics, Motion, Pulley, RigidBody, Shape};
 
 use crate::common::{G, falling, frames, origin, that_keep_joints, world};
 

@@ -1,7 +1,7 @@
 //! Tests of the constraint forces and torques of joints against closed forms.
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, Ball, BodyId, Dynamics, Fixed, Freedom, Hinge, METHODS, Method, Motor, Presence, Reaction, Rod,
     Rope, Slider, UniformGravity, World,
 };
@@ -34,7 +34,7 @@ fn the_part_of_a_motor_is_its_own_torque() {
             f.write_str("0.5 sin 2t")
         }
     }
-    impl jabuka::dynamics::Target for Swing {
+    impl jabuka::physics::Target for Swing {
         fn at(&self, t: f64) -> [f64; 3] {
             let (sin, cos) = (libm::sin(2.0 * t), libm::cos(2.0 * t));
             [0.5 * sin, cos, -2.0 * sin]

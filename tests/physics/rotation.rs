@@ -1,7 +1,7 @@
 //! Tests of free rotation about the intermediate principal axis, which is unstable (Dzhanibekov's wing nut, the tennis racket).
 
 use glam::DVec3;
-use jabuka::dynamics::{BodyId, Method, RigidBody, Shape, World};
+use jabuka::physics::{BodyId, Method, RigidBody, Shape, World};
 
 use crate::common::{method, tolerance};
 

@@ -1,7 +1,7 @@
 //! Tests that equal runs agree bit for bit: after a reset, and next to clones of the world.
 
 use glam::DVec3;
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, ConstantForce, METHODS, Method, RigidBody, Shape, Spring, State, UniformGravity, World,
 };
 

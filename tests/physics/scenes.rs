@@ -1,7 +1,7 @@
 //! Tests of the gallery's scenes against closed forms.
 
 use glam::DVec3;
-use jabuka::dynamics::BodySnapshot;
+use jabuka::physics::BodySnapshot;
 use jabuka::{Run, Scene};
 
 /// Simulates a scene of the gallery. Returns the time and the bodies of each frame.

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Anchor, BodyId, Compound, METHODS, Method, Part, RigidBody, Shape, Spring, UniformGravity, World,
 };
 

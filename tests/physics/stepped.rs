@@ -3,8 +3,8 @@
 
 use glam::DVec3;
 use jabuka::diagnostic::Code;
-use jabuka::dynamics::{Dynamics as _, Impact};
-use jabuka::random::Stream;
+use jabuka::physics::random::Stream;
+use jabuka::physics::{Dynamics as _, Impact};
 use jabuka::simulate::{Frame, survey, world};
 use jabuka::{Run, Scene};
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use glam::DVec3;
-use jabuka::dynamics::Presence;
+use jabuka::physics::Presence;
 use jabuka::simulate::{Frame, Frames, Recorded, survey};
 use jabuka::{Run, Scene};
 

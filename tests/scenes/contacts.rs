@@ -2,8 +2,8 @@
 
 use crate::support::{jabuka, stderr, stdout};
 use glam::DVec3;
-use jabuka::dynamics::{Breakdown, Dynamics, Impact, Snapshot, World};
 use jabuka::export::write_events;
+use jabuka::physics::{Breakdown, Dynamics, Impact, Snapshot, World};
 use jabuka::simulate::{Recorded, world};
 use jabuka::{Run, Scene};
 

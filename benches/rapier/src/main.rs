@@ -12,7 +12,7 @@
 //! `cargo run --release --manifest-path benches/rapier/Cargo.toml`
 
 use glam::DVec3;
-use jabuka::dynamics::{Anchor, Ball, Method, Rod, Shape, UniformGravity, World};
+use jabuka::physics::{Anchor, Ball, Method, Rod, Shape, UniformGravity, World};
 use rapier3d_f64::dynamics::IntegrationParameters;
 use rapier3d_f64::prelude::{
     GenericJoint, PhysicsWorld, RevoluteJointBuilder, RigidBodyBuilder, SphericalJointBuilder, Vector,
@@ -61,7 +61,7 @@ fn ours(name: &str, links: u32, link: Link, method: &str) -> f64 {
     let mut last = None;
     let mut first = None;
     for i in 1..=links {
-        let ball = jabuka::dynamics::RigidBody::new(&Shape::Sphere { radius: RADIUS }, 1.0);
+        let ball = jabuka::physics::RigidBody::new(&Shape::Sphere { radius: RADIUS }, 1.0);
         let ball = world.add(ball.with_location(DVec3::X * f64::from(i)));
         let end = last.map_or(Anchor::Point(DVec3::ZERO), Anchor::centre);
         match link {

@@ -12,10 +12,10 @@ use glam::DVec3;
 
 use super::super::{sdl::Style, text};
 use super::color;
-use crate::digest::Sha256;
 use crate::picture::{Plan, Stretch, Trail};
 use crate::scene::Layout;
 use crate::simulate::Frame;
+use sha2::{Digest, Sha256};
 
 /// An include file with a stretch of a trail. Several scripts include it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use super::super::screen::{Screen, ScreenPoint};
 use super::super::text::{MARGIN, Text, Vertical};
 use super::said::Moment;
 use super::{LINE, Labels, Planned};
-use crate::dynamics::BodySnapshot;
+use crate::physics::BodySnapshot;
 use crate::scene::Side;
 
 impl Labels {

@@ -12,7 +12,7 @@ use self::said::{Moment, longest};
 use super::occupancy::Occupancy;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, least_height, width};
-use crate::dynamics::Coordinate;
+use crate::physics::Coordinate;
 use crate::scene::{Body, Color, Label, LabelPlace, Scene};
 use crate::simulate::{Frame, Ghost};
 

@@ -2,7 +2,7 @@
 
 use super::super::number;
 use super::Labels;
-use crate::dynamics::{Balance, BodyId, BodySnapshot, Reaction, find};
+use crate::physics::{Balance, BodyId, BodySnapshot, Reaction, find};
 use crate::scene::{Body, BodyMeasure, Format, JointState, Label, Measure, Piece, Quantity, RunMeasure};
 use crate::simulate::{Frame, Ghost, ImpactCounts, shown};
 

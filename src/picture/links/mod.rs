@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 
 use super::catenary::hanging;
 use super::pulley::{RopePath, RopePoint, WheelArc};
-use crate::dynamics::{Anchor, Pulley, Shape};
+use crate::physics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, JointKind, Scene};
 use crate::simulate::{Frame, Survey, surface};
 

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{Part, PlannedShape, SpringSize, room_for};
-use crate::dynamics::{Anchor, Hinge, Rope, Slider, Spring};
+use crate::physics::{Anchor, Hinge, Rope, Slider, Spring};
 use crate::scene::{Color, ForceKind, Joint, JointKind, JointLook, Scene, SpringLine, SpringLook};
 use crate::simulate::{RequestedSizes, RequestedSlider, surface, touch_at_start};
 

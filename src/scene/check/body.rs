@@ -8,7 +8,7 @@ use super::read::figure;
 use super::view::View;
 use super::{Context, contact, corrections, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{RigidBody, Shape};
+use crate::physics::{RigidBody, Shape};
 use crate::scene::palette::Palette;
 use crate::scene::source::Table;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};

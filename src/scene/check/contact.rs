@@ -8,7 +8,7 @@ use super::read::figure;
 use super::stepping;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Shape, Surface};
+use crate::physics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
 /// The keys for the surface properties of a body or of the ground.

@@ -4,7 +4,7 @@ use super::Context;
 use super::corrections::{insertion, is_file};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
-use crate::dynamics::Spring;
+use crate::physics::Spring;
 use crate::scene::{Body, Force, ForceKind};
 
 /// The maximum number of frames, which is eleven hours at 25 frames per second.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
+use crate::physics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
 use crate::scene::{Body, Force, ForceKind};
 
 /// Warns of the mass of a fixed body on which no gravitation acts, and of a charge or a magnetic moment on which no force acts.

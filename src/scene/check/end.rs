@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::super::read;
 use super::Context;
 use super::view::View;
-use crate::dynamics::{Anchor, BodyId};
+use crate::physics::{Anchor, BodyId};
 use crate::scene::Body;
 use crate::scene::grammar::{Bound, END};
 use crate::scene::source::{Node, Value};

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::view::View;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::Shape;
+use crate::physics::Shape;
 use crate::scene::{
     Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, SimulationSettings,
     Sky,

@@ -8,7 +8,7 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Flaw, Mesh, Shape};
+use crate::physics::{Flaw, Mesh, Shape};
 use crate::scene::{Camera, Layout, Output, SimulationSettings, mesh};
 
 /// The meshes read so far. Bodies that name the same file with the same settings share one mesh.

@@ -46,8 +46,8 @@ use super::source::{self, Table};
 use super::view::{NamedTable, View};
 use super::{Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
-use crate::digest::Sha256;
-use crate::dynamics::{Presence, Track};
+use crate::physics::{Presence, Track};
+use sha2::{Digest, Sha256};
 
 /// The inputs of [`check`].
 pub(super) struct Input<'a> {
@@ -153,7 +153,7 @@ impl Context<'_> {
 
     /// Adds the SHA-256 digest of a file's contents to the digests of the files that the scene reads.
     fn add_file(&mut self, bytes: &[u8]) {
-        self.files.push(Sha256::digest(bytes));
+        self.files.push(Sha256::digest(bytes).into());
     }
 
     /// Returns whether the diagnostics from index `before` on contain an error.

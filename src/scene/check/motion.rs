@@ -8,7 +8,7 @@ use super::trajectory::{self, Columns, Recording};
 use super::view::View;
 use super::{Context, asset, body, presence};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Interpolation, Keyframe, Presence, Track};
+use crate::physics::{Interpolation, Keyframe, Presence, Track};
 use crate::scene::SimulationSettings;
 use crate::scene::expand::in_string;
 use crate::scene::motion::{BodyMotion, TimedOrientation};

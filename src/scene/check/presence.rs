@@ -4,7 +4,7 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Keyframe, Presence};
+use crate::physics::{Keyframe, Presence};
 use crate::scene::SimulationSettings;
 
 /// If the interval between two rows of a body is longer than the median interval times this factor, the body may be absent between these

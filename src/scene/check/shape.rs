@@ -6,7 +6,7 @@ use super::read::figure;
 use super::view::View;
 use super::{Context, body, mesh};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Compound, Part, Shape};
+use crate::physics::{Compound, Part, Shape};
 
 /// Reads the physical shape of a body. Returns a placeholder for a missing or wrong shape, whose error has already been reported.
 pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Shape {

@@ -3,7 +3,7 @@
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::Shape;
+use crate::physics::Shape;
 use crate::scene::{
     Arrow, BodyAxes, Ghosts, Quantity, Showing, SimulationSettings, SpringLine, SpringLook, Trail,
 };

@@ -6,7 +6,7 @@ use super::corrections::is_file;
 use super::counts::Counts;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{METHODS, Method};
+use crate::physics::{METHODS, Method};
 use crate::scene::{ContactLaw, SimulationSettings};
 
 /// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as

@@ -7,7 +7,7 @@ use super::counts::Counts;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{METHODS, Motor, suitable_step};
+use crate::physics::{METHODS, Motor, suitable_step};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.

@@ -17,7 +17,7 @@ use self::velocities::Contradiction;
 use super::Context;
 use super::read::figure;
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
-use crate::dynamics::Keyframe;
+use crate::physics::Keyframe;
 use crate::scene::grammar::quoted;
 use crate::scene::source::file;
 use crate::scene::units;

@@ -50,7 +50,7 @@ fn places(node: &Node, into: &mut HashSet<Span>) {
 mod tests {
     use glam::DVec3;
 
-    use crate::dynamics::Shape;
+    use crate::physics::Shape;
     use crate::scene::{Finish, ForceKind, LightKind, Look, Scene};
 
     fn scene(text: &str) -> Scene {
@@ -66,7 +66,7 @@ mod tests {
              [body.a]\n[body.b]\nmass = 5\nlook.sdl_before = 'no_shadow'\n[body.c]\nshape.sphere = {}\n\
              velocity = [0, 0, 0]\n",
         );
-        let starts = |of: &dyn Fn(&crate::dynamics::RigidBody) -> f64| {
+        let starts = |of: &dyn Fn(&crate::physics::RigidBody) -> f64| {
             scene.bodies.iter().map(|body| of(&body.start)).collect::<Vec<_>>()
         };
         assert_eq!(starts(&|start| start.mass), [3.0, 5.0, 3.0]);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::repeat::{self, INDICES};
 use super::{Expander, corrections, place};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::random::Stream;
+use crate::physics::random::Stream;
 use crate::scene::expression::{Draw, ExpressionError, Formula, Resolved};
 
 impl Expander<'_> {

@@ -78,7 +78,7 @@ fn a_long_chain_of_variables_and_a_long_cycle_are_no_trouble() {
     }
     let ends = format!("{text}v{LENGTH} = 0.25\n");
     let scene = Scene::parse(&ends).unwrap();
-    assert_eq!(scene.bodies[0].shape, crate::dynamics::Shape::Sphere { radius: 0.25 });
+    assert_eq!(scene.bodies[0].shape, crate::physics::Shape::Sphere { radius: 0.25 });
     let cycle = format!("{text}v{LENGTH} = 'v0'\n");
     let said = errors(&cycle);
     assert_eq!(said.len(), 1);

@@ -1,6 +1,6 @@
 //! The grammar of `[force.NAME]`.
 
-use crate::dynamics::{Coulomb, Dipoles, Gravitation};
+use crate::physics::{Coulomb, Dipoles, Gravitation};
 use crate::scene::law::{OF_PLACE, QUANTITIES};
 
 use super::Kind::{Boolean, Either, List, ListOfBody, Number, OfBody, Reference, Table};

@@ -17,7 +17,7 @@ use super::labels;
 use super::lights::LIGHT;
 use super::materials::MATERIAL;
 use super::{Bound, KeySpec, Rule, TableSpec};
-use crate::dynamics::Method;
+use crate::physics::Method;
 use crate::scene::sdl::Where;
 use crate::scene::{ContactLaw, Layout, Preset};
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use png::{BitDepth, ColorType, Transformations};
 
 use super::{MOST_BYTES, MeshError};
-use crate::dynamics::Mesh;
+use crate::physics::Mesh;
 use crate::scene::source::file;
 
 /// The maximum number of pixels in an image. Each pixel gives about two triangles, so a heightfield has at most about 8 million triangles.

@@ -12,9 +12,9 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::digest::Sha256;
-use crate::dynamics::Mesh;
+use crate::physics::Mesh;
 use crate::scene::source::file;
+use sha2::{Digest, Sha256};
 
 pub(super) use heightfield::heightfield;
 
@@ -72,7 +72,7 @@ pub(super) fn digest(path: &Path) -> io::Result<[u8; 32]> {
     let mut buffer = [0; 1 << 16];
     loop {
         match file.read(&mut buffer)? {
-            0 => return Ok(hash.finalize()),
+            0 => return Ok(hash.finalize().into()),
             length => hash.update(&buffer[..length]),
         }
     }

@@ -127,7 +127,7 @@ fn every_format_gives_the_same_solid() {
         let mesh = read_bytes(name, &bytes).unwrap();
         assert_eq!((mesh.name(), mesh.flaw()), ("corner", None), "{name}");
         assert_eq!((mesh.vertices().len(), mesh.triangles().len()), (4, 4), "{name}");
-        let volume = crate::dynamics::Shape::Mesh { mesh: mesh.into(), scale: 1.0 }.volume().unwrap();
+        let volume = crate::physics::Shape::Mesh { mesh: mesh.into(), scale: 1.0 }.volume().unwrap();
         assert!((volume - 1.0 / 6.0).abs() < 1e-15, "{name}: {volume}");
     }
 }

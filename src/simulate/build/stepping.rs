@@ -1,7 +1,7 @@
 //! Builds the time-stepping engine for a scene.
 
 use super::{add_ground, contacts, free_world};
-use crate::dynamics::{Link, LinkKind, PairCounter, TimeStepping};
+use crate::physics::{Link, LinkKind, PairCounter, TimeStepping};
 use crate::scene::{Body, Joint, JointKind, Scene};
 
 /// Builds a time-stepping engine with all bodies, forces, joints and contacts of a scene. `pair_counter` counts the evaluated interactions

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::trail_path::TrailPoint;
-use crate::dynamics::{BodySnapshot, Impact};
+use crate::physics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
 /// The largest number of impacts between two points of a trail. More corners would be too close together to be seen.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::corners;
-use crate::dynamics::BodySnapshot;
+use crate::physics::BodySnapshot;
 use crate::scene::Trail;
 
 /// The largest number of points of a trail. In longer runs, only every second, fourth, … frame adds a point.

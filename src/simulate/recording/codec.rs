@@ -31,7 +31,7 @@ pub(super) use decoder::Decoder;
 pub(super) use encoder::Encoder;
 
 use super::super::ImpactCounts;
-use crate::dynamics::Accounts;
+use crate::physics::Accounts;
 use crate::scene::Scene;
 
 /// The number of floating-point values in the header of a moment, before the bodies.

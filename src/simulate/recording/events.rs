@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::{ContactSnapshot, Impact, LawResidual, MotionLaw};
+use crate::physics::{ContactSnapshot, Impact, LawResidual, MotionLaw};
 
 /// The number of values that describe a contact: two bodies and four vectors.
 pub(super) const CONTACT_NUMBERS: usize = 14;

@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard};
 use self::codec::{Decoder, Encoder, damaged};
 use super::Frame;
 use super::simulation::Entry;
-use crate::dynamics::{BodySnapshot, Snapshot};
+use crate::physics::{BodySnapshot, Snapshot};
 
 pub use codec::Counts;
 pub use store::{MemoryStore, Store};

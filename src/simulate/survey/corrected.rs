@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::Frame;
-use crate::dynamics::BodySnapshot;
+use crate::physics::BodySnapshot;
 use crate::scene::Scene;
 
 /// The first body whose initial velocity differs from the scene's, because the given velocity contradicts its joints.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::Frame;
-use crate::dynamics::{BodySnapshot, RigidBody, Shape};
+use crate::physics::{BodySnapshot, RigidBody, Shape};
 use crate::scene::{Body, ForceKind, Scene};
 
 /// The passage of bodies through a plane, in a scene without contacts.

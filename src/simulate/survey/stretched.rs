@@ -1,7 +1,7 @@
 //! Finds joints that give way, because their forces are too large for the timestep.
 
 use super::super::Frame;
-use crate::dynamics::BodyId;
+use crate::physics::BodyId;
 use crate::scene::{Joint, JointKind, Scene};
 
 /// The largest gap at which a joint still counts as holding well, as a fraction of the size of the joint.

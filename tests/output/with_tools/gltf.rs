@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::{jabuka, root, shorter, stderr, stdout};
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
-use jabuka::dynamics::Shape;
+use jabuka::physics::Shape;
 use jabuka::picture::{Lamp, LinkKind, LinkShape, Plan};
 use jabuka::scene::{Options, Override};
 use jabuka::simulate::{Frame, Frames, survey};

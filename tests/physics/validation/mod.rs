@@ -6,7 +6,7 @@ mod orders;
 mod page;
 mod references;
 
-use jabuka::dynamics::Method;
+use jabuka::physics::Method;
 
 use orders::{PROBLEMS, Point, Problem};
 use references::{Outcome, REFERENCES, Reference};

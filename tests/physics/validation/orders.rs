@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Accuracy, BodyId, Dynamics, Force, Gravitation, Loads, Method, Moment, RigidBody, Shape, State,
     UniformGravity, World,
 };

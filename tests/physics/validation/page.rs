@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use jabuka::dynamics::Method;
+use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, svg};
 
 use super::orders::{self, Point};

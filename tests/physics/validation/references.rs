@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use jabuka::Scene;
-use jabuka::dynamics::{Accuracy, Dynamics, Snapshot};
+use jabuka::physics::{Accuracy, Dynamics, Snapshot};
 use jabuka::simulate::world;
 
 use super::orders::Counter;
@@ -40,7 +40,7 @@ impl Reference {
     /// Runs the scene by a method with this step or tolerance.
     #[allow(clippy::panic, clippy::unwrap_used, reason = "it is part of tests")]
     pub(crate) fn run(&self, method: &str, setting: f64) -> Outcome {
-        let is_adaptive = jabuka::dynamics::Method::by_name(method).unwrap().adaptive;
+        let is_adaptive = jabuka::physics::Method::by_name(method).unwrap().adaptive;
         let key = if is_adaptive { "tolerance" } else { "step" };
         let mut text = match self.file() {
             Some(path) => {

@@ -8,7 +8,7 @@
 //! `cargo run --release --manifest-path benches/rapier/Cargo.toml --bin pile [SPHERES [STEPS]]`
 
 use glam::{DQuat, DVec3};
-use jabuka::dynamics::{
+use jabuka::physics::{
     Contacts, Dynamics, RigidBody, Shape, Surface, TimeStepping, UniformGravity, World,
 };
 use rapier3d_f64::prelude::{

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{BodyId, Buoyancy, Dipoles, J2};
+use crate::physics::{BodyId, Buoyancy, Dipoles, J2};
 use crate::scene::ForceKind;
 
 impl Reader<'_, '_> {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::BodyId;
+use crate::physics::BodyId;
 use crate::scene::ForceKind;
 use crate::scene::expand::in_string;
 use crate::scene::expression::ExpressionError;

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
+use crate::physics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
 use crate::scene::source::Node;
 use crate::scene::{Body, Emitter, Force, ForceKind, SimulationSettings};
 

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::BodyId;
+use crate::physics::BodyId;
 use crate::scene::Emitter;
 
 impl Reader<'_, '_> {

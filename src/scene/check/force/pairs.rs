@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::BodyId;
+use crate::physics::BodyId;
 use crate::scene::source::Value;
 
 /// The index of a body, and the source span of its name. The span is `None` if the scene does not name the body for this force.

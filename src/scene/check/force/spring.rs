@@ -4,7 +4,7 @@ use super::super::end;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Anchor, Spring};
+use crate::physics::{Anchor, Spring};
 use crate::scene::ForceKind;
 use crate::scene::source::Node;
 

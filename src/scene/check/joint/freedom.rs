@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Coordinate, Freedom, Motor, Servo};
+use crate::physics::{Coordinate, Freedom, Motor, Servo};
 use crate::scene::check::motion;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;

@@ -14,7 +14,7 @@ use super::read::figure;
 use super::showing;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::dynamics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
+use crate::physics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::source::Node;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, SimulationSettings};
 

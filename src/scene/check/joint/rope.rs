@@ -2,7 +2,7 @@
 
 use super::{Reader, about};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::dynamics::{Anchor, Coordinate, Gear, Pulley, Rope};
+use crate::physics::{Anchor, Coordinate, Gear, Pulley, Rope};
 use crate::scene::check::end;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::dynamics::Anchor;
+use crate::physics::Anchor;
 use crate::scene::check::end;
 use crate::scene::{Body, Joint, JointKind};
 

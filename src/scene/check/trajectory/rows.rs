@@ -9,7 +9,7 @@ use super::Recording;
 use super::columns::{Column, Columns, LENGTH, RATIO, TIME, TURNING, VELOCITY};
 use super::fields::Fields;
 use crate::diagnostic::Code;
-use crate::dynamics::Keyframe;
+use crate::physics::Keyframe;
 
 /// A mistake in a trajectory file, before its position is turned into a source span.
 pub(super) struct Wrong {

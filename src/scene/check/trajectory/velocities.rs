@@ -19,7 +19,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::dynamics::Keyframe;
+use crate::physics::Keyframe;
 
 /// The largest ratio of velocities and differences of rows, in either direction, that is no contradiction.
 const RATIO: f64 = 1.75;

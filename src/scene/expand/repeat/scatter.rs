@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::Place;
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::random::Stream;
+use crate::physics::random::Stream;
 use crate::scene::view::View;
 
 /// The settings of `repeat.scatter`, which places copies at random.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 
-use crate::dynamics::{Anchor, BodyId};
+use crate::physics::{Anchor, BodyId};
 use crate::scene::{Body, ForceKind, Options, Override, Scene};
 
 fn scene(text: &str) -> Scene {
@@ -34,7 +34,7 @@ fn a_count_makes_copies_that_formulas_of_their_index_tell_apart() {
             locations(&scene),
             [DVec3::new(0.0, 3.0, 0.0), DVec3::new(2.5, 3.0, 0.0), DVec3::new(10.0, 3.0, 0.0)]
         );
-        assert_eq!(scene.bodies[2].shape, crate::dynamics::Shape::Sphere { radius: 3.0 });
+        assert_eq!(scene.bodies[2].shape, crate::physics::Shape::Sphere { radius: 3.0 });
     }
 }
 

@@ -11,7 +11,7 @@ use super::last::Last;
 use super::{
     ABSENT, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS, damaged,
 };
-use crate::dynamics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
+use crate::physics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 
 /// Decodes the moments of a page one after another, from the start of the page.
 #[derive(Default)]

@@ -4,7 +4,7 @@ use super::super::super::simulation::Entry;
 use super::super::events::{contact_numbers, impact_numbers, law_numbers};
 use super::last::Last;
 use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
-use crate::dynamics::{Balance, BodySnapshot, Reaction, Snapshot};
+use crate::physics::{Balance, BodySnapshot, Reaction, Snapshot};
 
 /// Encodes the moments of a recording one after another.
 pub(in super::super) struct Encoder {

@@ -3,7 +3,7 @@ use glam::{DQuat, DVec3};
 use super::super::super::simulation::Entry;
 use super::super::events::{CONTACT_NUMBERS, LAW_NUMBERS};
 use super::*;
-use crate::dynamics::{
+use crate::physics::{
     Balance, BodySnapshot, ContactSnapshot, Impact, LawResidual, MotionLaw, Reaction, Snapshot,
 };
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::random::Stream;
+use crate::physics::random::Stream;
 
 fn key(time: f64, location: DVec3, velocity: DVec3) -> Keyframe {
     Keyframe {

@@ -1,0 +1,60 @@
+//! Separation of overlapping bodies of a pile, by moving them apart.
+
+use glam::{DQuat, DVec3};
+
+use super::super::super::contact::pose;
+use super::super::super::{Model, State};
+use super::super::separate::{APART, SHALLOW};
+use super::super::sweep::Stopping;
+use super::island::Rows;
+use super::{Island, Pile};
+
+impl Pile {
+    /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
+    pub(crate) fn are_within(&mut self, model: &Model, state: &State) -> bool {
+        let shallow = if self.points.is_empty() { 0.0 } else { SHALLOW * self.least_size() };
+        let mut is_within = false;
+        for point in &mut self.points {
+            let place = &self.contacts[point.contact].place;
+            let meeting = place.meet(place.bodies.map(|body| pose(body, model, state)));
+            point.set(&meeting, place.bodies.map(|body| state.location[body]));
+            is_within |= point.gap < -shallow;
+        }
+        is_within
+    }
+
+    /// Moves overlapping bodies apart. [`are_within`](Self::are_within) must have measured the overlaps at this state.
+    pub(crate) fn separate(&mut self, model: &Model, state: &mut State) {
+        let deepest = self.points.iter().map(|point| -point.gap).fold(0.0, f64::max);
+        for body in &mut self.bodies {
+            body.follow(model, state);
+            // The velocities stand for shifts.
+            body.free = [DVec3::ZERO; 2];
+            [body.velocity, body.angular_velocity] = body.free;
+        }
+        let islands = std::mem::take(&mut self.islands);
+        for island in &islands {
+            if self.points[island.points.clone()].iter().any(|point| point.gap < 0.0) {
+                self.part(island, APART * deepest, state);
+            }
+        }
+        self.islands = islands;
+    }
+
+    /// Moves the bodies of an island apart, until a sweep moves none by more than `tolerance`, m.
+    fn part(&mut self, island: &Island, tolerance: f64, state: &mut State) {
+        for point in &mut self.points[island.points.clone()] {
+            point.respond(&self.bodies);
+            point.goal = DVec3::X * -point.gap;
+        }
+        self.impulses[island.points.clone()].fill([0.0; 3]);
+        self.sweep(island, Stopping::fast(tolerance), Rows::Normals);
+        for body in self.bodies[island.bodies.clone()].iter().filter(|body| body.moves()) {
+            state.location[body.index] += body.velocity;
+            if body.angular_velocity != DVec3::ZERO {
+                let turn = DQuat::from_scaled_axis(body.angular_velocity);
+                state.orientation[body.index] = (turn * state.orientation[body.index]).normalize();
+            }
+        }
+    }
+}

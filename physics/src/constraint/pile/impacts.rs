@@ -1,0 +1,205 @@
+//! Impacts in a pile: all impacts within one substep are solved together, by Poisson's law. See `rebound.rs` for the law.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::super::super::{Impact, Loads, Model, State};
+use super::super::rebound::{CLOSING_LEFT_TO_FORCES, Struck, of_pairs};
+use super::super::sweep::Purpose;
+use super::island::Limits;
+use super::{Island, Pile};
+
+/// A contact at which two bodies rebound in this substep.
+struct Rebound {
+    /// The index of the point in the pile.
+    point: usize,
+    /// The time from the start of the substep until the bodies touch, s.
+    time: f64,
+    /// The part of the impulse that the contact repeats.
+    restitution: f64,
+    /// The change of the closing rate by the loads until the bodies touch, m/s.
+    fall: f64,
+    /// The rates before the impact, m/s.
+    before: DVec3,
+    /// The impulses of both phases, N s.
+    impulse: DVec3,
+}
+
+/// How impacts of a substep are found.
+#[derive(Clone, Copy)]
+pub(crate) struct Strike {
+    /// The start of the substep, s, and its length, s.
+    pub(crate) time: f64,
+    pub(crate) part: f64,
+    /// True if impacts without a rebound are recorded, too, and contacts that pushed before get no impulse.
+    pub(crate) counts_soft: bool,
+}
+
+impl Pile {
+    /// Applies the impulses of all contacts that close within the substep. [`aim`](Self::aim) must have set the goals. For a contact that
+    /// rebounds, the goal becomes 0, so its bodies approach no further in this substep.
+    pub(crate) fn strike_all(
+        &mut self,
+        model: &Model,
+        strike: Strike,
+        (state, loads): (&mut State, &Loads),
+    ) -> Struck {
+        self.take_velocities(model, state);
+        let limits = self.limits(Purpose::Impact);
+        let (mut rebounds, mut velocities) = (Vec::new(), BTreeMap::new());
+        self.for_each_island(|pile, island| {
+            if !strike.counts_soft || pile.is_closing(island, strike.part) {
+                let new = pile.strike(island, (model, strike, limits), (state, loads), &mut velocities);
+                rebounds.extend(new);
+            }
+        });
+        self.take_velocities(model, state);
+        if rebounds.is_empty() {
+            return Struck::default();
+        }
+        let early = self.early(&rebounds, &velocities, state);
+        let mut impacts: Vec<Impact> =
+            rebounds.iter().map(|rebound| self.impact(rebound, strike.time, &velocities)).collect();
+        if strike.counts_soft {
+            impacts = of_pairs(impacts);
+        }
+        impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let fallen = rebounds.iter().map(|rebound| rebound.impulse.x * rebound.fall).sum();
+        Struck { impacts, early, fallen }
+    }
+
+    /// Returns true if a contact of an island closes faster than its last force explains. What already pushed keeps its rate by forces:
+    /// impulses would only take the energy of the small rates that a substep of turning bodies leaves.
+    fn is_closing(&self, island: &Island, part: f64) -> bool {
+        self.points[island.points.clone()].iter().any(|point| {
+            let slow = CLOSING_LEFT_TO_FORCES * part * self.contacts[point.contact].push * point.weight();
+            let rate = point.rate(&self.bodies).x;
+            rate < point.goal.x && rate < point.goal.x - slow
+        })
+    }
+
+    /// Finds and applies the impulses of the impacts of an island, in two phases. Records the velocities of the rebounding bodies before.
+    fn strike(
+        &mut self,
+        island: &Island,
+        (model, strike, limits): (&Model, Strike, Limits),
+        (state, loads): (&mut State, &Loads),
+        velocities: &mut BTreeMap<usize, DVec3>,
+    ) -> Vec<Rebound> {
+        let mut rebounds = self.rebounds(island, (model, loads), strike);
+        for rebound in &rebounds {
+            // The loads act until the bodies touch. What they add to the approach is reversed with it.
+            self.points[rebound.point].goal.x = -rebound.fall;
+            for body in self.contacts[self.points[rebound.point].contact].place.bodies {
+                if model.inverse_mass()[body] != 0.0 {
+                    velocities.insert(body, state.velocity[body]);
+                }
+            }
+        }
+        self.find(island, Purpose::Impact, limits);
+        self.apply(island, Purpose::Impact, model, state);
+        if rebounds.is_empty() {
+            return rebounds;
+        }
+        for rebound in &mut rebounds {
+            rebound.impulse = self.impulse(rebound.point);
+            self.points[rebound.point].least = rebound.restitution * rebound.impulse.x;
+        }
+        for body in &mut self.bodies[island.bodies.clone()] {
+            body.free = [body.velocity, body.angular_velocity];
+        }
+        self.find(island, Purpose::Impact, limits);
+        self.apply(island, Purpose::Impact, model, state);
+        for rebound in &mut rebounds {
+            rebound.impulse += self.impulse(rebound.point);
+            let point = &mut self.points[rebound.point];
+            (point.least, point.goal.x) = (0.0, 0.0);
+        }
+        rebounds
+    }
+
+    /// Returns the contacts of an island that close within the substep, and fast enough to rebound. A contact does not rebound if the loads
+    /// would undo the rebound within about another substep, unless its restitution is 1.
+    fn rebounds(&self, island: &Island, (model, loads): (&Model, &Loads), strike: Strike) -> Vec<Rebound> {
+        let change = |body: &usize| strike.part * model.inverse_mass()[*body] * loads.force[*body].length();
+        let rebound = |number: usize| {
+            let point = &self.points[number];
+            let contact = &self.contacts[point.contact];
+            let restitution = contact.place.law.restitution;
+            let (before, goal) = (point.rate(&self.bodies), point.goal.x);
+            let rate = before.x;
+            if rate >= goal {
+                return None;
+            }
+            let slow = if restitution < 1.0 { contact.place.bodies.iter().map(change).sum() } else { 0.0 };
+            // A rebound that the loads would undo is none.
+            let rebounds = -restitution * rate > slow;
+            let is_new = strike.counts_soft && contact.push <= 0.0;
+            let time = goal / rate * strike.part;
+            let falls = rebounds && strike.counts_soft;
+            (rebounds || -rate > slow && is_new).then(|| Rebound {
+                point: number,
+                time,
+                restitution: if rebounds { restitution } else { 0.0 },
+                fall: if falls { time * self.pull(number, model, loads) } else { 0.0 },
+                before,
+                impulse: DVec3::ZERO,
+            })
+        };
+        island.points.clone().filter_map(rebound).collect()
+    }
+
+    /// Returns the rate by which the loads alone change the normal rate of a point, m/s².
+    fn pull(&self, point: usize, model: &Model, loads: &Loads) -> f64 {
+        let point = &self.points[point];
+        let at = |side: usize| {
+            let body = &self.bodies[point.bodies[side] as usize];
+            let acceleration = model.inverse_mass()[body.index] * loads.force[body.index];
+            acceleration + (body.inverse_inertia * loads.torque[body.index]).cross(point.arms()[side])
+        };
+        point.components(at(1) - at(0)).x
+    }
+
+    /// Computes, for each rebounding body, the displacement that impulses caused before the bodies touched, m.
+    fn early(
+        &self,
+        rebounds: &[Rebound],
+        before: &BTreeMap<usize, DVec3>,
+        after: &State,
+    ) -> Vec<(usize, DVec3)> {
+        // A body with several rebounds uses the mean time of these, weighted by the impulses.
+        let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for rebound in rebounds {
+            for body in self.contacts[self.points[rebound.point].contact].place.bodies {
+                let [weighted, all] = sums.entry(body).or_default();
+                *weighted += rebound.impulse.x * rebound.time;
+                *all += rebound.impulse.x;
+            }
+        }
+        let early = |(&body, velocity): (&usize, &DVec3)| {
+            let [weighted, all] = sums[&body];
+            let time = if all > 0.0 { weighted / all } else { 0.0 };
+            (body, time * (after.velocity[body] - *velocity))
+        };
+        before.iter().map(early).collect()
+    }
+
+    /// Describes the impact of one rebound in the substep that starts at `time`, s. `velocities` are those of the bodies before the impact.
+    fn impact(&self, rebound: &Rebound, time: f64, velocities: &BTreeMap<usize, DVec3>) -> Impact {
+        let point = &self.points[rebound.point];
+        let place = &self.contacts[point.contact].place;
+        let meeting = &place.touch.meeting;
+        let way =
+            |body: &usize| velocities.get(body).map_or(DVec3::ZERO, |velocity| rebound.time * *velocity);
+        let mean = 0.5 * (rebound.before + point.rate(&self.bodies));
+        Impact {
+            time: time + rebound.time,
+            bodies: place.bodies,
+            place: 0.5 * (meeting.on[0] + meeting.on[1] + place.bodies.iter().map(way).sum::<DVec3>()),
+            normal: meeting.normal,
+            impulse: point.vector(rebound.impulse),
+            energy: (-rebound.impulse.dot(mean) - rebound.impulse.x * rebound.fall).max(0.0),
+        }
+    }
+}

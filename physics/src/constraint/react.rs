@@ -1,0 +1,147 @@
+//! The constraint forces that belong to the positions, velocities and loads of one moment.
+
+use super::super::{Loads, Model, State};
+use super::jacobian::{for_each_direction, magnitude, move_members, product, products};
+use super::modes::Mode;
+use super::solver::Solver;
+
+impl Solver {
+    /// Adds the constraint forces and torques to the loads of the bodies, and their power.
+    pub(crate) fn react(&mut self, model: &Model, t: f64, state: &State, loads: &mut Loads) {
+        if self.is_idle(model) {
+            return;
+        }
+        if !self.is_ready {
+            self.plan(model);
+            self.measure(t, state);
+            self.factorise(false);
+        }
+        self.is_ready = false;
+        if self.has_modes {
+            self.push_drives(loads);
+            self.see_slips_that_constraints_allow();
+        }
+        self.solve_forces(t, state, loads);
+        if self.has_modes {
+            self.book_friction(loads);
+        }
+        let Solver { structure: Some(structure), rows, jacobian, unknown, .. } = &*self else { return };
+        for (multiplier, row) in unknown.iter().zip(rows) {
+            // The power of a time-dependent constraint is λ J v, where J v = −∂c/∂t.
+            loads.power.motors -= multiplier * row.rate;
+        }
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
+            let i = structure.bodies[member];
+            loads.force[i] += multiplier * direction.linear;
+            loads.torque[i] += multiplier * direction.angular;
+        });
+    }
+
+    /// Solves for the multipliers λ at a state whose equations are measured and factorized. The velocities of the members are overwritten
+    /// with the accelerations that they would have without constraints.
+    fn solve_forces(&mut self, t: f64, state: &State, loads: &Loads) {
+        self.see_free_accelerations(t, state, loads);
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, .. } = self else {
+            return;
+        };
+        for ((i, value), row) in unknown.iter_mut().enumerate().zip(rows) {
+            *value = -(product(structure, jacobian, members, i).0 + row.bias);
+        }
+        if self.has_modes && self.slides() {
+            let is_found = self.solve_sliding();
+            self.is_unsolved |= !is_found;
+        } else {
+            self.solve();
+        }
+    }
+
+    /// Overwrites the velocities of the members with the accelerations that they would have without constraints.
+    pub(super) fn see_free_accelerations(&mut self, t: f64, state: &State, loads: &Loads) {
+        let Solver { structure: Some(structure), members, motions, .. } = self else { return };
+        for ((member, motion), &i) in members.iter_mut().zip(motions).zip(&structure.bodies) {
+            if let Some(motion) = motion {
+                member.velocity = motion.at(t).acceleration;
+                member.angular_velocity = motion.angular_acceleration(t);
+            } else {
+                let gyroscopic = member.angular_velocity.cross(state.angular_momentum[i]);
+                member.velocity = member.inverse_mass * loads.force[i];
+                member.angular_velocity = member.turn(loads.torque[i] - gyroscopic);
+            }
+        }
+    }
+
+    /// Solves for the multipliers λ as [`react`](Self::react) does, but adds only the forces of motors at their limits to the loads.
+    /// Writes c'' of each constraint row to `accelerations`, and returns the largest magnitude of its terms, m/s². Those of angles count
+    /// times the size of the mechanism.
+    pub(super) fn react_seeing(
+        &mut self,
+        t: f64,
+        state: &State,
+        loads: &mut Loads,
+        accelerations: &mut [f64],
+    ) -> f64 {
+        self.is_ready = false;
+        self.push_drives(loads);
+        self.see_slips();
+        self.solve_forces(t, state, loads);
+        let Solver { structure: Some(structure), members, rows, jacobian, unknown, grips, .. } = self else {
+            return 0.0;
+        };
+        let size = magnitude((structure, jacobian, members), rows, grips, |row| row.bias);
+        move_members(structure, jacobian, unknown, members);
+        products(structure, jacobian, members, accelerations);
+        for (acceleration, row) in accelerations.iter_mut().zip(&*rows) {
+            *acceleration += row.bias;
+        }
+        size
+    }
+
+    /// Adds the forces of motors at their limits, and their power, to the loads.
+    pub(super) fn push_drives(&mut self, loads: &mut Loads) {
+        if !self.has_modes {
+            return;
+        }
+        let Solver { structure: Some(structure), members, jacobian, unknown, laws, modes, .. } = self else {
+            return;
+        };
+        for (value, (law, mode)) in unknown.iter_mut().zip(laws.iter().zip(modes)) {
+            *value = mode.given(*law).unwrap_or(0.0);
+        }
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
+            let (i, member) = (structure.bodies[member], &members[member]);
+            loads.force[i] += multiplier * direction.linear;
+            loads.torque[i] += multiplier * direction.angular;
+            loads.power.motors += multiplier
+                * (direction.linear.dot(member.velocity) + direction.angular.dot(member.angular_velocity));
+        });
+    }
+
+    /// Adds the forces of motors at their limits and of sliding friction to the loads. Splitting methods treat both like any other force.
+    pub(crate) fn drive(&mut self, t: f64, state: &State, loads: &mut Loads) {
+        let slides = self.slides();
+        if !slides && !self.modes.iter().any(|mode| matches!(mode, Mode::Pushed(_))) {
+            return;
+        }
+        self.measure(t, state);
+        self.is_ready = false;
+        self.push_drives(loads);
+        if !slides {
+            return;
+        }
+        self.factorise(false);
+        self.see_slips_that_constraints_allow();
+        self.solve_forces(t, state, loads);
+        self.book_friction(loads);
+        for i in 0..self.unknown.len() {
+            if self.modes[i] != Mode::Slid {
+                self.unknown[i] = 0.0;
+            }
+        }
+        let Solver { structure: Some(structure), jacobian, unknown, .. } = &*self else { return };
+        for_each_direction(structure, jacobian, unknown, |member, direction, multiplier| {
+            let i = structure.bodies[member];
+            loads.force[i] += multiplier * direction.linear;
+            loads.torque[i] += multiplier * direction.angular;
+        });
+    }
+}

@@ -1,0 +1,677 @@
+//! The motion of the crowd through a step, by Moreau's scheme.
+//!
+//! A step is divided into a few equal substeps. In each, impulses stop or reverse approaching bodies; then the forces, the contacts and the
+//! friction act with the velocities in the middle of the substep. The energy that contacts and friction take from the bodies is booked. The
+//! order of the method is 1. Sources: J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics* (1988); M. Jean,
+//! Comput. Methods Appl. Mech. Eng. 177 (1999) 235.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::super::super::constraint::{Pile, Purpose, Solver, Strike};
+use super::super::super::energy::mechanical;
+use super::super::super::integrator::drift_body;
+use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
+use super::super::approach::close;
+use super::super::closest_points::nearest;
+use super::super::collider::{Collider, Scale};
+use super::super::lasting_contact::{LastingContact, spoke};
+use super::super::laws::LawResidual;
+use super::super::pairs::{Pair, near};
+use super::super::path::pose;
+use super::super::solid::Solid;
+use super::super::strike::kinetic;
+use super::super::touch::{Touch, touches};
+use super::Crowd;
+
+/// The smallest and the largest number of substeps in a step.
+const PARTS: [f64; 2] = [2.0, 64.0];
+
+/// The longest path of a body in a substep, as a fraction of the body's size. The path may be longer if the limit would require more
+/// substeps than the largest number.
+const FAR: f64 = 0.12;
+
+/// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
+/// size.
+pub(super) const GRASP: f64 = 1e-5;
+
+/// Bodies are jammed if they overlap at the end of the step by more than this fraction of the smaller body's size.
+pub(super) const DEEP: f64 = 0.01;
+
+/// The largest number of attempts to separate jammed bodies. After them, the run fails.
+pub(super) const REPAIRS: usize = 50;
+
+/// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
+/// smaller body's size. Lower bounces do not count as free flight.
+pub(super) const LEAN: f64 = 0.01;
+
+/// How often a substep is halved because its impulses add energy. If they still do, the run fails.
+const MOST_HALVINGS: u32 = 6;
+
+/// Times within a substep are equal if they differ by less than this fraction of the substep.
+const SAME: f64 = 1e-12;
+
+/// Bodies touch if their gap is below this fraction of their size.
+const NEAR: f64 = 1e-9;
+
+/// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
+#[derive(Clone, Default)]
+pub(super) struct SubstepMotion {
+    /// The time at which the motion begins, s.
+    start: f64,
+    /// The length of each substep, s.
+    part: f64,
+    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd (the bodies that Moreau's
+    /// scheme advances).
+    states: Vec<State>,
+    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd (the bodies
+    /// that Moreau's scheme advances), m/s.
+    first: State,
+    velocity: Vec<DVec3>,
+    /// The pairs of bodies that can meet during the motion.
+    pairs: Vec<Pair>,
+    failure: Option<Breakdown>,
+    /// The impacts during the motion that are not reported yet, in order of time.
+    impacts: Vec<Impact>,
+    /// The two moments within substeps that were computed last: the time since the beginning of the motion, s, and the state.
+    between: [(f64, State); 2],
+}
+
+impl SubstepMotion {
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at the end of the motion.
+    pub(super) fn last(&self) -> &State {
+        self.states.last().unwrap_or(&self.first)
+    }
+
+    pub(super) fn failure(&self) -> Option<Breakdown> {
+        self.failure
+    }
+}
+
+impl Collider {
+    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. `rest` is the time from `t` + `dt` to
+    /// the end of the step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion
+    /// fails.
+    pub(crate) fn advance_crowd(
+        &mut self,
+        model: &Model,
+        (t, dt, rest): (f64, f64, f64),
+        (before, after): (&State, &mut State),
+        loads: &mut Loads,
+    ) -> Option<Breakdown> {
+        if self.crowd.is_empty() || dt == 0.0 {
+            return None;
+        }
+        let known = self.crowd.course.take().and_then(|mut course| {
+            let now = self.moment(&mut course, t, model, loads);
+            // The computed motion is invalid if other bodies have hit the crowd (the bodies that Moreau's scheme advances) in the
+            // meantime.
+            let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
+            is_here.then_some((course, now.accounts))
+        });
+        let (mut course, old) = match known {
+            Some(known) => known,
+            None => (self.course(model, (t, dt + rest), (before, after), loads), before.accounts),
+        };
+        // The loads have worked along the motion that the integration method gave the crowd (the bodies that Moreau's scheme advances).
+        // The motion of the crowd takes its place, and so does its work.
+        for power in [self.crowd.power(model, t, before), self.crowd.power(model, t + dt, after)] {
+            after.accounts.add(-0.5 * dt, power);
+        }
+        let new = self.moment(&mut course, t + dt, model, loads);
+        for (at, &body) in self.crowd.bodies.iter().enumerate() {
+            after.location[body] = new.location[at];
+            after.velocity[body] = new.velocity[at];
+            after.orientation[body] = new.orientation[at];
+            after.angular_momentum[body] = new.angular_momentum[at];
+        }
+        after.accounts.add(1.0, new.accounts);
+        after.accounts.add(-1.0, old);
+        let failure = course.failure;
+        self.crowd.course = Some(course);
+        failure
+    }
+
+    /// Computes the motion of the crowd (the bodies that Moreau's scheme advances) from the state `before`, for `span` seconds. Bodies
+    /// outside the crowd move at their velocities in `after`.
+    pub(super) fn course(
+        &mut self,
+        model: &Model,
+        (t, span): (f64, f64),
+        (before, after): (&State, &State),
+        loads: &mut Loads,
+    ) -> SubstepMotion {
+        let pairs = self.crowd_pairs(model, before, span);
+        let parts = self.parts(model, before, span, &pairs);
+        let mut course = SubstepMotion {
+            start: t,
+            part: span / parts,
+            states: vec![self.crowd.part_of(before)],
+            first: before.clone(),
+            velocity: after.velocity.clone(),
+            pairs,
+            ..SubstepMotion::default()
+        };
+        for k in 0..parts as usize {
+            let next = self.advance_from(&course, k, course.part, model, loads);
+            course.states.push(next);
+            course.impacts.append(&mut self.crowd.impacts);
+        }
+        course.failure = self.crowd.solver.take_failure();
+        course
+    }
+
+    /// Reports the impacts of the crowd (the bodies that Moreau's scheme advances) up to `time`, s, to which the crowd has been advanced.
+    pub(crate) fn note_rebounds(&mut self, time: f64) {
+        let Collider { crowd, impacts, laws, .. } = self;
+        laws.note_all(&crowd.laws);
+        let Some(course) = &mut crowd.course else { return };
+        let passed = course.impacts.partition_point(|impact| impact.time <= time);
+        impacts.extend(course.impacts.drain(..passed));
+    }
+
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
+    pub(super) fn moment(
+        &mut self,
+        course: &mut SubstepMotion,
+        time: f64,
+        model: &Model,
+        loads: &mut Loads,
+    ) -> State {
+        let passed = ((time - course.start) / course.part).max(0.0);
+        let last = course.states.len() - 1;
+        let k = ((passed + SAME) as usize).min(last);
+        let left = time - course.start - k as f64 * course.part;
+        if k == last || left <= SAME * course.part {
+            return course.states[k].clone();
+        }
+        let key = time - course.start;
+        if let Some((_, known)) = course.between.iter().find(|(at, _)| at.to_bits() == key.to_bits()) {
+            return known.clone();
+        }
+        let pushing = self.crowd.pushing.clone();
+        let found = self.advance_from(course, k, left, model, loads);
+        self.crowd.pushing = pushing;
+        self.crowd.impacts.clear();
+        self.crowd.solver.take_failure();
+        course.between.swap(0, 1);
+        course.between[0] = (key, found.clone());
+        found
+    }
+
+    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) `part` seconds after the beginning of substep `k`, at or
+    /// before its end.
+    fn advance_from(
+        &mut self,
+        course: &SubstepMotion,
+        k: usize,
+        part: f64,
+        model: &Model,
+        loads: &mut Loads,
+    ) -> State {
+        let mut crowd = std::mem::take(&mut self.crowd);
+        crowd.laws.note_all(&self.laws);
+        let passed = k as f64 * course.part;
+        let time = course.start + passed;
+        let mut now = course.first.clone();
+        for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
+            // Bodies outside the crowd (the bodies that Moreau's scheme advances) move on at constant velocity.
+            *location += passed * *velocity;
+        }
+        for (at, &body) in crowd.bodies.iter().enumerate() {
+            now.location[body] = course.states[k].location[at];
+            now.velocity[body] = course.states[k].velocity[at];
+            now.orientation[body] = course.states[k].orientation[at];
+            now.angular_momentum[body] = course.states[k].angular_momentum[at];
+        }
+        now.accounts = course.states[k].accounts;
+        self.advance_part(&mut crowd, course, model, (time, part, 0), &mut now, loads);
+        let part = crowd.part_of(&now);
+        self.crowd = crowd;
+        part
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) by `part` seconds from `time`. A substep whose impulses add energy,
+    /// which no contact can, is repeated in two halves. `halvings` is the number of halvings so far.
+    fn advance_part(
+        &self,
+        crowd: &mut Crowd,
+        course: &SubstepMotion,
+        model: &Model,
+        (time, part, halvings): (f64, f64, u32),
+        now: &mut State,
+        loads: &mut Loads,
+    ) {
+        model.place(time, now);
+        let (before, impacts) = (now.clone(), crowd.impacts.len());
+        let closed = self.crowd_places(model, now, &course.pairs, (part, crowd.is_all));
+        let residual = crowd.advance(closed, model, (time, part), now, loads);
+        if residual.is_some_and(|residual| residual.is_excess()) && halvings < MOST_HALVINGS {
+            now.clone_from(&before);
+            crowd.impacts.truncate(impacts);
+            crowd.solver.start_cold();
+            crowd.pile.start_cold();
+            let half = 0.5 * part;
+            self.advance_part(crowd, course, model, (time, half, halvings + 1), now, loads);
+            for (i, location) in now.location.iter_mut().enumerate() {
+                if !crowd.bodies.contains(&i) {
+                    *location += half * course.velocity[i];
+                }
+            }
+            self.advance_part(crowd, course, model, (time + half, half, halvings + 1), now, loads);
+            return;
+        }
+        if let Some(residual) = residual {
+            crowd.laws.note(residual);
+            if residual.is_broken() {
+                crowd.solver.fail(residual.breakdown());
+            }
+        }
+        if !model.constraints().is_empty() {
+            crowd.solver.take_contacts(Vec::new());
+            crowd.solver.hold_joints(model, time + part, now);
+            crowd.solver.settle(model, time + part, now);
+        }
+    }
+
+    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
+    /// advances) handles.
+    pub(super) fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
+        let mut is_in = vec![false; self.solids.len()];
+        self.crowd.bodies.iter().for_each(|&body| is_in[body] = true);
+        let margin = |i: usize| match &self.solids[i] {
+            Some(solid) if is_in[i] => {
+                let speed =
+                    state.velocity[i].length() + model.angular_velocity(i, state).length() * solid.reach();
+                2.0 * speed * dt + 0.1 * solid.size()
+            }
+            _ => 0.0,
+        };
+        let margins: Vec<f64> = (0..self.solids.len()).map(margin).collect();
+        let is_held = |pair: &Pair| self.crowd.holds(pair.bodies, |body| is_in[body], model);
+        match self.pairs.within(&margins) {
+            Some(known) => known.iter().filter(|pair| is_held(pair)).cloned().collect(),
+            None => {
+                let mut pairs = near(&self.contacts, &self.solids, &margins, (model, state));
+                pairs.retain(is_held);
+                pairs
+            }
+        }
+    }
+
+    /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to
+    /// other bodies of the crowd or to fixed bodies.
+    pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
+        let mut all = BTreeSet::new();
+        for pair in self.crowd_pairs(model, state, 0.0) {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+            let near = nearest(x, &p, y, &q, f64::INFINITY);
+            if near.is_some_and(|near| near.gap <= LEAN * self.size(pair.bodies)) {
+                all.extend(pair.bodies);
+            }
+        }
+        all
+    }
+
+    /// Returns the number of substeps in a step of `dt` seconds: fast bodies need more. If all bodies are in the crowd, those that meet no
+    /// other do not count.
+    fn parts(&self, model: &Model, state: &State, dt: f64, pairs: &[Pair]) -> f64 {
+        let mut is_near = vec![!self.crowd.is_all; self.solids.len()];
+        pairs.iter().flat_map(|pair| pair.bodies).for_each(|body| is_near[body] = true);
+        let way = |&i: &usize| {
+            let (size, reach) =
+                self.solids[i].as_ref().map_or((f64::INFINITY, 0.0), |solid| (solid.size(), solid.reach()));
+            let speed = state.velocity[i].length() + model.angular_velocity(i, state).length() * reach;
+            speed * dt / (FAR * size)
+        };
+        let counted = self.crowd.bodies.iter().filter(|&&body| is_near[body]);
+        counted.map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
+    }
+
+    /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds. If all bodies are in
+    /// the crowd, no other search finds what approaches fast, so contacts of any distance count.
+    fn crowd_places(
+        &self,
+        model: &Model,
+        state: &State,
+        pairs: &[Pair],
+        (part, is_all): (f64, bool),
+    ) -> Vec<LastingContact> {
+        let mut all = Vec::new();
+        for pair in pairs {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let speed = |i: usize, solid: &Solid| {
+                let reach = if solid.reach().is_finite() { solid.reach() } else { 0.0 };
+                state.velocity[i].length() + model.angular_velocity(i, state).length() * reach
+            };
+            let way = 2.0 * part * (speed(pair.bodies[0], x) + speed(pair.bodies[1], y));
+            let close = close([x, y]);
+            let most = if is_all { way.max(close) } else { 10.0 * close };
+            let within = way.clamp(0.1 * close, most);
+            all.extend(self.places_within(model, state, pair, [x, y], within));
+        }
+        all
+    }
+
+    /// Returns all contacts of a pair of bodies with gaps below `within`, m.
+    fn places_within(
+        &self,
+        model: &Model,
+        state: &State,
+        pair: &Pair,
+        [x, y]: [&Solid; 2],
+        within: f64,
+    ) -> Vec<LastingContact> {
+        let [p, q] = pair.bodies.map(|body| pose(body, model, state));
+        let closed = |touch: Touch| LastingContact {
+            bodies: pair.bodies,
+            spoke: spoke(&touch.patches, [&p, &q], &touch.meeting),
+            touch,
+            law: pair.law,
+            size: self.size(pair.bodies),
+            still: 0.0,
+        };
+        touches(x, &p, y, &q, within).into_iter().map(closed).collect()
+    }
+
+    /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the
+    /// contacts of the crowd.
+    ///
+    /// # Errors
+    ///
+    /// Returns a breakdown if two bodies remain jammed after all attempts.
+    pub(crate) fn end_course(
+        &mut self,
+        model: &Model,
+        time: f64,
+        state: &mut State,
+    ) -> Result<Vec<Arc<LastingContact>>, Breakdown> {
+        let mut jammed = None;
+        for _ in 0..REPAIRS {
+            let (all, deep) = self.touching_in_crowd(model, state, 0.0);
+            if deep.is_none() {
+                return Ok(self.accept_places(all));
+            }
+            jammed = deep;
+            // What is moved apart must not be moved into its neighbors.
+            let (all, _) = self.touching_in_crowd(model, state, LEAN);
+            let Crowd { pile, solver, is_all, .. } = &mut self.crowd;
+            if model.constraints().is_empty() {
+                pile.take_contacts(all, !*is_all, (model, state));
+                separate_pile(pile, model, time, state);
+                continue;
+            }
+            solver.find_by_sweeps();
+            solver.take_contacts(all.into_iter().map(Arc::new).collect());
+            solver.forget();
+            solver.hold_joints(model, time, state);
+            separate(solver, model, time, state);
+        }
+        if self.crowd.is_all {
+            // They overlap by what the bodies at them allow, which the report of the run says.
+            let (all, _) = self.touching_in_crowd(model, state, 0.0);
+            return Ok(self.accept_places(all));
+        }
+        let bodies = jammed.unwrap_or_default().map(BodyId::new);
+        Err(Breakdown::Jammed { bodies, time })
+    }
+
+    /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
+    /// any. Points with a gap below `near`, as a fraction of the smaller body's size, count as contacts, too.
+    pub(super) fn touching_in_crowd(
+        &self,
+        model: &Model,
+        state: &State,
+        near: f64,
+    ) -> (Vec<LastingContact>, Option<[usize; 2]>) {
+        let (mut all, mut deep) = (Vec::new(), None);
+        for pair in self.crowd_pairs(model, state, 0.0) {
+            let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
+            let size = self.size(pair.bodies);
+            let within = self.touching_gap(pair.bodies, model, state).max(near * size);
+            let places = self.places_within(model, state, &pair, [x, y], within);
+            if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
+                deep = Some(pair.bodies);
+            }
+            all.extend(places);
+        }
+        (all, deep)
+    }
+}
+
+impl Collider {
+    /// Returns the gap up to which two bodies touch, m.
+    pub(super) fn touching_gap(&self, bodies: [usize; 2], model: &Model, state: &State) -> f64 {
+        if self.crowd.pushing.binary_search(&bodies).is_ok() {
+            return GRASP * self.size(bodies);
+        }
+        let [Some(x), Some(y)] = bodies.map(|body| self.solids[body].as_ref()) else { return 0.0 };
+        Scale::of(bodies, [x, y], (model, state)).tolerance(NEAR)
+    }
+}
+
+impl Crowd {
+    /// Extracts the part of a state that belongs to the crowd (the bodies that Moreau's scheme advances), with one entry for each body.
+    fn part_of(&self, state: &State) -> State {
+        State {
+            location: self.bodies.iter().map(|&i| state.location[i]).collect(),
+            velocity: self.bodies.iter().map(|&i| state.velocity[i]).collect(),
+            orientation: self.bodies.iter().map(|&i| state.orientation[i]).collect(),
+            angular_momentum: self.bodies.iter().map(|&i| state.angular_momentum[i]).collect(),
+            accounts: state.accounts,
+        }
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) by one substep of `part` seconds from time `t`. `closed` holds its
+    /// possible contacts. Returns the energy that the impulses have added, which breaks a law; `None` without impulses.
+    fn advance(
+        &mut self,
+        closed: Vec<LastingContact>,
+        model: &Model,
+        (t, part): (f64, f64),
+        now: &mut State,
+        loads: &mut Loads,
+    ) -> Option<LawResidual> {
+        let joints = model.constraints().len();
+        self.pushing.clear();
+        if joints == 0 && !closed.is_empty() {
+            return self.advance_pile(closed, model, (t, part), (now, loads));
+        }
+        if joints == 0 {
+            self.pile.take_contacts(closed, !self.is_all, (model, now));
+            self.fly(model, 0.5 * part, now);
+            if self.is_all {
+                model.place(t + 0.5 * part, now);
+            }
+            model.sum(t + 0.5 * part, now, loads);
+            if model.does_work() || self.is_all && model.has_guided() {
+                let mut middle = now.clone();
+                self.kick(model, 0.5 * part, &mut middle, loads);
+                now.accounts.add(part, self.power(model, t + 0.5 * part, &middle));
+            }
+            self.kick(model, part, now, loads);
+            self.fly(model, 0.5 * part, now);
+            return None;
+        }
+        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
+        let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
+        let solver = &mut self.solver;
+        solver.find_by_sweeps();
+        solver.take_contacts(closed.into_iter().map(Arc::new).collect());
+        solver.forget();
+        // Bodies may approach only so fast that their gap does not close before the end of the substep.
+        solver.prepare_sweeps(model, t, now);
+        let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
+        model.sum(t, now, loads);
+        let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
+        self.impacts.extend(struck.impacts);
+        let rates = self.solver.rates_now();
+        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
+        self.fly(model, 0.5 * part, now);
+        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
+        model.place(t + 0.5 * part, now);
+        // The joints have opened a little on the way. Their ends are brought together while the impulses are found: reactions that act at
+        // two places instead of one would change the angular momentum.
+        let flown: Vec<_> = self.bodies.iter().map(|&i| (now.location[i], now.orientation[i])).collect();
+        if joints > 0 {
+            self.solver.hold_joints(model, t + 0.5 * part, now);
+            self.solver.settle_places(t + 0.5 * part, now);
+        }
+        model.sum(t + 0.5 * part, now, loads);
+        let until_middle = now.accounts;
+        self.solver.prepare_sweeps(model, t + 0.5 * part, now);
+        let open = self.solver.widest_joint();
+        let goals = self.solver.middle(&goals, &rates);
+        self.kick(model, 0.5 * part, now, loads);
+        let kicked = self.kinetic(model, now);
+        let solver = &mut self.solver;
+        solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
+        // The second half of the substep repeats the impulses, at the same velocities.
+        let booked = now.accounts;
+        now.accounts.add(1.0, booked);
+        now.accounts.add(-1.0, until_middle);
+        gain += self.given(model, 0.5 * part, (&first, now), loads);
+        let power = self.power(model, t + 0.5 * part, now);
+        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
+        now.accounts.add(part, power);
+        let mut residual = None;
+        if let Some((bodies, impulses)) = self.solver.hardest_contact() {
+            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
+            // An open joint between the bodies turns the impulses by their moments about its width.
+            let size = self.solver.least_size();
+            self.laws.note_moment(open * impulses, size * impulses, bodies, t);
+        }
+        for (&i, (location, orientation)) in self.bodies.iter().zip(flown) {
+            (now.location[i], now.orientation[i]) = (location, orientation);
+        }
+        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
+            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
+            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
+        }
+        self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
+        self.pushing.sort_unstable();
+        self.fly(model, 0.5 * part, now);
+        model.place(t + part, now);
+        shift(struck.early, model, t + part, now);
+        separate(&mut self.solver, model, t + part, now);
+        residual
+    }
+
+    /// Advances the crowd (the bodies that Moreau's scheme advances) as [`advance`](Self::advance) does, if there are no joints.
+    fn advance_pile(
+        &mut self,
+        closed: Vec<LastingContact>,
+        model: &Model,
+        (t, part): (f64, f64),
+        (now, loads): (&mut State, &mut Loads),
+    ) -> Option<LawResidual> {
+        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
+        self.pile.take_contacts(closed, !self.is_all, (model, now));
+        self.pile.aim(part, GRASP);
+        model.sum(t, now, loads);
+        let strike = Strike { time: t, part, counts_soft: self.is_all };
+        let struck = self.pile.strike_all(model, strike, (now, loads));
+        self.impacts.extend(struck.impacts);
+        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
+        self.pile.aim_at_middle();
+        self.fly(model, 0.5 * part, now);
+        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
+        model.place(t + 0.5 * part, now);
+        model.sum(t + 0.5 * part, now, loads);
+        self.pile.measure(model, now);
+        let until_middle = now.accounts;
+        self.kick(model, 0.5 * part, now, loads);
+        let kicked = self.kinetic(model, now);
+        self.pile.push_all(model, 0.5 * part, now);
+        // The second half of the substep repeats the impulses, at the same velocities.
+        let booked = now.accounts;
+        now.accounts.add(1.0, booked);
+        now.accounts.add(-1.0, until_middle);
+        gain += self.given(model, 0.5 * part, (&first, now), loads);
+        let power = self.power(model, t + 0.5 * part, now);
+        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
+        now.accounts.add(part, power);
+        let mut residual = None;
+        if let Some((bodies, impulses)) = self.pile.hardest_contact() {
+            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
+            self.laws.note_moment(0.0, self.pile.least_size() * impulses, bodies, t);
+        }
+        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
+            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
+            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
+        }
+        self.pushing.extend(self.pile.pushing());
+        self.fly(model, 0.5 * part, now);
+        model.place(t + part, now);
+        shift(struck.early, model, t + part, now);
+        separate_pile(&mut self.pile, model, t + part, now);
+        residual
+    }
+
+    /// Computes the kinetic energy of the crowd (the bodies that Moreau's scheme advances), J.
+    fn kinetic(&self, model: &Model, now: &State) -> f64 {
+        self.bodies.iter().map(|&body| kinetic(body, model, now)).sum()
+    }
+
+    /// Computes the work of all impulses but those of the loads in a substep, J. `first` holds the momenta at the start of the substep, as
+    /// velocities and angular momenta, and `now` those in the middle, `half` seconds later.
+    fn given(
+        &self,
+        model: &Model,
+        half: f64,
+        (first, now): (&[(DVec3, DVec3)], &State),
+        loads: &Loads,
+    ) -> f64 {
+        let work = |(&i, (velocity, angular_momentum)): (&usize, &(DVec3, DVec3))| {
+            let inverse_mass = model.inverse_mass()[i];
+            let impulse = (now.velocity[i] - *velocity) / inverse_mass - half * loads.force[i];
+            let turn = now.angular_momentum[i] - *angular_momentum - half * loads.torque[i];
+            2.0 * (impulse.dot(now.velocity[i]) + turn.dot(model.angular_velocity(i, now)))
+        };
+        self.bodies.iter().zip(first).map(work).sum()
+    }
+
+    /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
+    fn fly(&self, model: &Model, time: f64, now: &mut State) {
+        self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
+    }
+
+    /// Changes the momenta of the crowd (the bodies that Moreau's scheme advances) by the loads, acting for `time` seconds.
+    fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
+        for &i in &self.bodies {
+            now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
+            now.angular_momentum[i] += time * loads.torque[i];
+        }
+    }
+}
+
+/// Subtracts from the positions of bodies the displacements, m, that impulses caused before the bodies touched. The change of energy is
+/// booked as work of impacts.
+fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
+    if !ways.is_empty() {
+        let before = mechanical(model, t, state);
+        ways.into_iter().for_each(|(body, way)| state.location[body] -= way);
+        state.accounts.impacts += mechanical(model, t, state) - before;
+    }
+}
+
+/// Moves overlapping bodies apart. The change of energy is booked as work of impacts.
+fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
+    if solver.are_within(t, state) {
+        let before = mechanical(model, t, state);
+        solver.separate(state);
+        state.accounts.impacts += mechanical(model, t, state) - before;
+    }
+}
+
+/// Moves overlapping bodies of a pile apart. The change of energy is booked as work of impacts.
+pub(super) fn separate_pile(pile: &mut Pile, model: &Model, t: f64, state: &mut State) {
+    if pile.are_within(model, state) {
+        let before = mechanical(model, t, state);
+        pile.separate(model, state);
+        state.accounts.impacts += mechanical(model, t, state) - before;
+    }
+}

@@ -1,0 +1,23 @@
+//! Makes the forces of a world from those of a scene.
+
+use std::sync::Arc;
+
+use crate::physics::{Force, FormulaForce};
+use crate::scene::ForceKind;
+
+/// Returns a force of a scene as forces of a world. A chain of springs gives one force for each spring.
+pub(crate) fn forces(kind: &ForceKind) -> Vec<Arc<dyn Force>> {
+    match kind {
+        ForceKind::Constant(constant) => vec![Arc::new(constant.clone())],
+        ForceKind::Drag(drag) => vec![Arc::new(drag.clone())],
+        ForceKind::Gravitation(gravitation) => vec![Arc::new(gravitation.clone())],
+        ForceKind::Coulomb(coulomb) => vec![Arc::new(coulomb.clone())],
+        ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
+        ForceKind::Formula { bodies, law } => vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))],
+        ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
+        ForceKind::Buoyancy(buoyancy) => vec![Arc::new(buoyancy.clone())],
+        ForceKind::Dipoles(dipoles) => vec![Arc::new(dipoles.clone())],
+        ForceKind::J2(j2) => vec![Arc::new(j2.clone())],
+        ForceKind::Spring { links, .. } => links.iter().map(|link| Arc::new(*link) as Arc<_>).collect(),
+    }
+}
