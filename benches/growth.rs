@@ -194,7 +194,7 @@ fn in_memory() -> TempDir {
 fn write(scene: &Scene, path: &Path) {
     let run = Run::new(scene).unwrap();
     let folder = Folder::open(path).unwrap();
-    output::write(&run, &folder, &Selection::first(scene.simulation.frames()), &|| ()).unwrap();
+    output::write(&run, &folder, &Selection::first(scene.simulation.timeline.frames()), &|| ()).unwrap();
 }
 
 /// Returns the mean time of some work, s. Repeats the work until the total is long compared with the resolution of the processor's clock,

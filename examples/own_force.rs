@@ -128,7 +128,7 @@ fn run(scene: &Scene) -> Result<Run<'_>, jabuka::RunError> {
 /// Writes the scripts of all frames into a folder. Returns their number.
 fn write(run: &Run<'_>, folder: &Path) -> Result<usize, Box<dyn std::error::Error>> {
     std::fs::create_dir_all(folder)?;
-    let frames = run.scene().simulation.frames();
+    let frames = run.scene().simulation.timeline.frames();
     for frame in run.frames() {
         let frame = frame?;
         std::fs::write(folder.join(frame_name(frame.index, frames)), run.script(&frame)?)?;

@@ -23,9 +23,8 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     // Numbers are written by `Debug`, since different numbers then have different texts.
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
     let simulation = &scene.simulation;
-    let (duration, rate, step) = (simulation.duration, simulation.frame_rate, simulation.step);
     let tolerance = simulation.method.adaptive.then_some(simulation.tolerance);
-    writeln!(text, "{duration:?} {rate:?} {step:?} {tolerance:?}")?;
+    writeln!(text, "{:?} {:?} {tolerance:?}", simulation.timeline, simulation.step)?;
     writeln!(text, "{} {:?}", simulation.method.name, simulation.gravity)?;
     let contacts = simulation.contacts;
     writeln!(text, "{contacts:?} {:?} {:?}", contacts.and(scene.ground_that_stops()), scene.pairs)?;

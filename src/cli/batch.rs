@@ -95,7 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Writes a job folder for a scene, or one for each view of the scene if several are requested.
 fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let scene = arguments.of_scene.read_with(&arguments.scene, &arguments.picture.overrides())?;
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let selection = arguments.of_scene.selection(frames)?;
     check_film([scene.output.width, scene.output.height], scene.output.video_rate)?;
     let folder = folder(arguments, &scene.name);

@@ -31,7 +31,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let start = Instant::now();
     let scene = arguments.of_scene.read(&arguments.scene)?;
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let selection = arguments.of_scene.selection(frames)?;
     let folder = arguments.output.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
@@ -90,7 +90,7 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
     let differences = differences.map_err(|error| progress.failed(&error))?;
     progress.finish();
     let scripts_a_frame = if run.shutter().is_some() { 2 } else { 1 };
-    let compared = scripts_a_frame * selection.count_within(run.scene().simulation.frames());
+    let compared = scripts_a_frame * selection.count_within(run.scene().simulation.timeline.frames());
     if differences.is_empty() {
         terminal::result(&format!(
             "{}: {compared} scripts are as the scene gives them\n",

@@ -129,7 +129,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.joints && scene.joints.is_empty() {
         return Err(Failure::Scene("this scene has no joints"));
     }
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
     if let Some(last) = selection.last().filter(|last| *last >= frames) {
         let message = format!("there is no frame {last}: the frames of this scene are 0 to {}", frames - 1);
@@ -171,7 +171,7 @@ fn table(
     selection: &Selection,
 ) -> Result<String, ExportError> {
     let scene = run.scene();
-    let times = selection.count_within(scene.simulation.frames());
+    let times = selection.count_within(scene.simulation.timeline.frames());
     if arguments.joints {
         let rows = whole(output, |file| write_joints(run, selection, file))?;
         return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));

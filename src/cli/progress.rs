@@ -54,7 +54,7 @@ impl Progress {
     /// Makes a bar for the simulation of a scene and the writing of this many scripts after it.
     pub(super) fn of_run(scene: &Scene, scripts: usize) -> Progress {
         let workload = Workload::of(scene);
-        let steps = scene.simulation.frames() + scripts;
+        let steps = scene.simulation.timeline.frames() + scripts;
         let length = (0..steps).map(|step| weight(workload, step)).fold(0, u64::saturating_add);
         Progress::with(length, workload, "{msg:12} {wide_bar} {percent:>3} %  {left}")
     }

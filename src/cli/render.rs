@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return render_folder(arguments, &products, stop);
     }
     let scene = arguments.scene.read_with(&arguments.source, &arguments.picture.overrides())?;
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let selection = arguments.scene.selection(frames)?.every(arguments.every());
     let out = Path::new("out").join(&scene.name);
     let cameras = arguments.scene.cameras(&out, false, &scene)?;
@@ -123,7 +123,7 @@ fn write_scripts(
     selection: &Selection,
     cameras: &[(Option<&View>, PathBuf)],
 ) -> Result<Vec<(Folder, String)>, Failure> {
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let progress = Progress::of_run(scene, cameras.len() * selection.count_within(frames));
     let mut folders = Vec::new();
     let mut run = None;

@@ -129,7 +129,7 @@ fn write_script(
 /// Returns an error of usage if `time` (s) is outside of the simulated time.
 fn check_time(scene: &Scene, time: f64) -> Result<(), Failure> {
     let simulation = &scene.simulation;
-    let end = simulation.duration.max(simulation.time(simulation.frames() - 1));
+    let end = simulation.timeline.latest();
     if (0.0..=end).contains(&time) {
         return Ok(());
     }

@@ -26,7 +26,7 @@ pub(super) fn summary(
 ) -> String {
     let scene = run.scene();
     let survey = run.survey();
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let others = match (written.kept, written.removed) {
         (0, 0) => String::new(),
         (0, removed) => format!(", {removed} others of another scene removed"),
@@ -83,7 +83,8 @@ pub(super) fn summary(
 
 /// Returns the line with the number of emitters and the maximum number of particles at one time. Empty for a scene without emitters.
 fn particles(scene: &Scene) -> String {
-    let most: f64 = scene.emitters.iter().map(|emitter| emitter.most_alive(scene.simulation.end())).sum();
+    let most: f64 =
+        scene.emitters.iter().map(|emitter| emitter.most_alive(scene.simulation.timeline.end())).sum();
     let count = scene.emitters.len();
     let emitters = if count == 1 { "1 emitter".to_owned() } else { format!("{count} emitters") };
     if count == 0 { String::new() } else { format!("particles {emitters}, up to {most} particles at once\n") }

@@ -44,7 +44,7 @@ pub(super) fn common(scene: &Scene, stage: &StageText, materials: &[MaterialText
 
 /// Returns the values for the templates `animation.pov` and `animation.ini`.
 pub(super) fn sequence(scene: &Scene, span: Span) -> Value {
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let last = frames.saturating_sub(1);
     let digits = names::width(frames);
     context! {
@@ -58,9 +58,9 @@ pub(super) fn sequence(scene: &Scene, span: Span) -> Value {
         width => scene.output.width,
         height => scene.output.height,
         transparent => scene.output.transparent,
-        frame_rate => scene.simulation.frame_rate,
+        frame_rate => scene.simulation.timeline.frame_rate,
         assets => !scene.povray.assets.is_empty(),
-        end => scene.simulation.time(last),
+        end => scene.simulation.timeline.time(last),
         first_script => span.first,
         last_script => span.last,
         script_step => span.step,
@@ -118,7 +118,7 @@ impl FrameConstants {
         };
         FrameConstants {
             title: Value::from(scene.title.clone()),
-            frames: scene.simulation.frames(),
+            frames: scene.simulation.timeline.frames(),
             common: Value::from(common),
             style,
             bodies: mentions("bodies").then(|| scene.bodies.iter().map(body).collect()),

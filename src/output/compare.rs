@@ -60,7 +60,7 @@ pub fn compare(
     if !path.is_dir() {
         return Err(OutputError::NoFolder(path.to_owned()));
     }
-    let frames = run.scene().simulation.frames();
+    let frames = run.scene().simulation.timeline.frames();
     let trails = Mutex::new(HashSet::new());
     let check = |exposed| -> Result<Vec<Difference>, OutputError> {
         let exposure: Exposure = exposed?;

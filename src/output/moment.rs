@@ -45,7 +45,7 @@ fn write_all(run: &Run<'_>, folder: &Folder, time: f64) -> Result<usize, OutputE
     }
     let trails = TrailFiles::default();
     trails.put(run, folder, frame)?;
-    put(Some(frame.index), frame_name(frame.index, scene.simulation.frames()), &script)?;
+    put(Some(frame.index), frame_name(frame.index, scene.simulation.timeline.frames()), &script)?;
     if let Some(shutter) = run.shutter() {
         entries.push(put_blurred(run, folder, &exposure, shutter, &trails)?);
     }

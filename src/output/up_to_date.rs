@@ -28,7 +28,7 @@ pub fn up_to_date(
         return None;
     }
     let listed: HashSet<&str> = manifest.files.iter().map(|entry| entry.name.as_str()).collect();
-    let frames = scene.simulation.frames();
+    let frames = scene.simulation.timeline.frames();
     let is_listed = |frame: usize| {
         listed.contains(&*frame_name(frame, frames))
             && (shutter.is_none() || listed.contains(&*shutter_name(frame, frames)))

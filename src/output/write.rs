@@ -152,7 +152,7 @@ impl Scripts {
         trails: &TrailFiles,
         done: &(dyn Fn() + Sync),
     ) -> Result<Scripts, OutputError> {
-        let scene_frames = run.scene().simulation.frames();
+        let scene_frames = run.scene().simulation.timeline.frames();
         let per_frame = if run.shutter().is_some() { 2 } else { 1 };
         let lost = |error| OutputError::Io(folder.path().join(MANIFEST), error);
         let ledger = Ledger::new(scene_frames * per_frame).map_err(lost)?;
@@ -226,7 +226,7 @@ pub(super) fn put_blurred(
     trails: &TrailFiles,
 ) -> Result<Entry, OutputError> {
     let frame = &exposure.frame;
-    let name = shutter_name(frame.index, run.scene().simulation.frames());
+    let name = shutter_name(frame.index, run.scene().simulation.timeline.frames());
     let mut digest = DigestWriter::default();
     let moments = exposure.moments(shutter).map(|moment| {
         let moment = moment?;

@@ -85,7 +85,7 @@ impl Scope {
 /// The time by which all bodies of the run have appeared, s. A framed start lasts at least until this time.
 fn all_have_come(scene: &Scene) -> f64 {
     let come = scene.bodies.iter().filter_map(|body| body.presence.first_from(0.0));
-    come.filter(|time| *time <= scene.simulation.end()).fold(0.0, f64::max)
+    come.filter(|time| *time <= scene.simulation.timeline.end()).fold(0.0, f64::max)
 }
 
 /// The index of the only body besides planes. `None` if there are several, if the body is sometimes absent, or if no ground or plane makes

@@ -105,7 +105,7 @@ impl Renderer {
         let seen = seen?.unwrap_or(whole);
         // A hidden folder keeps these files apart from the scripts of other commands.
         let folder = Folder::open(&Path::new("out/.preview").join(&scene.name))?;
-        let time = scene.simulation.time(wanted.frame.min(scene.simulation.frames() - 1));
+        let time = scene.simulation.timeline.time(wanted.frame.min(scene.simulation.timeline.frames() - 1));
         output::write_moment(&seen, &folder, time)?;
         self.image(&folder, time, wanted.fine, stop)
     }

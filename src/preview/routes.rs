@@ -139,7 +139,7 @@ fn one() -> usize {
 
 impl Frames {
     fn end(&self, run: &PreviewRun) -> usize {
-        self.to.unwrap_or(usize::MAX).min(run.scene.simulation.frames())
+        self.to.unwrap_or(usize::MAX).min(run.scene.simulation.timeline.frames())
     }
 
     /// Yields the numbers of the requested frames that have been simulated.

@@ -131,7 +131,7 @@ impl PreviewRun {
         let warnings = outcome.and_then(Result::ok).map(|outcome| outcome.warnings.to_text(false));
         Progress {
             id: self.id.to_string(),
-            frames: self.scene.simulation.frames(),
+            frames: self.scene.simulation.timeline.frames(),
             recorded: self.recorded(),
             settled: outcome.is_some(),
             problem: outcome.and_then(Result::err).map(|report| report.to_text(false)),
@@ -143,7 +143,7 @@ impl PreviewRun {
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
         let mut frame = self.recording().read().seen(index)?;
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
-        let slack = 1e-6 / self.scene.simulation.frame_rate;
+        let slack = self.scene.simulation.timeline.slack();
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < frame.time - slack;
         frame.past.ghosts = past.ghosts.iter().filter(is_past).cloned().collect();
         frame.past.lagging = past.lagging.get(index).cloned().unwrap_or_default();

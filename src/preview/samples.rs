@@ -34,7 +34,7 @@ pub(super) fn of_body(
     let (recording, mut all) = (run.recording(), Vec::new());
     let mut reader = recording.read();
     for frame in frames {
-        put(&mut all, &[run.scene.simulation.time(frame)]);
+        put(&mut all, &[run.scene.simulation.timeline.time(frame)]);
         let (moment, at) = reader.body(frame, body)?;
         let Some(at) = at else {
             put(&mut all, &[f64::NAN; 14]);
@@ -83,7 +83,7 @@ mod tests {
             bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
         assert_eq!(numbers.len(), 11 * BODY);
         for (frame, of_frame) in numbers.chunks(BODY).enumerate() {
-            assert_eq!(of_frame[0], run.scene.simulation.time(frame));
+            assert_eq!(of_frame[0], run.scene.simulation.timeline.time(frame));
             assert_eq!(of_frame[1..14].iter().all(|number| number.is_nan()), frame < 5, "{frame}");
         }
     }

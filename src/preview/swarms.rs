@@ -41,7 +41,7 @@ pub(super) fn frames(run: &PreviewRun, frames: impl Iterator<Item = usize>) -> i
     };
     let mut bytes = Vec::new();
     for frame in frames {
-        let time = run.scene.simulation.time(frame);
+        let time = run.scene.simulation.timeline.time(frame);
         let of_emitters = swarms.at(frame)?;
         let mut numbers = vec![0.0];
         for (emitter, swarm) in run.scene.emitters.iter().zip(&of_emitters) {

@@ -92,7 +92,7 @@ pub(super) fn compare(
     let settings = [own, own.finer(2), own.finer(4)];
     let mut scenes: Vec<Scene> = settings.iter().map(|setting| setting.applied(scene, own)).collect();
     scenes.push(displaced(scene, measured));
-    let frames = scene.simulation.frames().max(1);
+    let frames = scene.simulation.timeline.frames().max(1);
     #[allow(clippy::cast_precision_loss, reason = "there are at most a million")]
     let costs = settings.iter().chain([&own]).map(|setting| setting.cost(scene) / frames as f64);
     let mut runs: Vec<ComparedRun<'_>> =

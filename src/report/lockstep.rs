@@ -78,7 +78,8 @@ pub(super) fn together(
 ) -> Result<(), Stopped> {
     /// The largest number of body states that wait in memory for their comparison, per run.
     const ROOM: usize = 4096;
-    let (frames, room) = (scene.simulation.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
+    let (frames, room) =
+        (scene.simulation.timeline.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;
     while done < frames && runs.iter().any(|run| run.ended.is_none() && !run.is_long) {
         let now = room.min(frames - done);

@@ -114,7 +114,7 @@ pub fn assess(
         tolerance: own.tolerance(),
         steps_per_frame: own.steps,
         bodies_moved: measured.bodies.len(),
-        end: scene.simulation.end(),
+        end: scene.simulation.timeline.end(),
         verdict: None,
         accuracy,
         trials: Vec::new(),
@@ -123,7 +123,7 @@ pub fn assess(
         has_particles: !scene.emitters.is_empty(),
         has_tree: scene.has_tree(),
     };
-    if measured.bodies.is_empty() || scene.simulation.frames() < 2 {
+    if measured.bodies.is_empty() || scene.simulation.timeline.frames() < 2 {
         return Ok(assessment);
     }
     let other = Other::of(scene, &measured);

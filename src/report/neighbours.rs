@@ -63,7 +63,7 @@ pub(super) fn displaced(scene: &Scene, measured: &ComparedBodies) -> Scene {
     let starts = || scene.bodies.iter().map(|body| body.start.location);
     let Some(min) = starts().reduce(DVec3::min) else { return twin };
     let max = starts().fold(min, DVec3::max);
-    let end = scene.simulation.end();
+    let end = scene.simulation.timeline.end();
     let fastest = scene.bodies.iter().map(|body| body.start.velocity.length()).fold(0.0, f64::max);
     let widest = scene.bodies.iter().filter_map(|body| body.shape.bounding_radius()).fold(0.0, f64::max);
     let pull = scene.simulation.gravity.length();

@@ -111,7 +111,8 @@ impl Other {
                 clippy::cast_precision_loss,
                 reason = "the number of steps is limited"
             )]
-            let (each, most) = (cost / scene.simulation.frames().max(1) as f64, (STEPS * cost) as u64 + 100);
+            let (each, most) =
+                (cost / scene.simulation.timeline.frames().max(1) as f64, (STEPS * cost) as u64 + 100);
             ComparedRun::new(scene, each).of_at_most(most)
         })
     }

@@ -22,7 +22,7 @@ pub(super) struct Setting {
 impl Setting {
     /// Returns the method and the timestep of a scene.
     pub(super) fn of(scene: &Scene) -> Setting {
-        let interval = 1.0 / scene.simulation.frame_rate;
+        let interval = scene.simulation.timeline.interval();
         let method = scene.simulation.method;
         let steps = if method.take_over.is_some() { 1 } else { world(scene).steps_within(interval) };
         Setting::new(method, steps, scene)
@@ -45,7 +45,7 @@ impl Setting {
         match (self.method.adaptive, self.method.take_over) {
             (true, _) => None,
             (false, Some(_)) => Some(self.step / f64::from(self.steps)),
-            (false, None) => Some(1.0 / scene.simulation.frame_rate / f64::from(self.steps)),
+            (false, None) => Some(scene.simulation.timeline.interval() / f64::from(self.steps)),
         }
     }
 
@@ -69,7 +69,7 @@ impl Setting {
     /// Returns the number of force evaluations of a run with this setting. It is approximate if impacts divide timesteps.
     #[allow(clippy::cast_precision_loss, reason = "two digits of it are needed")]
     pub(super) fn cost(self, scene: &Scene) -> f64 {
-        let intervals = scene.simulation.frames().saturating_sub(1) as f64;
+        let intervals = scene.simulation.timeline.frames().saturating_sub(1) as f64;
         intervals * f64::from(self.steps) * evaluations(self.method) as f64
     }
 
@@ -80,7 +80,7 @@ impl Setting {
         if self.method.take_over.is_some() {
             return Some(step);
         }
-        let interval = 1.0 / scene.simulation.frame_rate;
+        let interval = scene.simulation.timeline.interval();
         let mut world = World::new();
         let mut is_enough = |rounded: &f64| {
             world.set_step(*rounded);

@@ -230,7 +230,7 @@ impl Goal<'_> {
         let scene = self.scene;
         let settings = [setting, setting.finer(2)];
         let scenes = settings.map(|setting| setting.applied(scene, self.own));
-        let frames = scene.simulation.frames().max(1) as f64;
+        let frames = scene.simulation.timeline.frames().max(1) as f64;
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

@@ -30,6 +30,7 @@ pub mod sdl;
 mod showing;
 pub mod source;
 pub mod timed;
+mod timeline;
 mod units;
 mod view;
 
@@ -57,6 +58,7 @@ pub use places::Places;
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
 pub use source::Override;
+pub use timeline::Timeline;
 
 use crate::diagnostic::Report;
 use crate::physics::Surface;

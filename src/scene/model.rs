@@ -5,16 +5,14 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::motion::BodyMotion;
-use super::{Collider, ContactLaw, Showing};
+use super::{Collider, ContactLaw, Showing, Timeline};
 use crate::physics::{Method, Presence, RigidBody, Shape};
 
 /// The settings of the simulation: times, integrator, gravity and contacts.
 #[derive(Clone, Debug)]
 pub struct SimulationSettings {
-    /// The duration of the simulation, s. The time of the last frame may differ, because it is rounded to a whole number of frames.
-    pub duration: f64,
-    /// The number of frames per second of simulated time.
-    pub frame_rate: f64,
+    /// The times of the frames.
+    pub timeline: Timeline,
     /// The largest timestep, s. Infinite for an adaptive integrator, which chooses its own timesteps.
     pub step: f64,
     /// The error tolerance of one timestep of an adaptive integrator.
@@ -25,36 +23,6 @@ pub struct SimulationSettings {
     pub gravity: DVec3,
     /// The contact law. `None` if bodies pass through each other.
     pub contacts: Option<ContactLaw>,
-}
-
-impl SimulationSettings {
-    /// Returns the number of frames, including the first frame at time 0 and the last frame.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the check of a scene limits the number of frames"
-    )]
-    pub fn frames(&self) -> usize {
-        (self.duration * self.frame_rate).round() as usize + 1
-    }
-
-    /// Returns the time of the frame with the index `frame`, s.
-    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
-    pub fn time(&self, frame: usize) -> f64 {
-        frame as f64 / self.frame_rate
-    }
-
-    /// Returns the time of the last frame, s.
-    pub fn end(&self) -> f64 {
-        self.time(self.frames() - 1)
-    }
-
-    /// Returns the time of the nearest frame, s, if `time` differs from that time only by rounding. Otherwise returns `time`.
-    pub fn nearest_frame(&self, time: f64) -> f64 {
-        let frame = (time * self.frame_rate).round();
-        let at_frame = frame / self.frame_rate;
-        if (time - at_frame).abs() <= 1e-6 / self.frame_rate { at_frame } else { time }
-    }
 }
 
 /// A rigid body, with its look and its contact properties.

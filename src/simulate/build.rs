@@ -32,7 +32,8 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
     world.watch(pair_counter);
     match scene.simulation.method.take_over {
         Some(ahead) if !is_given(scene) => {
-            let accuracy = Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.end() };
+            let accuracy =
+                Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.timeline.end() };
             ahead(world, accuracy)
         }
         _ => Box::new(world),

@@ -230,7 +230,7 @@ impl Iterator for Frames<'_> {
 /// Limits a time (s) to the duration of a run.
 pub fn within(scene: &Scene, time: f64) -> f64 {
     let simulation = &scene.simulation;
-    let end = simulation.duration.max(simulation.time(simulation.frames() - 1));
+    let end = simulation.timeline.latest();
     if time > 0.0 { time.min(end) } else { 0.0 }
 }
 

@@ -1,6 +1,6 @@
 //! The requested times between frames: for ghosts, open shutters and still images.
 
-use crate::scene::{Scene, Shutter};
+use crate::scene::{Scene, Shutter, Timeline};
 
 /// The requested times between frames. They follow from the scene and from single times that the caller requests. They do not affect the
 /// run.
@@ -11,8 +11,7 @@ pub struct Moments {
     shutters: Vec<Shutter>,
     /// Single requested times, s.
     others: Vec<f64>,
-    frames: usize,
-    frame_rate: f64,
+    timeline: Timeline,
 }
 
 impl Moments {
@@ -34,8 +33,8 @@ impl Moments {
             scene.bodies.iter().filter_map(|body| Some(body.showing.ghosts?.every)).collect();
         intervals.sort_by(f64::total_cmp);
         intervals.dedup();
-        let (frames, frame_rate) = (scene.simulation.frames(), scene.simulation.frame_rate);
-        Moments { intervals, shutters: Vec::new(), others: Vec::new(), frames, frame_rate }
+        let timeline = scene.simulation.timeline;
+        Moments { intervals, shutters: Vec::new(), others: Vec::new(), timeline }
     }
 
     /// Creates an empty list of times: the run has only frames.
@@ -47,7 +46,7 @@ impl Moments {
     /// frame needs no new simulation.
     #[must_use]
     pub fn with(mut self, time: f64) -> Moments {
-        if self.is_frame(time) {
+        if self.timeline.is_frame(time) {
             return self;
         }
         let times: Vec<f64> = self.times_of(time).collect();
@@ -61,26 +60,22 @@ impl Moments {
         std::iter::once(time).chain(opened)
     }
 
-    /// The tolerance for rounding errors: a ghost's time within this distance of a frame's time counts as that frame, s.
-    pub(super) fn slack(frame_rate: f64) -> f64 {
-        1e-6 / frame_rate
-    }
-
     /// The sorted times after a frame and before the next frame, s. After the last frame, a time that equals the end of the interval is
     /// included, too.
     pub(super) fn after(&self, frame: usize) -> Vec<f64> {
-        let [begin, end] = [frame, frame + 1].map(|frame| self.time(frame));
-        let is_within =
-            |time: &f64| *time > begin && (*time < end || (*time == end && frame + 1 >= self.frames));
+        let [begin, end] = [frame, frame + 1].map(|frame| self.timeline.time(frame));
+        let is_within = |time: &f64| {
+            *time > begin && (*time < end || (*time == end && frame + 1 >= self.timeline.frames()))
+        };
         let mut times: Vec<f64> = self.others.iter().copied().filter(is_within).collect();
         for shutter in &self.shutters {
             // A shutter closes at the next frame at the latest. By rounding errors, it may close just after this frame, so the shutter of
             // the frame before counts, too.
-            for opened in frame.saturating_sub(1)..=frame.min(self.frames - 1) {
-                times.extend(shutter.moments(self.time(opened)).filter(is_within));
+            for opened in frame.saturating_sub(1)..=frame.min(self.timeline.frames() - 1) {
+                times.extend(shutter.moments(self.timeline.time(opened)).filter(is_within));
             }
         }
-        let slack = Moments::slack(self.frame_rate);
+        let slack = self.timeline.slack();
         for &every in &self.intervals {
             let mut number = ((begin + slack) / every).floor().max(0.0);
             while number * every < end - slack {
@@ -97,27 +92,15 @@ impl Moments {
 
     /// The number of intervals between frames that must be simulated to reach all requested times.
     pub(super) fn intervals(&self) -> usize {
-        let last = self.frames - 1;
+        let last = self.timeline.frames() - 1;
         let open = self.shutters.iter().map(|shutter| shutter.open).fold(0.0, f64::max);
-        let latest = self.others.iter().copied().fold(0.0, f64::max).max(self.time(last) + open);
-        let latest = if open > 0.0 || !self.others.is_empty() { latest } else { self.time(last) };
+        let latest = self.others.iter().copied().fold(0.0, f64::max).max(self.timeline.time(last) + open);
+        let latest = if open > 0.0 || !self.others.is_empty() { latest } else { self.timeline.time(last) };
         let mut intervals = last;
-        while self.time(intervals) < latest {
+        while self.timeline.time(intervals) < latest {
             intervals += 1;
         }
         intervals
-    }
-
-    /// Returns whether a time (s) is exactly that of a frame.
-    fn is_frame(&self, time: f64) -> bool {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
-        let nearest = (time * self.frame_rate).round() as usize;
-        nearest < self.frames && self.time(nearest) == time
-    }
-
-    #[allow(clippy::cast_precision_loss, reason = "the check of a scene limits the number of frames")]
-    pub(super) fn time(&self, frame: usize) -> f64 {
-        frame as f64 / self.frame_rate
     }
 }
 

@@ -52,7 +52,7 @@ impl Clouds {
             Maker { emitter: emitter.clone(), fields }
         };
         let makers: Arc<[Maker]> = scene.emitters.iter().enumerate().map(maker).collect();
-        let interval = 1.0 / scene.simulation.frame_rate;
+        let interval = scene.simulation.timeline.interval();
         let steps = if makers.is_empty() { 1 } else { steps(scene, interval) };
         Clouds {
             strides: vec![1; makers.len()],
@@ -76,8 +76,9 @@ impl Clouds {
             clippy::cast_sign_loss,
             reason = "the check of a scene limits the number of particles"
         )]
-        let stride =
-            |emitter: &Emitter| (emitter.most_alive(scene.simulation.end()) / most).ceil().max(1.0) as u64;
+        let stride = |emitter: &Emitter| {
+            (emitter.most_alive(scene.simulation.timeline.end()) / most).ceil().max(1.0) as u64
+        };
         clouds.strides = scene.emitters.iter().map(stride).collect();
         clouds
     }

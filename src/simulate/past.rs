@@ -16,9 +16,9 @@ pub use trail_path::{TrailPath, TrailPoint};
 
 use self::trail_path::{cut, stride, thin};
 use super::simulation::Entry;
-use super::{Frame, Lagging, Moments};
+use super::{Frame, Lagging};
 use crate::physics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
-use crate::scene::{Scene, Showing, Trail};
+use crate::scene::{Scene, Showing, Timeline, Trail};
 
 /// The earlier positions of bodies, as a frame shows them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,7 +59,7 @@ pub(super) struct History {
     is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
-    interval: f64,
+    timeline: Timeline,
 }
 
 impl History {
@@ -88,7 +88,7 @@ impl History {
             requests,
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
-            interval: 1.0 / scene.simulation.frame_rate,
+            timeline: scene.simulation.timeline,
         }
     }
 
@@ -107,7 +107,7 @@ impl History {
 
     fn note_ghosts(&mut self, moment: &Snapshot) {
         // A ghost's time that differs from the moment's time only by rounding counts as equal.
-        let slack = Moments::slack(1.0 / self.interval);
+        let slack = self.timeline.slack();
         let mut due: Vec<(f64, usize)> = Vec::new();
         for (body, showing) in self.requests.iter() {
             let Some(ghosts) = showing.ghosts else { continue };
@@ -145,7 +145,7 @@ impl History {
             }
             self.last[number] = present.map(|body| (frame.time, *body));
             // The stride depends on the number of the present frame alone, so every reader keeps the same points.
-            let stride = stride(trail, self.interval, frame.index);
+            let stride = stride(trail, self.timeline.interval(), frame.index);
             if let Some(duration) = trail.duration {
                 // The last point before the start of the trail is needed for interpolation.
                 let before =
@@ -192,11 +192,11 @@ impl History {
             trails.push(TrailPath {
                 body: *body,
                 points,
-                stride: stride(trail, self.interval, moment.index),
+                stride: stride(trail, self.timeline.interval(), moment.index),
             });
         }
         let lagging = self.lagging.iter().map(|lagging| lagging.at(moment)).collect();
-        let slack = Moments::slack(1.0 / self.interval);
+        let slack = self.timeline.slack();
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < moment.time - slack;
         let ghosts = self.ghosts.iter().filter(is_past).cloned().collect();
         Past { trails, ghosts, lagging }

@@ -65,7 +65,7 @@ impl<'a> Recorded<'a> {
         recording: Arc<Recording>,
         mut seen: impl FnMut(&Frame),
     ) -> Result<Recorded<'a>, SimulateError> {
-        if recording.frames() != scene.simulation.frames() {
+        if recording.frames() != scene.simulation.timeline.frames() {
             return Err(SimulateError::Recording("the recording lacks frames".to_owned()));
         }
         let mut surveyor = Surveyor::new(scene);
@@ -103,7 +103,8 @@ impl<'a> Recorded<'a> {
     pub fn whole_frames(&self) -> usize {
         let moments = Moments::of(self.scene);
         let is_recorded = |time| self.recording.moment_at(time).is_some();
-        let is_whole = |frame: usize| moments.times_of(moments.time(frame)).all(is_recorded);
+        let is_whole =
+            |frame: usize| moments.times_of(self.scene.simulation.timeline.time(frame)).all(is_recorded);
         let frames = self.recording.frames();
         if self.breakdown.is_none() {
             return frames;
@@ -278,7 +279,7 @@ impl<'a> Recorder<'a> {
         let recording = Arc::new(recording);
         let mut surveyor = Surveyor::new(scene);
         see_all(&recording, &mut surveyor, seen).ok()?;
-        let resumed = recording.frames().checked_sub(1).map(|frame| scene.simulation.time(frame));
+        let resumed = recording.frames().checked_sub(1).map(|frame| scene.simulation.timeline.time(frame));
         Some(Recorder { scene, simulation, surveyor, recording, resumed })
     }
 

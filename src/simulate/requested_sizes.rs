@@ -4,7 +4,7 @@
 use glam::{DQuat, DVec3};
 
 use super::vectors::{root, shown, surface};
-use super::{Frame, Load, Moments};
+use super::{Frame, Load};
 use crate::physics::{Anchor, BodySnapshot, Coordinate, Shape};
 use crate::scene::{Body, ForceKind, JointKind, Quantity, Scene};
 
@@ -181,7 +181,7 @@ impl RequestedSizes {
         }
         for ghosts in &mut self.ghosts {
             if let Some(body) = frame.body(ghosts.body) {
-                ghosts.see(body, frame.time, Moments::slack(scene.simulation.frame_rate));
+                ghosts.see(body, frame.time, scene.simulation.timeline.slack());
             }
         }
         for spring in &mut self.springs {

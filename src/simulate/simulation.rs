@@ -100,17 +100,18 @@ impl<'a> Simulation<'a> {
             let mut between = Vec::new();
             let counts_impacts = simulation.contacts.is_some();
             let angles = &mut self.angles;
-            let done = self.dynamics.advance(simulation.time(self.next), &moments, &mut |snapshot| {
-                if counts_impacts {
-                    between.push(snapshot);
-                } else {
-                    see(of_scene(self.scene, angles, snapshot));
-                }
-            });
+            let done =
+                self.dynamics.advance(simulation.timeline.time(self.next), &moments, &mut |snapshot| {
+                    if counts_impacts {
+                        between.push(snapshot);
+                    } else {
+                        see(of_scene(self.scene, angles, snapshot));
+                    }
+                });
             self.see_between(between, see);
             done?;
         }
-        if self.next < simulation.frames() {
+        if self.next < simulation.timeline.frames() {
             let snapshot = self.dynamics.snapshot()?;
             let impacts = self.dynamics.impacts();
             let entry = of_scene(self.scene, &mut self.angles, snapshot);

@@ -241,7 +241,7 @@ impl<'a> Surveyor<'a> {
             error,
             ..
         } = self;
-        let interval = 1.0 / scene.simulation.frame_rate;
+        let interval = scene.simulation.timeline.interval();
         // A scene without bodies still has particle steps.
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let law = scene.simulation.contacts;

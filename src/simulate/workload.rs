@@ -30,13 +30,13 @@ impl Workload {
         if pairs == 0 || scene.simulation.method.take_over.is_some() {
             return Workload::default();
         }
-        let steps = u64::from(world(scene).steps_within(1.0 / scene.simulation.frame_rate));
+        let steps = u64::from(world(scene).steps_within(scene.simulation.timeline.interval()));
         let evaluations = steps.saturating_mul(evaluations(scene.simulation.method));
         // Each frame evaluates its potential energy and its forces. The first frame needs one more evaluation, for the start of the run.
         Workload {
             first: pairs.saturating_mul(3),
             each: pairs.saturating_mul(evaluations.saturating_add(2)),
-            frames: scene.simulation.frames(),
+            frames: scene.simulation.timeline.frames(),
             script: SCRIPT * scene.bodies.len() as u64,
         }
     }

@@ -5,6 +5,7 @@ mod help;
 mod page;
 mod pages;
 mod reference;
+mod stages;
 #[path = "../support/mod.rs"]
 mod support;
 #[cfg(feature = "tests-with-tools")]

@@ -41,7 +41,7 @@ fn what_is_included_is_as_if_it_stood_there_and_comes_first() {
     );
     let scene = read(&[("scene.toml", scene), BALL, look], &[]).unwrap();
     assert_eq!(names(&scene), ["ball", "own"]);
-    assert_eq!(scene.simulation.duration, 3.0);
+    assert_eq!(scene.simulation.timeline.duration, 3.0);
     assert_eq!(scene.materials[scene.bodies[1].material.unwrap()].name, "shiny");
 }
 

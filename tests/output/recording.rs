@@ -81,7 +81,7 @@ fn write_all(recorded: Recorded<'_>, folder: &Path) {
     let run = Run::of(recorded).unwrap();
     let write = |run: &Run<'_>, name: &str| {
         let folder = Folder::open(&folder.join(name)).unwrap();
-        output::write(run, &folder, &Selection::first(scene.simulation.frames()), &|| ()).unwrap();
+        output::write(run, &folder, &Selection::first(scene.simulation.timeline.frames()), &|| ()).unwrap();
     };
     write(&run, "main");
     scene.views.iter().for_each(|view| write(&run.seen_by(view).unwrap(), &view.name));

@@ -10,7 +10,7 @@ fn scripts_of_the_gallery() {
         assert_eq!(scene.warnings.diagnostics.len(), 0, "{}", scene.warnings);
         let run = Run::new(&scene).unwrap();
         assert_eq!(run.survey().crossings, []);
-        let last = scene.simulation.frames() - 1;
+        let last = scene.simulation.timeline.frames() - 1;
         for (name, index) in [("first", 0), ("middle", last / 2), ("last", last)] {
             let frame = run.frames().nth(index).unwrap().unwrap();
             insta::assert_snapshot!(name, run.script(&frame).unwrap());

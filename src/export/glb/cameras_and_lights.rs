@@ -116,8 +116,8 @@ fn lights(
     selection: &Selection,
     motion: &mut SampledMotion,
 ) -> Result<Vec<Light>, ExportError> {
-    let frames = (0..scene.simulation.frames()).filter(|&frame| selection.contains(frame));
-    let mut times = frames.map(|frame| scene.simulation.time(frame));
+    let frames = (0..scene.simulation.timeline.frames()).filter(|&frame| selection.contains(frame));
+    let mut times = frames.map(|frame| scene.simulation.timeline.time(frame));
     let first = times.next().unwrap_or(0.0);
     let mut shining = plan.lights(first);
     if shining.is_empty() {

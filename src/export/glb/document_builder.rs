@@ -176,7 +176,7 @@ impl DocumentBuilder<'_> {
                 generator: format!("jabuka {}", env!("CARGO_PKG_VERSION")),
                 extras: Extras {
                     title: title.clone(),
-                    frame_rate: self.scene.simulation.frame_rate,
+                    frame_rate: self.scene.simulation.timeline.frame_rate,
                     faster: motion.faster(),
                 },
             },

@@ -50,12 +50,12 @@ impl SampledMotion {
     /// Records the motion of the bodies in the selected frames of a run.
     pub(super) fn of(run: &Recorded<'_>, selection: &Selection) -> Result<SampledMotion, ExportError> {
         let scene = run.scene();
-        let count = selection.count_within(scene.simulation.frames());
-        let mut rate = scene.simulation.frame_rate;
+        let count = selection.count_within(scene.simulation.timeline.frames());
+        let mut rate = scene.simulation.timeline.frame_rate;
         if !Pace::RATES.contains(&rate) {
             rate = Pace::USUAL_RATE;
         }
-        let slower = scene.simulation.frame_rate / rate;
+        let slower = scene.simulation.timeline.frame_rate / rate;
         let mut times = Vec::with_capacity(count);
         let mut budget = SizeBudget::default();
         budget.take(count)?;

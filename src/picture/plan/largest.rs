@@ -57,7 +57,7 @@ impl Largest {
 pub(super) fn narrowest_view(scene: &Scene, eye: &MovingCamera, bounds: Bounds) -> f64 {
     let times = if eye.moves() { 32 } else { 0 };
     let views = (0..=times).map(|number| {
-        let time = scene.simulation.duration * f64::from(number) / 32.0;
+        let time = scene.simulation.timeline.duration * f64::from(number) / 32.0;
         eye.early(time).width_of_view(bounds)
     });
     views.fold(f64::MAX, f64::min)

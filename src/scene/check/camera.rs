@@ -140,7 +140,7 @@ fn nobody(
 ) {
     let Some(body) = motion.follow.and_then(|follow| bodies.get(follow.body)) else { return };
     let span = keys.variant("follow").and_then(|follow| follow.span("body"));
-    if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, simulation.end())) {
+    if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, simulation.timeline.end())) {
         let message = format!("the camera follows `{}`, which is never there", body.name);
         let warning = Diagnostic::warning(Code::NeverThere, message);
         context.diagnostics.push(warning.at(span, "it looks where the body would come"));
@@ -152,7 +152,7 @@ fn nobody(
 fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
     // The relative tolerance for a rounded number: at 30 frames per second, a user may write the interval as 0.0333 s.
     const TOLERANCE: f64 = 0.01;
-    let interval = 1.0 / simulation.frame_rate;
+    let interval = simulation.timeline.interval();
     let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));
     let message = format!(
         "the shutter is open for {} s, and the next frame begins after {} s",

@@ -5,7 +5,7 @@ use super::corrections::{insertion, is_file};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::physics::Spring;
-use crate::scene::{Body, Force, ForceKind};
+use crate::scene::{Body, Force, ForceKind, Timeline};
 
 /// The maximum number of frames, which is eleven hours at 25 frames per second.
 pub(in crate::scene) const MAX_FRAMES: f64 = 1_000_000.0;
@@ -20,36 +20,32 @@ const USUAL_FRAMES: f64 = 500.0;
 /// The maximum number of bodies among which all pairs are compared for the shortest time scale.
 const MAX_BODIES: usize = 1000;
 
-/// The duration (s), the frame rate (1/s) and the timestep (s) of a scene. The numbers of frames and timesteps follow from them.
+/// The times of the frames and the timestep (s) of a scene. The numbers of frames and timesteps follow from them.
 #[derive(Clone, Copy)]
 pub(super) struct Counts {
-    pub(super) duration: f64,
-    pub(super) frame_rate: f64,
+    pub(super) timeline: Timeline,
     pub(super) step: f64,
     /// Whether the scene needs timesteps. False if no body moves freely and there are no emitters.
     pub(super) needs_steps: bool,
 }
 
 impl Counts {
-    fn frames(self) -> f64 {
-        (self.duration * self.frame_rate).round() + 1.0
-    }
-
     fn steps(self) -> f64 {
-        if self.needs_steps { self.duration / self.step.min(1.0 / self.frame_rate) } else { 0.0 }
+        if self.needs_steps { self.timeline.duration / self.step.min(self.timeline.interval()) } else { 0.0 }
     }
 
     /// Returns whether the number of frames or of timesteps exceeds its limit.
     pub(super) fn are_too_many(self) -> bool {
-        self.frames() > MAX_FRAMES || self.steps() > MAX_STEPS
+        self.timeline.frame_count() > MAX_FRAMES || self.steps() > MAX_STEPS
     }
 
     /// Returns a suitable timestep, s: a hundredth of the shortest time scale of the initial state, but at most the time from one frame to
     /// the next. If there is no time scale, the timestep is a tenth of that time.
     fn sensible_step(self, bodies: &[Body], forces: &[Force]) -> f64 {
         let shortest = shortest_time(bodies, forces);
-        let step = if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 / self.frame_rate };
-        step.min(1.0 / self.frame_rate)
+        let step =
+            if shortest.is_finite() { shortest / STEPS_OF_A_TIME } else { 0.1 * self.timeline.interval() };
+        step.min(self.timeline.interval())
     }
 }
 
@@ -62,9 +58,9 @@ pub(super) fn check(
     context: &mut Context<'_>,
 ) {
     let view = root.table("simulation");
-    let frames = counts.frames();
+    let frames = counts.timeline.frame_count();
     if frames > MAX_FRAMES {
-        let Counts { duration, frame_rate, .. } = counts;
+        let Timeline { duration, frame_rate } = counts.timeline;
         let message =
             format!("the scene has {} frames; at most {} are written", count(frames), count(MAX_FRAMES));
         let rate = written(one_digit(USUAL_FRAMES / duration));
@@ -74,7 +70,8 @@ pub(super) fn check(
              or `duration = {longest}` fits"
         );
         let error = Diagnostic::error(Code::TooManyFrames, message).help(help);
-        let slower = Counts { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts };
+        let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts.timeline };
+        let slower = Counts { timeline, ..counts };
         let mut values = vec![("frame_rate", rate)];
         if slower.steps() > MANY_STEPS && !view.has("step") {
             values.push(("step", written(one_digit(slower.sensible_step(bodies, forces)))));

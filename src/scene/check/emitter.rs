@@ -129,7 +129,7 @@ impl Reader<'_, '_> {
     /// Reports the reasons why the particles cannot collide, such as too many particles or a body that is a torus.
     fn can_collide(&mut self, emitter: &Emitter) {
         let span = self.view.key_span("collides").unwrap_or(self.span);
-        let most = emitter.most_alive(self.simulation.end());
+        let most = emitter.most_alive(self.simulation.timeline.end());
         match self.simulation.contacts {
             Some(ContactLaw::EventDriven) if most > MAX_COLLIDING && most <= MAX_ALIVE => {
                 let message = format!("`{}` would have {most:.0} particles at once that collide", self.name);
@@ -167,8 +167,8 @@ impl Reader<'_, '_> {
     /// Reads the birth times of the particles.
     fn births(&mut self) -> Births {
         let (view, simulation) = (self.view, self.simulation);
-        let start = simulation.nearest_frame(view.number("start").unwrap_or_default());
-        let end = view.number("end").map_or(f64::INFINITY, |end| simulation.nearest_frame(end));
+        let start = simulation.timeline.nearest_frame(view.number("start").unwrap_or_default());
+        let end = view.number("end").map_or(f64::INFINITY, |end| simulation.timeline.nearest_frame(end));
         if end < start {
             let message =
                 format!("`{}` starts at {} s and ends at {} s", self.name, figure(start), figure(end));
@@ -176,9 +176,9 @@ impl Reader<'_, '_> {
             let spans = [("end", "this must be later"), ("start", "than this")];
             let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
             self.context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
-        } else if start > simulation.end() {
+        } else if start > simulation.timeline.end() {
             let warning = Diagnostic::warning(Code::NeverThere, format!("`{}` sends out nothing", self.name));
-            let label = format!("the scene goes from 0 to {} s", figure(simulation.end()));
+            let label = format!("the scene goes from 0 to {} s", figure(simulation.timeline.end()));
             let span = view.span("start").unwrap_or(self.span);
             self.context.diagnostics.push(warning.at(span, label));
         }
@@ -239,7 +239,7 @@ impl Reader<'_, '_> {
         births: &Births,
         wrong: impl Fn(f64) -> Option<String>,
     ) -> f64 {
-        let end = births.end.min(self.simulation.end()).max(births.start);
+        let end = births.end.min(self.simulation.timeline.end()).max(births.start);
         let mut largest = f64::MIN_POSITIVE;
         let Some(span) = self.view.span(key) else { return largest };
         for number in 0..DRAWS {
@@ -317,7 +317,7 @@ impl Reader<'_, '_> {
     fn not_too_early(&mut self, emitter: &Emitter) {
         let births = emitter.source.births;
         let before = births.start.max(-emitter.source.longest_life);
-        let longest = MAX_EARLY_STEPS * self.simulation.step.min(1.0 / self.simulation.frame_rate);
+        let longest = MAX_EARLY_STEPS * self.simulation.step.min(self.simulation.timeline.interval());
         let can_be_counted = -births.start / births.every <= MAX_EARLY_BIRTHS;
         if -before <= longest && can_be_counted {
             return;
@@ -329,9 +329,9 @@ impl Reader<'_, '_> {
     }
 
     fn not_too_many(&mut self, emitter: &Emitter) {
-        let most = emitter.most_alive(self.simulation.end());
+        let most = emitter.most_alive(self.simulation.timeline.end());
         // Particles that die before the next frame take computing time too.
-        let between_frames = emitter.births_within(1.0 / self.simulation.frame_rate);
+        let between_frames = emitter.births_within(self.simulation.timeline.interval());
         let key = if self.view.has("burst") { "burst" } else { "rate" };
         if most <= MAX_ALIVE && between_frames > MAX_ALIVE {
             let message =

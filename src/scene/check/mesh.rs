@@ -95,7 +95,7 @@ impl Meshes {
     ) -> Option<Diagnostic> {
         let triangles: usize = self.sizes.iter().map(|(_, triangles)| triangles).sum();
         let moments = camera.shutter.map_or(1.0, |shutter| 1.0 + f64::from(shutter.samples));
-        let scripts = simulation.frames() as f64 * moments;
+        let scripts = simulation.timeline.frames() as f64 * moments;
         let bytes = triangles as f64 * BYTES_OF_A_TRIANGLE * scripts;
         let (span, _) = self.sizes.iter().max_by_key(|(_, triangles)| *triangles)?;
         let message = format!("every script holds the whole mesh: together about {:.1} GB", bytes / 1e9);

@@ -114,8 +114,8 @@ fn finite_while(
         }
         Some(Value::Formula(formula)) => {
             let span = node.map(|node| node.span);
-            let wrong = some_frames(formula, simulation.frames(), context).find_map(|frame| {
-                let t = Some(simulation.time(frame)).filter(|t| presence.at(*t))?;
+            let wrong = some_frames(formula, simulation.timeline.frames(), context).find_map(|frame| {
+                let t = Some(simulation.timeline.time(frame)).filter(|t| presence.at(*t))?;
                 Some((t, formula.explain_non_finite(t)?))
             });
             if let (Some((t, error)), Some(span)) = (wrong, span) {

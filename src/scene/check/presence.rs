@@ -29,7 +29,7 @@ pub(super) fn read(
         context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         return Presence::ALWAYS;
     }
-    let at = |time: f64| simulation.nearest_frame(time);
+    let at = |time: f64| simulation.timeline.nearest_frame(time);
     Presence::during(&[[start.map_or(f64::NEG_INFINITY, at), end.map_or(f64::INFINITY, at)]])
 }
 
@@ -41,7 +41,7 @@ pub(super) fn never(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) {
-    let end = simulation.end();
+    let end = simulation.timeline.end();
     if presence.overlaps(0.0, end) {
         return;
     }
@@ -79,7 +79,7 @@ pub(super) fn of_rows(
     let gaps: Vec<usize> = (1..keys.len()).filter(is_gap).collect();
 
     let [begin, end] = reach([first.time, last.time], simulation);
-    let at = |i: usize| simulation.nearest_frame(keys[i].time);
+    let at = |i: usize| simulation.timeline.nearest_frame(keys[i].time);
     let starts = std::iter::once(begin).chain(gaps.iter().map(|&gap| at(gap)));
     let ends = gaps.iter().map(|&gap| at(gap - 1)).chain([end]);
     let intervals: Vec<[f64; 2]> = starts.zip(ends).map(|(start, end)| [start, end]).collect();
@@ -89,9 +89,13 @@ pub(super) fn of_rows(
 /// Rounds the first and the last time of a file to frames. A time less than one frame from the start or the end of the run becomes
 /// infinite.
 fn reach([first, last]: [f64; 2], simulation: &SimulationSettings) -> [f64; 2] {
-    let frame = (1.0 - 1e-6) / simulation.frame_rate;
-    let begin = if first < frame { f64::NEG_INFINITY } else { simulation.nearest_frame(first) };
-    let end = if last > simulation.end() - frame { f64::INFINITY } else { simulation.nearest_frame(last) };
+    let frame = simulation.timeline.interval() - simulation.timeline.slack();
+    let begin = if first < frame { f64::NEG_INFINITY } else { simulation.timeline.nearest_frame(first) };
+    let end = if last > simulation.timeline.end() - frame {
+        f64::INFINITY
+    } else {
+        simulation.timeline.nearest_frame(last)
+    };
     [begin, end]
 }
 
@@ -113,7 +117,7 @@ pub(super) fn short(
         return;
     }
     let message = format!("`{file}` has no rows {}: its bodies are not there then", when.join(", and none "));
-    let label = format!("the scene goes from 0 to {} s", figure(simulation.end()));
+    let label = format!("the scene goes from 0 to {} s", figure(simulation.timeline.end()));
     let warning = Diagnostic::warning(Code::ShortTrajectory, message).at(span, label);
     context.diagnostics.push(match help {
         Some(help) => warning.help(help),

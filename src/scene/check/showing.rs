@@ -82,7 +82,7 @@ fn loads_without_cause(
 /// Reads the ghosts of a body. Reports an error and returns `None` if there are too many ghosts.
 fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.number("every")?;
-    if simulation.duration / every <= MAX_GHOSTS {
+    if simulation.timeline.duration / every <= MAX_GHOSTS {
         return Some(Ghosts { every, arrows: view.boolean("arrows")? });
     }
     let message = format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(every));

@@ -7,7 +7,7 @@ use super::counts::Counts;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::{METHODS, Method};
-use crate::scene::{ContactLaw, SimulationSettings};
+use crate::scene::{ContactLaw, SimulationSettings, Timeline};
 
 /// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as
 /// accurate as the motion between them.
@@ -27,19 +27,21 @@ pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
     let default = Method::by_name(CONSTRAINED).filter(|_| is_constrained).unwrap_or(&METHODS[0]);
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(default);
     let mut simulation = SimulationSettings {
-        duration: view.number("duration").unwrap_or_default(),
-        frame_rate: view.number("frame_rate").unwrap_or_default(),
+        timeline: Timeline {
+            duration: view.number("duration").unwrap_or_default(),
+            frame_rate: view.number("frame_rate").unwrap_or_default(),
+        },
         step: if method.adaptive { f64::INFINITY } else { view.number("step").unwrap_or_default() },
         tolerance: view.number("tolerance").unwrap_or_default(),
         method,
         gravity: view.vector("gravity").unwrap_or_default(),
         contacts,
     };
-    let SimulationSettings { duration, frame_rate, step, .. } = simulation;
-    let counts = Counts { duration, frame_rate, step, needs_steps };
+    let SimulationSettings { timeline, step, .. } = simulation;
+    let counts = Counts { timeline, step, needs_steps };
     if counts.are_too_many() {
         // Set the duration to 0, so that later code does not count an excessive number of frames.
-        simulation.duration = 0.0;
+        simulation.timeline.duration = 0.0;
     }
     (simulation, counts)
 }

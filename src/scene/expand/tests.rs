@@ -36,7 +36,7 @@ fn a_formula_stands_wherever_a_number_does() {
         "#,
     )
     .unwrap();
-    assert_eq!((scene.simulation.frames(), scene.simulation.gravity.y), (14, -9.81));
+    assert_eq!((scene.simulation.timeline.frames(), scene.simulation.gravity.y), (14, -9.81));
     let ball = &scene.bodies[0];
     assert_eq!(ball.start.location, DVec3::new(-4.0, 512.0, 4.0));
     assert_eq!(ball.start.mass, 3.0);

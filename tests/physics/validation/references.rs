@@ -58,7 +58,8 @@ impl Reference {
         let counter = Counter::default();
         let mut world = world(&scene);
         world.add_force(counter.clone());
-        let accuracy = Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.end() };
+        let accuracy =
+            Accuracy { tolerance: scene.simulation.tolerance, end: scene.simulation.timeline.end() };
         let mut run: Box<dyn Dynamics> = match scene.simulation.method.take_over {
             Some(ahead) => ahead(world, accuracy),
             None => Box::new(world),

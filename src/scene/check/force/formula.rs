@@ -139,7 +139,7 @@ impl Reader<'_, '_> {
             (start.location, start.mass, start.charge)
         });
         let particles = self.emitters.iter().map(|it| (DVec3::ZERO, it.source.mass, it.source.charge));
-        let end = self.simulation.end();
+        let end = self.simulation.timeline.end();
         let times: &[f64] = if law.depends_on_time() { &[0.0, 0.37, 0.91] } else { &[0.0] };
         let mut places = Vec::new();
         for (location, mass, charge) in starts.chain(particles.take(BODIES)) {
