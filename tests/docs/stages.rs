@@ -45,8 +45,9 @@ fn stage(name: &str) -> Option<usize> {
 
 /// Returns the first part of each path in a text that begins with `crate::`, also of paths in braces.
 fn imports(text: &str) -> BTreeSet<&str> {
-    let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    let first = |path: &'_ str| path.trim_start().split(|c| !is_part(c)).next().unwrap_or_default();
+    fn first(path: &str) -> &str {
+        path.trim_start().split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default()
+    }
     let mut names = BTreeSet::new();
     for rest in text.split("crate::").skip(1) {
         let Some(list) = rest.strip_prefix('{') else {

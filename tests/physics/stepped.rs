@@ -576,12 +576,12 @@ fn a_gear_turns_two_wheels() {
 
 /// Eighteen boxes of random sizes fall on each other: an island with more than sixty points. Its impacts are found to 1e-5 of the largest rate
 /// of about 1 m/s, and a few steps later the motion differs by a small multiple of what that moves in a step. A coarser search parts by
-/// 1e-4 m.
+/// 1e-4 m. Later, an impact may fall into one step or the next, and the motions part by more.
 #[test]
 fn a_heap_falls_alike_wherever_it_is() {
     let heap = |x: f64| {
         let mut text = format!(
-            "[simulation]\ncontacts = 'time-stepping'\nstep = '1/256'\ngravity = [0, -9.81, 0]\nduration = 0.25\nframe_rate = 32\n\
+            "[simulation]\ncontacts = 'time-stepping'\nstep = '1/256'\ngravity = [0, -9.81, 0]\nduration = 0.1875\nframe_rate = 32\n\
              [defaults.body]\nfriction = 0.4\nrestitution = 0.3\n\
              [body.floor]\nshape.box.size = [8, 1, 8]\nfixed = true\nlocation = [{x}, -0.5, 0]\n"
         );
@@ -593,14 +593,14 @@ fn a_heap_falls_alike_wherever_it_is() {
             let place = [x + 0.6 * i + within(-0.05, 0.05), 0.3 + 0.55 * j, 0.6 * k + within(-0.05, 0.05)];
             text += &format!("[body.b{number}]\nshape.box.size = {size:?}\nlocation = {place:?}\n");
         }
-        frames(&text).remove(8)
+        frames(&text).remove(6)
     };
     let here = heap(0.0);
     for shift in [1e-3, 1.0, 1000.0] {
         let there = heap(shift);
         for (one, other) in here.bodies.iter().zip(&there.bodies) {
             let apart = (one.location + shift * DVec3::X - other.location).length();
-            assert!(apart < 2e-5, "{shift}: {apart}");
+            assert!(apart < 1e-5, "{shift}: {apart}");
         }
     }
 }
