@@ -1,6 +1,6 @@
 //! Checked scene → world → recording → frames.
 //!
-//! Only this module connects a [`Scene`] with the [`dynamics`]. A scene is simulated once; all code that draws, measures or exports reads
+//! Only this module connects a [`Scene`] with the [`physics`]. A scene is simulated once; all code that draws, measures or exports reads
 //! the recording.
 //!
 //! | what | where |
