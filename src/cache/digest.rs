@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use sha2::{Digest, Sha256};
 
-use crate::scene::{ForceKind, Scene};
+use crate::scene::{Body, Force, ForceKind, Joint, Scene, SimulationSettings};
 use crate::simulate::Moments;
 
 /// The SHA-256 that identifies a run.
@@ -19,33 +19,70 @@ pub(super) fn of(scene: &Scene, moments: &Moments) -> CacheKey {
     text.0.finalize().into()
 }
 
+/// Each pattern names all fields, so that a new field cannot be forgotten: the compiler asks whether it affects the motion.
 fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Result {
     // Numbers are written by `Debug`, since different numbers then have different texts.
     writeln!(text, "{} {moments:?}", env!("JABUKA_BUILD"))?;
-    let simulation = &scene.simulation;
-    let tolerance = simulation.method.adaptive.then_some(simulation.tolerance);
-    writeln!(text, "{:?} {:?} {tolerance:?}", simulation.timeline, simulation.step)?;
-    writeln!(text, "{} {:?}", simulation.method.name, simulation.gravity)?;
-    let contacts = simulation.contacts;
-    writeln!(text, "{contacts:?} {:?} {:?}", contacts.and(scene.ground_that_stops()), scene.pairs)?;
-    for body in &scene.bodies {
-        writeln!(text, "{:?} {:?} {:?}", body.start, body.presence, body.motion)?;
+    let Scene {
+        simulation,
+        bodies,
+        forces,
+        joints,
+        pairs,
+        // Of the surroundings, only the ground stops bodies; see `ground_that_stops`.
+        environment: _,
+        // Particles move no body. Their motion is computed from the recording.
+        emitters: _,
+        materials: _,
+        camera: _,
+        views: _,
+        lights: _,
+        labels: _,
+        scale_bar: _,
+        grid: _,
+        povray: _,
+        output: _,
+        name: _,
+        title: _,
+        digest: _,
+        places: _,
+        overrides: _,
+        warnings: _,
+    } = scene;
+
+    let SimulationSettings { timeline, step, tolerance, method, gravity, contacts } = simulation;
+    let tolerance = method.adaptive.then_some(tolerance);
+    writeln!(text, "{timeline:?} {step:?} {tolerance:?}")?;
+    writeln!(text, "{} {gravity:?}", method.name)?;
+    writeln!(text, "{contacts:?} {:?} {pairs:?}", contacts.and(scene.ground_that_stops()))?;
+    for body in bodies {
+        let Body {
+            start,
+            presence,
+            motion,
+            shape,
+            collider,
+            // The forces between dipoles contain the magnetic moments.
+            magnetic_moment: _,
+            name: _,
+            material: _,
+            look: _,
+            showing: _,
+        } = body;
+        writeln!(text, "{start:?} {presence:?} {motion:?}")?;
         if contacts.is_some() {
             // Shapes affect the motion only if bodies can touch.
-            writeln!(text, "{:?} {:?}", body.shape, body.collider)?;
+            writeln!(text, "{shape:?} {collider:?}")?;
         }
     }
-    for force in &scene.forces {
-        match &force.kind {
-            // The look of a spring does not affect the motion, so it is left out.
-            ForceKind::Spring { links, look: _ } => {
-                writeln!(text, "{links:?}")?;
-            }
+    for Force { name: _, kind, emitters: _ } in forces {
+        match kind {
+            ForceKind::Spring { links, look: _ } => writeln!(text, "{links:?}")?,
             kind => writeln!(text, "{kind:?}")?,
         }
     }
-    for joint in &scene.joints {
-        writeln!(text, "{:?} {:?} {}", joint.kind, joint.servo, joint.collides)?;
+    for Joint { name: _, kind, servo, collides, look: _, arrows: _ } in joints {
+        writeln!(text, "{kind:?} {servo:?} {collides}")?;
     }
     Ok(())
 }
