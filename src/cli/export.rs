@@ -5,14 +5,11 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{
-    ExportError, Exported, write_csv, write_events, write_glb, write_joints, write_particles,
-};
+use jabuka::export::{Contents, ExportError, FORMATS, Format};
 use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
-use jabuka::scene::ContactLaw;
-use jabuka::simulate::{Moments, Recorded, Selection};
+use jabuka::simulate::{Moments, Selection};
 use jabuka::system::Dir;
 
 use super::progress::Progress;
@@ -76,58 +73,44 @@ impl Arguments {
     }
 }
 
-/// The file formats of an export: a table (CSV) or a model (binary glTF).
-enum Format {
-    Csv,
-    Glb,
-}
-
-impl Format {
-    /// Returns the format that belongs to the extension of a file name.
-    fn of(path: &Path) -> Result<Format, Failure> {
-        let extension = path.extension().unwrap_or_default();
-        if extension.eq_ignore_ascii_case("csv") {
-            Ok(Format::Csv)
-        } else if extension.eq_ignore_ascii_case("glb") {
-            Ok(Format::Glb)
-        } else {
-            Err(Failure::Usage(format!(
-                "what is exported is a table, `.csv`, or a model, `.glb`, and `{}` ends in neither",
-                visible_path(path)
-            )))
+impl Arguments {
+    /// Returns the selected format: that of an option, or else that of the file's extension.
+    fn format(&self, output: &Path) -> Result<&'static dyn Format, Failure> {
+        let is_given = |option: &str| match option {
+            "joints" => self.joints,
+            "particles" => self.particles,
+            "events" => self.events.is_some(),
+            _ => false,
+        };
+        let extension = output.extension().unwrap_or_default();
+        let mut formats = FORMATS.into_iter();
+        if let Some((format, option)) =
+            formats.find_map(|format| Some((format, format.option().filter(|option| is_given(option))?)))
+        {
+            return if extension.eq_ignore_ascii_case(format.extension()) {
+                Ok(format)
+            } else {
+                Err(Failure::Usage(format!("`--{option}` makes a table, `.{}`", format.extension())))
+            };
         }
+        let mut formats = FORMATS.into_iter().filter(|format| format.option().is_none());
+        formats.find(|format| extension.eq_ignore_ascii_case(format.extension())).ok_or_else(|| {
+            Failure::Usage(format!(
+                "what is exported is a table, `.csv`, or a model, `.glb`, and `{}` ends in neither",
+                visible_path(output)
+            ))
+        })
     }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = arguments.files()?;
     let output = files.output;
-    let format = Format::of(output)?;
+    let format = arguments.format(output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
     terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
-    if arguments.joints && matches!(format, Format::Glb) {
-        return Err(Failure::Usage("`--joints` makes a table, `.csv`".to_owned()));
-    }
-    if arguments.particles && matches!(format, Format::Glb) {
-        return Err(Failure::Usage("`--particles` makes a table, `.csv`".to_owned()));
-    }
-    if arguments.particles && scene.emitters.is_empty() {
-        return Err(Failure::Scene("this scene has no emitters, which send out particles"));
-    }
-    if arguments.events.is_some() && matches!(format, Format::Glb) {
-        return Err(Failure::Usage("`--events` makes a table, `.csv`".to_owned()));
-    }
-    if arguments.events.is_some() && scene.simulation.contacts.is_none() {
-        let message = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
-        return Err(Failure::Scene(message));
-    }
-    if arguments.joints && scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
-        let message =
-            "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does";
-        return Err(Failure::Scene(message));
-    }
-    if arguments.joints && scene.joints.is_empty() {
-        return Err(Failure::Scene("this scene has no joints"));
+    if let Some(lack) = format.lack(&scene) {
+        return Err(Failure::Scene(lack));
     }
     let frames = scene.simulation.timeline.frames();
     let selection = arguments.frames.clone().unwrap_or_else(|| Selection::first(frames));
@@ -144,67 +127,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if selection.last().is_none() {
         return run_arguments::broken_down(&run, &selection);
     }
-    let done = match format {
-        Format::Csv => table(arguments, output, &run, &selection),
-        Format::Glb => model(output, &run, &selection),
-    };
-    let text = done.map_err(|error| {
+    let written = whole(output, |file| format.write(&run, &selection, file));
+    let Contents { words, bytes, faster } = written.map_err(|error| {
         terminal::report(&report(error, output));
         Failure::Errors
     })?;
     let warnings = motion_warnings::all(&scene, run.survey());
     terminal::report(&Report { diagnostics: warnings, ..Report::default() });
-    let left_out = match format {
-        _ if scene.emitters.is_empty() || arguments.particles => "",
-        Format::Csv if arguments.joints || arguments.events.is_some() => "",
-        Format::Csv => "; particles are left out: `--particles` makes a table of them",
-        Format::Glb => "; particles are left out: a model has no place for what comes and goes",
-    };
-    terminal::result(&format!("{}: {text}{left_out}\n", visible_path(output)));
-    run_arguments::broken_down(&run, &selection)
-}
-
-fn table(
-    arguments: &Arguments,
-    output: &Path,
-    run: &Recorded<'_>,
-    selection: &Selection,
-) -> Result<String, ExportError> {
-    let scene = run.scene();
-    let times = selection.count_within(scene.simulation.timeline.frames());
-    if arguments.joints {
-        let rows = whole(output, |file| write_joints(run, selection, file))?;
-        return Ok(format!("{rows} rows, {times} times of {} joints", scene.joints.len()));
-    }
-    if arguments.particles {
-        let rows = whole(output, |file| write_particles(run, selection, file))?;
-        return Ok(format!("{rows} rows, {times} times of {} emitters", scene.emitters.len()));
-    }
-    if arguments.events.is_some() {
-        let rows = whole(output, |file| write_events(run, file))?;
-        return Ok(if rows == 1 { "1 impact".to_owned() } else { format!("{rows} impacts") });
-    }
-    let rows = whole(output, |file| write_csv(run, selection, file))?;
-    Ok(format!("{rows} rows, {times} times of {}", count_of_bodies(run)))
-}
-
-fn model(output: &Path, run: &Recorded<'_>, selection: &Selection) -> Result<String, ExportError> {
-    let Exported { frames, bytes, faster } = whole(output, |file| write_glb(run, selection, file))?;
-    let bodies = count_of_bodies(run);
-    let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
     // The animation of a very slow or very fast run is sped up or slowed down. The summary then gives the factor.
-    let shown = match faster {
-        1.0 => String::new(),
-        _ => format!(" ({} times as fast as in life)", two_digits(faster)),
+    let speed = if faster == 1.0 {
+        String::new()
+    } else {
+        format!(" ({} times as fast as in life)", two_digits(faster))
     };
-    Ok(format!("{bodies}, {frames}{shown}, {}", size(bytes)))
-}
-
-fn count_of_bodies(run: &Recorded<'_>) -> String {
-    match run.scene().bodies.len() {
-        1 => "1 body".to_owned(),
-        bodies => format!("{bodies} bodies"),
-    }
+    let size = bytes.map_or_else(String::new, |bytes| format!(", {}", size(bytes)));
+    let left_out = format.without_particles().filter(|_| !scene.emitters.is_empty());
+    let left_out = left_out.map_or_else(String::new, |why| format!("; particles are left out: {why}"));
+    terminal::result(&format!("{}: {words}{speed}{size}{left_out}\n", visible_path(output)));
+    run_arguments::broken_down(&run, &selection)
 }
 
 fn report(error: ExportError, path: &Path) -> Report {

@@ -3,8 +3,32 @@
 use std::io::Write;
 
 use super::ExportError;
+use super::format::{Contents, Format, count_of_bodies};
 use super::table::Table;
 use crate::simulate::{Recorded, Selection};
+
+/// A table of all bodies.
+pub(super) struct Bodies;
+
+impl Format for Bodies {
+    fn extension(&self) -> &'static str {
+        "csv"
+    }
+
+    fn without_particles(&self) -> Option<&'static str> {
+        Some("`--particles` makes a table of them")
+    }
+
+    fn write(
+        &self,
+        run: &Recorded<'_>,
+        selection: &Selection,
+        out: &mut dyn Write,
+    ) -> Result<Contents, ExportError> {
+        let rows = write_csv(run, selection, out)?;
+        Ok(Contents::of_rows(rows, &count_of_bodies(run.scene()), run, selection))
+    }
+}
 
 /// The column names of the table of bodies, with units.
 pub const HEADER: [&str; 15] = [

@@ -3,8 +3,41 @@
 use std::io::Write;
 
 use super::ExportError;
+use super::format::{Contents, Format};
 use super::table::Table;
-use crate::simulate::Recorded;
+use crate::scene::Scene;
+use crate::simulate::{Recorded, Selection};
+
+/// A table of all impacts.
+pub(super) struct Events;
+
+impl Format for Events {
+    fn extension(&self) -> &'static str {
+        "csv"
+    }
+
+    fn option(&self) -> Option<&'static str> {
+        Some("events")
+    }
+
+    fn lack(&self, scene: &Scene) -> Option<&'static str> {
+        scene
+            .simulation
+            .contacts
+            .is_none()
+            .then_some("this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them")
+    }
+
+    fn write(
+        &self,
+        run: &Recorded<'_>,
+        _selection: &Selection,
+        out: &mut dyn Write,
+    ) -> Result<Contents, ExportError> {
+        let rows = write_events(run, out)?;
+        Ok(Contents::of_table(if rows == 1 { "1 impact".to_owned() } else { format!("{rows} impacts") }))
+    }
+}
 
 /// The column names of the table of impacts, with units.
 pub const EVENT_HEADER: [&str; 13] = [

@@ -3,10 +3,43 @@
 use std::io::Write;
 
 use super::ExportError;
+use super::format::{Contents, Format};
 use super::table::Table;
 use crate::physics::BodyId;
-use crate::scene::{JointMeasure, JointState};
+use crate::scene::{ContactLaw, JointMeasure, JointState, Scene};
 use crate::simulate::{Recorded, Selection};
+
+/// A table of the forces and torques of joints.
+pub(super) struct Joints;
+
+impl Format for Joints {
+    fn extension(&self) -> &'static str {
+        "csv"
+    }
+
+    fn option(&self) -> Option<&'static str> {
+        Some("joints")
+    }
+
+    fn lack(&self, scene: &Scene) -> Option<&'static str> {
+        if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
+            return Some(
+                "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does",
+            );
+        }
+        scene.joints.is_empty().then_some("this scene has no joints")
+    }
+
+    fn write(
+        &self,
+        run: &Recorded<'_>,
+        selection: &Selection,
+        out: &mut dyn Write,
+    ) -> Result<Contents, ExportError> {
+        let rows = write_joints(run, selection, out)?;
+        Ok(Contents::of_rows(rows, &format!("{} joints", run.scene().joints.len()), run, selection))
+    }
+}
 
 /// The column names of the table of joints, with units.
 pub const JOINT_HEADER: [&str; 12] = [

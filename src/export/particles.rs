@@ -3,8 +3,37 @@
 use std::io::Write;
 
 use super::ExportError;
+use super::format::{Contents, Format};
 use super::table::Table;
+use crate::scene::Scene;
 use crate::simulate::{Recorded, Selection};
+
+/// A table of all particles.
+pub(super) struct Particles;
+
+impl Format for Particles {
+    fn extension(&self) -> &'static str {
+        "csv"
+    }
+
+    fn option(&self) -> Option<&'static str> {
+        Some("particles")
+    }
+
+    fn lack(&self, scene: &Scene) -> Option<&'static str> {
+        scene.emitters.is_empty().then_some("this scene has no emitters, which send out particles")
+    }
+
+    fn write(
+        &self,
+        run: &Recorded<'_>,
+        selection: &Selection,
+        out: &mut dyn Write,
+    ) -> Result<Contents, ExportError> {
+        let rows = write_particles(run, selection, out)?;
+        Ok(Contents::of_rows(rows, &format!("{} emitters", run.scene().emitters.len()), run, selection))
+    }
+}
 
 /// The column names of the table of particles, with units.
 pub const PARTICLE_HEADER: [&str; 11] = [

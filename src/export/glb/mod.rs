@@ -37,7 +37,33 @@ use std::io::Write;
 use self::cameras_and_lights::CamerasAndLights;
 use self::motion::SampledMotion;
 use super::ExportError;
+use super::format::{Contents, Format, count_of_bodies};
 use crate::simulate::{Recorded, Selection};
+
+/// An animated model.
+pub(super) struct Model;
+
+impl Format for Model {
+    fn extension(&self) -> &'static str {
+        "glb"
+    }
+
+    fn without_particles(&self) -> Option<&'static str> {
+        Some("a model has no place for what comes and goes")
+    }
+
+    fn write(
+        &self,
+        run: &Recorded<'_>,
+        selection: &Selection,
+        out: &mut dyn Write,
+    ) -> Result<Contents, ExportError> {
+        let Exported { frames, bytes, faster } = write_glb(run, selection, out)?;
+        let frames = if frames == 1 { "1 frame".to_owned() } else { format!("{frames} frames") };
+        let words = format!("{}, {frames}", count_of_bodies(run.scene()));
+        Ok(Contents { words, bytes: Some(bytes), faster })
+    }
+}
 
 /// A summary of the exported file.
 #[derive(Clone, Copy, Debug, PartialEq)]
