@@ -148,13 +148,13 @@ pub fn find(bodies: &[BodySnapshot], id: usize) -> Option<&BodySnapshot> {
 
 impl BodySnapshot {
     /// The largest coordinate (m), velocity (m/s) and angular velocity (rad/s) of a motion. The squares of larger numbers may not be finite.
-    const LARGEST: f64 = 1e100;
+    const MAX_MAGNITUDE: f64 = 1e100;
 
     /// Returns true if the body's position and velocities are finite, and so small that their squares are finite, too.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         let is_small =
-            |vector: DVec3| vector.abs().max_element() <= BodySnapshot::LARGEST && !vector.is_nan();
+            |vector: DVec3| vector.abs().max_element() <= BodySnapshot::MAX_MAGNITUDE && !vector.is_nan();
         self.orientation.is_finite()
             && [self.location, self.velocity, self.angular_velocity].into_iter().all(is_small)
     }

@@ -4,14 +4,14 @@
 //! Source: H. F. Walker & P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011) 1715.
 
 /// The number of recent sweeps from which the acceleration extrapolates.
-const MEMORY: usize = 5;
+const HISTORY_LENGTH: usize = 5;
 
-/// The acceleration discards its history if a sweep's squared change exceeds that of the sweep before by more than this factor.
-const WORSE: f64 = 2.0;
+/// If the squared change of a sweep exceeds that of the previous sweep by more than this factor, the acceleration discards its history.
+const MAX_SQUARED_GROWTH: f64 = 2.0;
 
 /// A difference between sweeps counts as linearly dependent on the older differences if the square of its independent part is below this
 /// fraction of the largest squared difference.
-const TINY: f64 = 1e-14;
+const DEPENDENCE_TOLERANCE: f64 = 1e-14;
 
 /// The accelerator of a fixed-point iteration, with the history of the last sweeps.
 pub(crate) struct Anderson {
@@ -51,7 +51,7 @@ impl Anderson {
             last: Sweep::default(),
             length: f64::INFINITY,
             is_new: true,
-            steps: Vec::with_capacity(MEMORY),
+            steps: Vec::with_capacity(HISTORY_LENGTH),
             further: Vec::with_capacity(values.len()),
         }
     }
@@ -59,13 +59,14 @@ impl Anderson {
     /// Takes the values that a sweep has found and returns the correction to add to them, one entry per value. The next sweep then starts
     /// nearer to the limit.
     pub(crate) fn go_further(&mut self, found: &[f64]) -> &[f64] {
-        let mut step = if self.steps.len() == MEMORY { self.forget_oldest() } else { Sweep::default() };
+        let mut step =
+            if self.steps.len() == HISTORY_LENGTH { self.forget_oldest() } else { Sweep::default() };
         let change = found.iter().zip(&self.before).zip(&self.scale);
         overwrite(&mut step.change, change.map(|((found, before), scale)| scale * (found - before)));
         overwrite(&mut step.found, found.iter().copied());
         std::mem::swap(&mut step, &mut self.last);
         let length = product(&self.last.change, &self.last.change);
-        if length > WORSE * self.length {
+        if length > MAX_SQUARED_GROWTH * self.length {
             self.steps.clear();
         } else if !self.is_new {
             self.note(step);
@@ -99,17 +100,17 @@ impl Anderson {
 
     /// Computes the coefficients of the linear combination of stored differences that is nearest to the last change. The least-squares
     /// problem is solved by Cholesky factorization of its normal equations.
-    fn parts(&self) -> [f64; MEMORY] {
+    fn parts(&self) -> [f64; HISTORY_LENGTH] {
         let n = self.steps.len();
         let largest = self.steps.iter().zip(0..).fold(0.0_f64, |most, (step, i)| most.max(step.products[i]));
-        let mut factor = [[0.0; MEMORY]; MEMORY];
-        let mut parts = [0.0; MEMORY];
+        let mut factor = [[0.0; HISTORY_LENGTH]; HISTORY_LENGTH];
+        let mut parts = [0.0; HISTORY_LENGTH];
         for i in 0..n {
             for j in 0..=i {
                 let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
                 let left = self.steps[i].products[j] - known;
                 factor[i][j] = match i == j {
-                    true if left > TINY * largest => left.sqrt(),
+                    true if left > DEPENDENCE_TOLERANCE * largest => left.sqrt(),
                     // A linearly dependent difference gets the coefficient 0.
                     true => f64::INFINITY,
                     false => left / factor[j][j],

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::factor::IMPLIED;
+use super::factor::PIVOT_TOLERANCE;
 use super::jacobian::product;
 use super::member::Member;
 use super::solver::Solver;
@@ -139,7 +139,7 @@ impl Solver {
         }
         let weight = product(structure, &self.jacobian, moved, row).0;
         // The joints can block all motion along this row. The remaining response is then only a rounding error, of either sign.
-        let is_blocked = weight <= IMPLIED * free;
+        let is_blocked = weight <= PIVOT_TOLERANCE * free;
         let change = |member: usize| {
             let moved = &mut moved[member];
             let change =

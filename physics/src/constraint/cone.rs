@@ -17,10 +17,10 @@ use super::solver::Solver;
 use super::sweep::{Purpose, Stopping};
 
 /// The sweeps end when they change no acceleration by more than this fraction of the largest acceleration.
-const SWEEP_CHANGE: f64 = 1e-12;
+const SWEEP_TOLERANCE: f64 = 1e-12;
 
 /// The largest number of sweeps in one search for forces.
-const MOST_SWEEPS: usize = 2_000;
+const MAX_SWEEPS: usize = 2_000;
 
 /// The forces are found if they violate no law of contacts by more than this fraction of the largest acceleration.
 const LARGEST_VIOLATION: f64 = 1e-7;
@@ -32,9 +32,9 @@ pub(super) const LEAST_SLIP: f64 = 1e-9;
 /// takes the direction of the friction, which is then known more exactly.
 const CLEAR_SLIP: f64 = 1e-4;
 
-/// The sweeps drive the slip of a sliding contact towards an acceleration that no friction can give, so its friction has its full size.
-/// This is that acceleration, as a multiple of the largest one.
-const UNREACHABLE: f64 = 1e12;
+/// The acceleration to which the sweeps drive the slip of a sliding contact, as a multiple of the largest acceleration. No friction can
+/// give it, so the friction of a sliding contact has its full size.
+const UNREACHABLE_ACCELERATION: f64 = 1e12;
 
 impl Solver {
     /// Returns the first row of a pair of friction rows in a wrong mode: one that begins to slide in the direction in which friction pushes it,
@@ -96,7 +96,7 @@ impl Solver {
             };
         }
         for grip in self.grips.iter().filter(|grip| self.slips(grip)) {
-            let goal = UNREACHABLE * size * self.unit(grip.row) * grip.push;
+            let goal = UNREACHABLE_ACCELERATION * size * self.unit(grip.row) * grip.push;
             (goals[grip.row], goals[grip.row + 1]) = (goal.x, goal.y);
         }
         let contacts = self.unknown.clone();
@@ -111,7 +111,7 @@ impl Solver {
         self.sweep_all(
             &goals,
             Purpose::Forces(1.0),
-            Stopping::fast(SWEEP_CHANGE * size).at_most(MOST_SWEEPS),
+            Stopping::fast(SWEEP_TOLERANCE * size).at_most(MAX_SWEEPS),
         );
         let accelerations = self.rates_now();
         self.rows.iter_mut().for_each(|row| std::mem::swap(&mut row.rate, &mut row.bias));

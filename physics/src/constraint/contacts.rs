@@ -202,7 +202,7 @@ impl Solver {
         // For soft constraint rows, the factors belong to a slightly enlarged diagonal. Iterative refinement removes the resulting error.
         let right = self.unknown.clone();
         self.factor.solve(&mut self.unknown);
-        for _ in 0..REFINEMENTS {
+        for _ in 0..ITERATIVE_REFINEMENTS {
             let mut left = right.clone();
             self.factor.subtract_product(&self.unknown, &mut left);
             self.factor.solve(&mut left);
@@ -321,6 +321,5 @@ impl Solver {
     }
 }
 
-/// The number of iterative refinements when constraint rows are soft. Each multiplies the error by about the relative softness of the
-/// rows.
-const REFINEMENTS: usize = 3;
+/// The number of iterative refinements if constraint rows are soft. Each multiplies the error by about the relative softness of the rows.
+const ITERATIVE_REFINEMENTS: usize = 3;

@@ -10,14 +10,14 @@ use super::solver::Solver;
 
 /// An inequality c ≥ 0 counts as violated if c falls below 0 by this fraction of its size. A constraint counts as moving if its rate c'
 /// exceeds this fraction of the largest rate of all constraints.
-pub(super) const PASSED: f64 = 1e-12;
+pub(super) const VIOLATION_TOLERANCE: f64 = 1e-12;
 
 /// A stop that opens and does not approach may be passed by this many tolerances.
 const OPENING_TOLERANCES: f64 = 10.0;
 
 /// The tolerance for multipliers of the wrong sign, as a fraction of the largest acceleration. It exceeds the tolerance of
 /// [`Solver::decide`], so every event changes at least one mode.
-const PULLED: f64 = 1e-9;
+const MULTIPLIER_TOLERANCE: f64 = 1e-9;
 
 impl Solver {
     /// Returns true if any constraint row can change its mode.
@@ -50,7 +50,8 @@ impl Solver {
             let mut accelerations = vec![0.0; n];
             let size = self.react_seeing(t, state, loads, &mut accelerations);
             self.seen[1] = size;
-            let strained = self.strained(&accelerations, PULLED * self.largest_acceleration.max(size));
+            let strained =
+                self.strained(&accelerations, MULTIPLIER_TOLERANCE * self.largest_acceleration.max(size));
             if let Some(row) = strained {
                 self.strained = self.bodies_of(row);
                 let forces = self.unknown.clone();
@@ -66,18 +67,20 @@ impl Solver {
         };
         let margin = |i: usize| match (self.modes[i], self.laws[i]) {
             (Mode::Open, Law::Inequality) => {
-                let margin = part(self.rows[i].violation, self.rows[i].tolerance(PASSED), 1.0);
+                let margin = part(self.rows[i].violation, self.rows[i].tolerance(VIOLATION_TOLERANCE), 1.0);
                 // A stop that has just opened is still passed by as much as its event tolerates.
-                let leaves = rates[i] >= -PASSED * size * self.unit(i);
+                let leaves = rates[i] >= -VIOLATION_TOLERANCE * size * self.unit(i);
                 if leaves && margin > -OPENING_TOLERANCES { margin.max(0.0) } else { margin }
             }
-            (Mode::Pushed(sign), _) => part(-sign * rates[i], size * self.unit(i), PASSED),
+            (Mode::Pushed(sign), _) => part(-sign * rates[i], size * self.unit(i), VIOLATION_TOLERANCE),
             (Mode::Held, Law::Inequality) => {
-                part(self.unknown[i] * self.weight(i), force * self.unit(i), PULLED)
+                part(self.unknown[i] * self.weight(i), force * self.unit(i), MULTIPLIER_TOLERANCE)
             }
-            (Mode::Held, Law::SpeedMotor { limit }) => {
-                part((limit - self.unknown[i].abs()) * self.weight(i), force * self.unit(i), PULLED)
-            }
+            (Mode::Held, Law::SpeedMotor { limit }) => part(
+                (limit - self.unknown[i].abs()) * self.weight(i),
+                force * self.unit(i),
+                MULTIPLIER_TOLERANCE,
+            ),
             _ => f64::INFINITY,
         };
         let of_grip = |grip: &FrictionPair| match self.modes[grip.row] {
@@ -87,9 +90,11 @@ impl Solver {
                     let unit = self.unit(grip.row);
                     part(-grip.of(slips).length(), force * unit, 2.0 * LEAST_SLIP)
                 }
-                None => part(-self.excess(grip), force * self.unit(grip.row), PULLED),
+                None => part(-self.excess(grip), force * self.unit(grip.row), MULTIPLIER_TOLERANCE),
             },
-            Mode::Slid => part(grip.of(&rates).dot(grip.heading), size * self.unit(grip.row), PASSED),
+            Mode::Slid => {
+                part(grip.of(&rates).dot(grip.heading), size * self.unit(grip.row), VIOLATION_TOLERANCE)
+            }
             Mode::Open | Mode::Pushed(_) => f64::INFINITY,
         };
         let grips = self.grips.iter().map(|grip| (of_grip(grip), grip.row));

@@ -9,9 +9,9 @@ use std::ops::Range;
 use super::structure::Structure;
 use super::{Direction, Member};
 
-/// A constraint row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. A smaller pivot
-/// is only a rounding error. The pivot is the response of the row to a unit impulse while the other rows hold.
-pub(crate) const IMPLIED: f64 = 1e-11;
+/// A constraint row counts as redundant (implied by other rows) if its pivot is below this fraction of its diagonal entry. The pivot is the
+/// response of the row to a unit impulse while the other rows hold. A smaller pivot is only a rounding error.
+pub(crate) const PIVOT_TOLERANCE: f64 = 1e-11;
 
 /// A symmetric matrix and its L D Lᵀ factors, with fixed sparsity patterns.
 #[derive(Clone, Debug, Default)]
@@ -28,10 +28,12 @@ pub(super) struct Factor {
     lower: Vec<Entry>,
     /// The diagonal of D⁻¹; 0 for constraint rows that are left out.
     inverse: Vec<f64>,
-    /// For each soft constraint row (see [`SOFT`]), the row that is softened by the same amount; `None` for other rows. A normal row is
-    /// paired with itself. The two tangents of a contact are paired with each other, so the result does not depend on their directions.
+    /// For each soft constraint row (see [`RELATIVE_SOFTNESS`]), the row that is softened by the same amount; `None` for other rows. A
+    /// normal row is paired with itself. The two tangents of a contact are paired with each other, so the result does not depend on their
+    /// directions.
     soft: Vec<Option<usize>>,
-    /// The softness of each soft constraint row, relative to the standard value [`SOFT`]: a row with weight 2 yields twice as much.
+    /// The softness of each soft constraint row, relative to the standard value [`RELATIVE_SOFTNESS`]: a row with weight 2 yields twice as
+    /// much.
     weights: Vec<f64>,
     /// Working memory, one entry per matrix row. All entries are zero between two factorizations.
     work: Vec<f64>,
@@ -75,12 +77,13 @@ struct Crossing {
     at: usize,
 }
 
-/// The relative softness of soft constraint rows. The diagonal entry of a soft row grows by this fraction of the mean of its own and its
-/// partner's diagonal entries. Redundant rows can then all be active, and share the load with the smallest sum of squares. Iterative
-/// refinement removes the remaining error.
-const SOFT: f64 = 1e-7;
+/// The softness of soft constraint rows. The diagonal entry of a soft row grows by this fraction of the mean of its own and its partner's
+/// diagonal entries. Redundant rows can then all be active, and share the load with the smallest sum of squares. Iterative refinement
+/// removes the remaining error.
+const RELATIVE_SOFTNESS: f64 = 1e-7;
 
-const NONE: usize = usize::MAX;
+/// Stands for the index of a column where there is none.
+const NO_INDEX: usize = usize::MAX;
 
 /// Returns the largest singular value of a 2 × 2 matrix.
 fn norm([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
@@ -127,8 +130,8 @@ impl Factor {
     fn plan(&mut self, columns: Vec<Range<usize>>) {
         let n = columns.len();
         // The elimination tree: the parent of a column of L is the first later row in which the column has an entry.
-        let mut parent = vec![NONE; n];
-        let mut mark = vec![NONE; n];
+        let mut parent = vec![NO_INDEX; n];
+        let mut mark = vec![NO_INDEX; n];
         let mut count = vec![0; n];
         let mut path = vec![0; n];
         for (k, column) in columns.into_iter().enumerate() {
@@ -138,7 +141,7 @@ impl Factor {
                 let mut i = entry.row;
                 let mut length = 0;
                 while mark[i] != k {
-                    if parent[i] == NONE {
+                    if parent[i] == NO_INDEX {
                         parent[i] = k;
                     }
                     path[length] = i;
@@ -205,7 +208,7 @@ impl Factor {
             let partner = soft.get(k).copied().flatten();
             if let Some(partner) = partner {
                 let give = 0.5 * (diagonal + matrix[lines[partner].column.end - 1].value);
-                pivot += SOFT * give * weights[k];
+                pivot += RELATIVE_SOFTNESS * give * weights[k];
             }
             for &Crossing { column, first, at } in &crossings[line.crossings.clone()] {
                 let value = std::mem::take(&mut work[column]);
@@ -216,7 +219,7 @@ impl Factor {
                 pivot -= scaled * value;
                 lower[at].value = scaled;
             }
-            if choose && partner.is_none() && pivot <= IMPLIED * diagonal {
+            if choose && partner.is_none() && pivot <= PIVOT_TOLERANCE * diagonal {
                 *held = false;
             }
             // Rounding can make a pivot negative, which would reverse a force.
@@ -224,8 +227,8 @@ impl Factor {
         }
     }
 
-    /// Sets which constraint rows are soft (see [`SOFT`]): each soft row names the row that is softened by the same amount. By default, no
-    /// row is soft.
+    /// Sets which constraint rows are soft (see [`RELATIVE_SOFTNESS`]): each soft row names the row that is softened by the same amount. By
+    /// default, no row is soft.
     pub(super) fn soften(&mut self, soft: Vec<Option<usize>>) {
         self.weights = vec![1.0; soft.len()];
         self.soft = soft;
@@ -237,7 +240,7 @@ impl Factor {
         weights.into_iter().for_each(|(row, weight)| self.weights[row] = weight);
     }
 
-    /// Returns true if any constraint row is soft (see [`SOFT`]). Solutions then need iterative refinement.
+    /// Returns true if any constraint row is soft (see [`RELATIVE_SOFTNESS`]). Solutions then need iterative refinement.
     pub(super) fn is_soft(&self) -> bool {
         self.soft.iter().any(Option::is_some)
     }
@@ -276,7 +279,7 @@ impl Factor {
         sizes
     }
 
-    /// Returns true if this constraint row is soft: its diagonal entry is slightly enlarged (see [`SOFT`]).
+    /// Returns true if this constraint row is soft: its diagonal entry is slightly enlarged (see [`RELATIVE_SOFTNESS`]).
     pub(super) fn is_row_soft(&self, row: usize) -> bool {
         self.soft.get(row).is_some_and(Option::is_some)
     }

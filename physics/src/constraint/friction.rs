@@ -7,24 +7,23 @@
 use glam::DVec2;
 
 use super::super::Loads;
-use super::events::PASSED;
-use super::modes::{Mode, TOUCHED};
+use super::events::VIOLATION_TOLERANCE;
+use super::modes::{Mode, STOP_TOLERANCE};
 use super::solver::Solver;
 use super::structure::Structure;
 use super::{Law, jacobian};
 
 /// A slip counts as slow if friction could stop it within this number of steps.
-const SLOWLY: f64 = 2.0;
+const SLOW_SLIP_STEPS: f64 = 2.0;
 
-/// When several contact points share friction in proportion to their normal forces, each weight is limited to this factor above or below
-/// the mean.
-const UNLIKE: f64 = 10.0;
+/// Several contact points share friction in proportion to their normal forces. Each weight differs from the mean by at most this factor.
+const MAX_WEIGHT_RATIO: f64 = 10.0;
 
 /// Two directions count as nearly equal if the cosine of the angle between them exceeds this value.
-const ABOUT: f64 = 0.99;
+const PARALLEL_COSINE: f64 = 0.99;
 
-/// A slip speed below this fraction of the largest rate counts as zero, and has no usable direction.
-pub(super) const SLOW: f64 = 1e-9;
+/// A slip counts as zero if its speed is below this fraction of the largest rate. It then has no usable direction.
+pub(super) const SLIP_TOLERANCE: f64 = 1e-9;
 
 /// The two friction rows of a contact, one per tangent, and their state. Rolling friction has a pair of its own.
 #[derive(Clone, Debug)]
@@ -41,8 +40,8 @@ pub(super) struct FrictionPair {
     pub(super) heading: DVec2,
     /// True if the contact has just begun to slide, and its slip velocity is still zero.
     pub(super) is_beginning: bool,
-    /// True if friction can stop the slip within [`SLOWLY`] steps. The friction then keeps its direction until the slip ends. If it turned
-    /// with the slip, the slip would change its sign endlessly.
+    /// True if friction can stop the slip within [`SLOW_SLIP_STEPS`] steps. The friction then keeps its direction until the slip ends. If
+    /// it turned with the slip, the slip would change its sign endlessly.
     pub(super) is_slow: bool,
     /// True if the two bodies also touch at other contact points.
     pub(super) is_shared: bool,
@@ -90,12 +89,12 @@ impl FrictionPair {
     }
 
     /// Returns true if the friction keeps its previous direction: the bodies touch at several points, friction could stop the slip within
-    /// [`SLOWLY`] steps of `span` seconds, and the slip's direction has hardly changed. Rounding errors of the directions would otherwise
-    /// grow from step to step.
+    /// [`SLOW_SLIP_STEPS`] steps of `span` seconds, and the slip's direction has hardly changed. Rounding errors of the directions would
+    /// otherwise grow from step to step.
     fn keeps_heading(&self, slip: DVec2, span: f64) -> bool {
         self.is_shared
-            && slip.length() < SLOWLY * self.strength * span
-            && slip.dot(self.heading) > ABOUT * slip.length()
+            && slip.length() < SLOW_SLIP_STEPS * self.strength * span
+            && slip.dot(self.heading) > PARALLEL_COSINE * slip.length()
     }
 
     /// Returns the two entries that belong to this pair of friction rows, from a list with one value per constraint row.
@@ -123,7 +122,7 @@ impl Solver {
         let length = self.structure.as_ref().map_or(1.0, |structure| structure.length);
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             let unit = if self.rows[grip.row].scale.is_length { 1.0 } else { length.recip() };
-            let slow = SLOW * self.largest_rate * unit;
+            let slow = SLIP_TOLERANCE * self.largest_rate * unit;
             let slip = grip.of(&rates);
             let speed = slip.length();
             // A contact whose slip begins or ends keeps the friction direction found before, even after the slip has ended. The forces then
@@ -163,14 +162,14 @@ impl Solver {
         let length = self.structure.as_ref().map_or(1.0, |structure| structure.length);
         for grip in self.grips.iter_mut().filter(|grip| self.modes[grip.row] == Mode::Slid) {
             let unit = if self.rows[grip.row].scale.is_length { 1.0 } else { length.recip() };
-            let slow = SLOW * self.largest_rate * unit;
+            let slow = SLIP_TOLERANCE * self.largest_rate * unit;
             grip.is_beginning = false;
             let slip = grip.of(&self.slips);
             if slip.length() > slow && !grip.keeps_heading(slip, self.span) {
                 grip.heading = slip.normalize();
             }
             grip.push = -grip.heading;
-            grip.is_slow = slip.length() < SLOWLY * grip.strength * self.span;
+            grip.is_slow = slip.length() < SLOW_SLIP_STEPS * grip.strength * self.span;
         }
     }
 
@@ -185,7 +184,7 @@ impl Solver {
     /// zero, and sliding if not.
     pub(super) fn take_grip(&mut self, grip: usize, rates: &[f64]) {
         let FrictionPair { row, normal, is_caught, .. } = self.grips[grip];
-        let slow = SLOW * self.largest_rate * self.unit(row);
+        let slow = SLIP_TOLERANCE * self.largest_rate * self.unit(row);
         let slip = self.grips[grip].of(rates);
         let mode = if self.modes[normal] != Mode::Held {
             Mode::Open
@@ -207,8 +206,8 @@ impl Solver {
             self.modes[row] == Mode::Held && speed > part * self.largest_rate * self.unit(row)
         };
         let grips = &self.grips;
-        grips.iter().any(|grip| moves(grip.row, grip.of(rates).length(), PASSED))
-            || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), TOUCHED))
+        grips.iter().any(|grip| moves(grip.row, grip.of(rates).length(), VIOLATION_TOLERANCE))
+            || grips.iter().any(|grip| moves(grip.normal, rates[grip.normal].abs(), STOP_TOLERANCE))
     }
 
     /// Makes a sliding contact stick at once if no mode of its constraint row `wrong` is consistent (Painlevé's paradox). Friction then
@@ -226,7 +225,9 @@ impl Solver {
     pub(super) fn share_load(&mut self) {
         let loads: Vec<f64> = self.grips.iter().map(|grip| self.unknown[grip.normal].max(0.0)).collect();
         let sum: f64 = loads.iter().sum();
-        let weight = |load: f64| (sum / (self.grips.len() as f64 * load)).clamp(1.0 / UNLIKE, UNLIKE);
+        let weight = |load: f64| {
+            (sum / (self.grips.len() as f64 * load)).clamp(1.0 / MAX_WEIGHT_RATIO, MAX_WEIGHT_RATIO)
+        };
         let weights = self.grips.iter().zip(&loads).filter(|_| sum > 0.0);
         let weights = weights.flat_map(|(grip, load)| [0, 1].map(|i| (grip.row + i, weight(*load))));
         self.factor.weigh(weights);

@@ -46,7 +46,7 @@ mod sweep;
 pub(super) use anderson::Anderson;
 pub use ball::Ball;
 pub use coordinate::Coordinate;
-pub(super) use factor::IMPLIED;
+pub(super) use factor::PIVOT_TOLERANCE;
 pub use fixed::Fixed;
 pub use freedom::{Freedom, Motor, Target};
 pub use gear::Gear;

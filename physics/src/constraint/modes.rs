@@ -6,7 +6,7 @@
 //! Unilateral Contacts* (1996), chapters 5 and 8; K. G. Murty, Opsearch 11 (1974) 115, for the order of the changes.
 
 use super::super::{Loads, Model, State};
-use super::events::PASSED;
+use super::events::VIOLATION_TOLERANCE;
 use super::jacobian;
 use super::member::Member;
 use super::solver::Solver;
@@ -27,16 +27,16 @@ pub(super) enum Mode {
 }
 
 /// A stop (c ≥ 0) counts as touched if c is at most this fraction of its size.
-pub(super) const TOUCHED: f64 = 1e-9;
+pub(super) const STOP_TOLERANCE: f64 = 1e-9;
 
 /// The largest number of sliding contacts that one decision of modes can make stick at once.
-const CAUGHT: usize = 4;
+const MAX_STICKING_PER_DECISION: usize = 4;
 
 /// The largest number of times that one decision of modes shares the contact forces anew.
-const MOST_SHARES: usize = 8;
+const MAX_SHARES: usize = 8;
 
-/// A sum below this fraction of its largest term counts as a rounding error.
-pub(super) const SLIGHT: f64 = 1e-10;
+/// A sum counts as a rounding error if it is below this fraction of its largest term.
+pub(super) const RELATIVE_ROUNDING: f64 = 1e-10;
 
 /// A motor that reaches its speed within this fraction of a step gets the speed by an impulse.
 const MOTOR_INSTANT: f64 = 1e-8;
@@ -103,7 +103,7 @@ impl Solver {
             .laws
             .iter()
             .zip(&self.rows)
-            .map(|(law, row)| *law == Law::Inequality && row.violation <= row.tolerance(TOUCHED))
+            .map(|(law, row)| *law == Law::Inequality && row.violation <= row.tolerance(STOP_TOLERANCE))
             .collect();
         let size = self.hit(model, state, &touched);
         // The impulses have changed the velocities.
@@ -121,8 +121,8 @@ impl Solver {
             // A body that passes a stop (inequality c ≥ 0) by the tolerated depth c reaches a rate of √(2 c'' c). This rate counts as
             // zero. Otherwise two active stops would be hit in turn endlessly.
             let unit = self.unit(i);
-            let fallen = 8.0 * self.rows[i].tolerance(PASSED) * self.largest_acceleration * unit;
-            let is_still = rates[i].abs() <= (TOUCHED * size * unit).max(fallen.sqrt()).max(stills[i]);
+            let fallen = 8.0 * self.rows[i].tolerance(VIOLATION_TOLERANCE) * self.largest_acceleration * unit;
+            let is_still = rates[i].abs() <= (STOP_TOLERANCE * size * unit).max(fallen.sqrt()).max(stills[i]);
             (self.modes[i], can_hold[i]) = match self.laws[i] {
                 Law::Equality => (Mode::Held, false),
                 Law::Inequality if touched[i] && is_still => (Mode::Held, true),
@@ -143,7 +143,7 @@ impl Solver {
         }
         let modes = self.modes.clone();
         self.undecided = None;
-        for _ in 0..=CAUGHT {
+        for _ in 0..=MAX_STICKING_PER_DECISION {
             for grip in 0..self.grips.len() {
                 self.take_grip(grip, &rates);
             }
@@ -206,7 +206,7 @@ impl Solver {
             });
         self.largest_rate = self.largest_rate.max(size);
         let size = self.largest_rate;
-        let slight = SLIGHT * size;
+        let slight = RELATIVE_ROUNDING * size;
         let units: Vec<f64> = (0..n).map(|i| self.unit(i)).collect();
         let is_hit = |i: usize, rate: f64| touched[i] && rate < -slight * units[i];
         if !(0..n).any(|i| is_hit(i, before[i])) {
@@ -296,7 +296,7 @@ impl Solver {
         if !are_found {
             return false;
         }
-        let slight: Vec<f64> = (0..n).map(|i| SLIGHT * self.largest_rate * self.unit(i)).collect();
+        let slight: Vec<f64> = (0..n).map(|i| RELATIVE_ROUNDING * self.largest_rate * self.unit(i)).collect();
         let Solver { structure: Some(structure), jacobian, unknown, rows, laws, members, .. } = self else {
             return false;
         };
@@ -374,11 +374,11 @@ impl Solver {
                 (Mode::Pushed(sign), _) => sign * accelerations[i],
                 (Mode::Held, Law::Equality) | (Mode::Slid, _) => 0.0,
             };
-            last = worst(n, round, SLIGHT * size, |i| wrong(i) / self.unit(i));
+            last = worst(n, round, RELATIVE_ROUNDING * size, |i| wrong(i) / self.unit(i));
             match last {
                 None => {
-                    let strained = self.strained(&accelerations, SLIGHT * size);
-                    if strained.is_none() || shares == MOST_SHARES {
+                    let strained = self.strained(&accelerations, RELATIVE_ROUNDING * size);
+                    if strained.is_none() || shares == MAX_SHARES {
                         return strained;
                     }
                     shares += 1;

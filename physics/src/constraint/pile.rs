@@ -34,7 +34,7 @@ pub(crate) struct Pile {
     /// The impulse of each point on its second body, N s: its components along the normal and the two tangents.
     impulses: Vec<[f64; 3]>,
     islands: Vec<Island>,
-    /// For each body of the model, its index in `bodies`, or [`NONE`]. Working memory.
+    /// For each body of the model, its index in `bodies`, or [`NO_INDEX`]. Working memory.
     numbers: Vec<u32>,
     /// The largest absolute rate at a contact before the forces of the last substep acted, m/s.
     fastest: f64,
@@ -42,8 +42,8 @@ pub(crate) struct Pile {
     pause: Pause,
 }
 
-/// The number of a body that has no contact.
-const NONE: u32 = u32::MAX;
+/// Stands for the index of a body that has no contact.
+const NO_INDEX: u32 = u32::MAX;
 
 /// A contact, with its forces in the last substep.
 #[derive(Clone, Debug)]
@@ -184,10 +184,10 @@ impl Pile {
 
         for body in bodies.drain(..) {
             if let Some(number) = numbers.get_mut(body.index) {
-                *number = NONE;
+                *number = NO_INDEX;
             }
         }
-        numbers.resize(model.len(), NONE);
+        numbers.resize(model.len(), NO_INDEX);
         points.clear();
         rolls.clear();
         islands.clear();
@@ -201,7 +201,7 @@ impl Pile {
             }
             let place = &contacts[contact].place;
             let number = |body: usize| {
-                if numbers[body] == NONE {
+                if numbers[body] == NO_INDEX {
                     numbers[body] = bodies.len() as u32;
                     bodies.push(Body::of(body, model, state));
                 }

@@ -10,11 +10,12 @@ use super::solver::Solver;
 use super::structure::{Place, Structure};
 use super::sweep::Purpose;
 
-/// Newton's method takes over where the sweeps leave an error of a rate above this fraction of the largest rate before the impulses.
-pub(super) const LEFT: f64 = 1e-4;
+/// The largest error of a rate that sweeps may leave, as a fraction of the largest rate before the impulses. Newton's method takes over if
+/// they leave more.
+pub(super) const MAX_SWEEP_RESIDUAL: f64 = 1e-4;
 
-/// Newton's method has helped if it leaves less than this part of the error.
-pub(super) const BETTER: f64 = 0.5;
+/// Newton's method has helped if it leaves less than this fraction of the error.
+pub(super) const MAX_NEWTON_REMAINDER: f64 = 0.5;
 
 /// After failures in a row, Newton's method is left out for a number of times that doubles up to this one.
 const LONGEST_PAUSE: u32 = 256;
@@ -67,10 +68,10 @@ impl Solver {
             let velocities =
                 |&member: &usize| [self.members[member].velocity, self.members[member].angular_velocity];
             let residual = island.residual(&numbers.iter().map(velocities).collect());
-            if residual <= LEFT * largest {
+            if residual <= MAX_SWEEP_RESIDUAL * largest {
                 continue;
             }
-            let is_better = island.solve(tolerance) < BETTER * residual;
+            let is_better = island.solve(tolerance) < MAX_NEWTON_REMAINDER * residual;
             has_changed = Some(has_changed == Some(true) || is_better);
             if is_better {
                 for (line, impulse) in island.lines.iter().zip(&island.impulses) {

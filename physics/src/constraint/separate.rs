@@ -8,10 +8,10 @@ use super::sweep::{Purpose, Stopping};
 use super::{Law, Row};
 
 /// Overlaps below this fraction of the smallest body's size are ignored.
-pub(super) const SHALLOW: f64 = 1e-9;
+pub(super) const IGNORED_OVERLAP: f64 = 1e-9;
 
 /// The Gauss–Seidel sweeps that separate bodies end when they move bodies by less than this fraction of the deepest overlap.
-pub(super) const APART: f64 = 1e-5;
+pub(super) const SEPARATION_SWEEP_TOLERANCE: f64 = 1e-5;
 
 impl Solver {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
@@ -19,7 +19,7 @@ impl Solver {
     pub(crate) fn are_within(&mut self, t: f64, state: &State) -> bool {
         self.measure(t, state);
         let smallest = self.contacts.iter().map(|contact| contact.size).reduce(f64::min);
-        let shallow = SHALLOW * smallest.unwrap_or(0.0);
+        let shallow = IGNORED_OVERLAP * smallest.unwrap_or(0.0);
         let is_within = |(row, law): (&Row, &Law)| *law == Law::Inequality && row.violation < -shallow;
         self.rows.iter().zip(&self.laws).any(is_within)
     }
@@ -35,7 +35,7 @@ impl Solver {
         self.unknown.fill(0.0);
         let depths = goals.iter().enumerate().map(|(row, goal)| goal / self.unit(row));
         let deepest = depths.fold(0.0, f64::max);
-        self.sweep_until(Stopping::fast(APART * deepest), |solver| {
+        self.sweep_until(Stopping::fast(SEPARATION_SWEEP_TOLERANCE * deepest), |solver| {
             solver.sweep_rows(&goals, Purpose::Impact)
         });
         let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);

@@ -7,25 +7,25 @@ use super::super::{Model, State};
 use super::jacobian::{book, for_each_direction, move_members, push, rates};
 use super::solver::Solver;
 
-/// Velocities obey a constraint if its rate is at most this fraction of the largest one: a few rounding errors.
-const ROUNDING: f64 = 1e-15;
+/// Velocities obey a constraint if its rate is at most this fraction of the largest rate: a few rounding errors.
+const RELATIVE_ROUNDING: f64 = 1e-15;
 
 /// A step does not correct the errors at its start if the rates for that, errors / step, exceed this fraction of the largest rate.
 /// In a piece of 1e-15 s, rounding errors of positions would become velocities.
 const LARGEST_CORRECTION: f64 = 1e-9;
 
-/// The largest number of iterations of a projection. Each iteration multiplies the error by at most the square of the rotation angle in a
-/// step. So a projection that needs more iterations does not converge.
-const ITERATIONS: usize = 60;
+/// The largest number of iterations of a projection. Each iteration multiplies the error by at most the square of the angle (rad) by which
+/// bodies rotate in a step. So a projection that needs more iterations does not converge.
+const MAX_ITERATIONS: usize = 60;
 
 /// With friction, the projection stops if the remaining error exceeds this fraction of the error in the iteration before.
-const STAYS: f64 = 0.95;
+const STALLED_RATIO: f64 = 0.95;
 
-/// An iteration that leaves more than this fraction of the largest error converges slowly. Friction then yields to joints and normals.
-const SLOWLY: f64 = 0.1;
+/// An iteration converges slowly if it leaves more than this fraction of the largest error. Friction then yields to joints and normals.
+const SLOW_CONVERGENCE_RATIO: f64 = 0.1;
 
 /// The projection diverges if the error grows by more than this factor in one iteration.
-const DIVERGED: f64 = 10.0;
+const DIVERGENCE_RATIO: f64 = 10.0;
 
 impl Solver {
     /// Corrects the velocities at the start of a step by impulses, as in SHAKE and RATTLE. Bodies that move freely from there satisfy the
@@ -49,7 +49,7 @@ impl Solver {
         trial.take_over(state, known);
         model.place(t + dt, &mut trial);
         let (mut before, mut yields) = (f64::INFINITY, false);
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let bodies = self.structure.iter().flat_map(|structure| &structure.bodies);
             for &i in bodies.filter(|&&i| model.inverse_mass()[i] != 0.0) {
                 trial.location[i] = state.location[i];
@@ -64,20 +64,21 @@ impl Solver {
                 self.yield_friction();
             }
             let mut worst = self.worst();
-            if !yields && worst > SLOWLY * before && !self.grips.is_empty() {
+            if !yields && worst > SLOW_CONVERGENCE_RATIO * before && !self.grips.is_empty() {
                 yields = true;
                 self.yield_friction();
                 (worst, before) = (self.worst(), f64::INFINITY);
             }
             let is_enough = worst > 0.5 * before && self.are_kept();
             // The equations of friction at several points can contradict each other, so the error may stay.
-            let stays = self.factor.is_soft() && worst > STAYS * before;
+            let stays = self.factor.is_soft() && worst > STALLED_RATIO * before;
             // With friction, a small error may still shrink: far from the origin, what is left of it would change the angular momentum.
-            let may_shrink = !self.grips.is_empty() && worst > 0.0 && worst <= SLOWLY * before;
+            let may_shrink =
+                !self.grips.is_empty() && worst > 0.0 && worst <= SLOW_CONVERGENCE_RATIO * before;
             if (worst <= 1.0 && !may_shrink) || is_enough || stays {
                 break;
             }
-            if worst > DIVERGED * before {
+            if worst > DIVERGENCE_RATIO * before {
                 break;
             }
             before = worst;
@@ -127,7 +128,7 @@ impl Solver {
         let mut before = f64::INFINITY;
         // The last stage of many methods is at the end of the step, so its factorization is accurate enough.
         self.is_factorised = self.factorised.to_bits() == t.to_bits();
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             self.measure_places(t, state);
             let worst = self.worst();
             let is_slow = worst > 0.1 * before;
@@ -181,7 +182,7 @@ impl Solver {
 
     pub(super) fn settle_velocities(&mut self, model: &Model, state: &mut State) {
         let mut before = f64::INFINITY;
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let Solver { structure: Some(structure), members, jacobian, unknown, rows, .. } = self else {
                 return;
             };
@@ -192,7 +193,7 @@ impl Solver {
                 worst.max(if row.scale.is_length { rate.abs() } else { length * rate.abs() })
             });
             // If a rate is NaN, the comparison is false and the loop ends as well.
-            if !(worst > ROUNDING * scale && worst < 0.5 * before) {
+            if !(worst > RELATIVE_ROUNDING * scale && worst < 0.5 * before) {
                 return;
             }
             if !self.is_factorised || worst > 0.1 * before {

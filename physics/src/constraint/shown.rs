@@ -11,9 +11,9 @@ use super::modes::Mode;
 use super::solver::Solver;
 use super::sweep::Purpose;
 
-/// The number of times that Gauss–Seidel sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces
-/// found the time before.
-const ROUNDS: usize = 10;
+/// The number of times that sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces found the time
+/// before.
+const FORCE_PASSES: usize = 10;
 
 impl Solver {
     /// Computes the contact forces between resting bodies. `loads` are all other forces and torques on these bodies.
@@ -37,7 +37,7 @@ impl Solver {
         solver.find_by_sweeps();
         solver.prepare_sweeps(model, t, &mut given);
         let goals = vec![0.0; solver.rows.len()];
-        for _ in 0..ROUNDS {
+        for _ in 0..FORCE_PASSES {
             solver.push_all(model, &goals, Purpose::Forces(1.0), &mut given.clone());
         }
         solver.contact_snapshots(model)

@@ -19,8 +19,8 @@ use super::refine::Pause;
 use super::structure::{Place, Structure};
 use super::{Constraint, Direction, Equations, Law, Members, Row};
 
-/// A constraint is broken if its error exceeds this fraction of its size after all corrections.
-pub(super) const FAILURE: f64 = 1e-9;
+/// A constraint is broken if its error after all corrections exceeds this fraction of its size.
+pub(super) const CONSTRAINT_TOLERANCE: f64 = 1e-9;
 
 /// The state of the constraint solver: working memory, contacts, and data of the present step.
 #[derive(Clone, Default)]
@@ -187,7 +187,7 @@ impl Solver {
             // Open stops (inequalities without contact) do not count: a trial step may pass them.
             for row in (place.row..place.row + place.rows).filter(|&row| self.modes[row] == Mode::Held) {
                 let missing = self.missing(row);
-                let is_kept = missing <= self.rows[row].tolerance(FAILURE);
+                let is_kept = missing <= self.rows[row].tolerance(CONSTRAINT_TOLERANCE);
                 // A NaN is the largest error.
                 if !is_kept && failed.is_none_or(|(_, most)| missing.total_cmp(&most).is_gt()) {
                     failed = Some((place.constraint, missing));
@@ -328,7 +328,7 @@ impl Solver {
     /// Returns true if no active constraint row is broken.
     pub(super) fn are_kept(&self) -> bool {
         let mut held = self.rows.iter().zip(&self.held).filter(|(_, held)| **held);
-        held.all(|(row, _)| row.violation.abs() <= row.tolerance(FAILURE))
+        held.all(|(row, _)| row.violation.abs() <= row.tolerance(CONSTRAINT_TOLERANCE))
     }
 
     /// Factorizes J M⁻¹ Jᵀ of the last measurement. With `choose`, redundant constraint rows become inactive.

@@ -14,17 +14,17 @@ use super::solver::Solver;
 use super::{Direction, Law, Row};
 
 /// The largest number of Gauss–Seidel sweeps for one set of impulses.
-pub(super) const SWEEPS: usize = 100;
+pub(super) const MAX_SWEEPS: usize = 100;
 
 /// For forces, the Gauss–Seidel sweeps end when they change rates by less than this fraction of the largest rate.
-pub(super) const SETTLED: f64 = 1e-7;
+pub(super) const FORCE_SWEEP_TOLERANCE: f64 = 1e-7;
 
 /// For impacts, the Gauss–Seidel sweeps end when they change rates by less than this fraction of the largest rate. The forces computed
 /// afterwards correct the remaining error.
-pub(super) const STRUCK: f64 = 1e-5;
+pub(super) const IMPACT_SWEEP_TOLERANCE: f64 = 1e-5;
 
 /// The largest number of sweeps without acceleration, which replace accelerated sweeps that have added energy.
-const PATIENT_SWEEPS: usize = 20 * SWEEPS;
+const PATIENT_SWEEPS: usize = 20 * MAX_SWEEPS;
 
 /// Impulses add energy if their work is more than this many times the work that the remaining errors of the rates can do.
 const EXCUSED_WORK: f64 = 10.0;
@@ -48,7 +48,7 @@ pub(super) struct Stopping {
 impl Stopping {
     /// Accelerated sweeps, which converge sooner.
     pub(super) const fn fast(tolerance: f64) -> Stopping {
-        Stopping { tolerance, most: SWEEPS, is_fast: true }
+        Stopping { tolerance, most: MAX_SWEEPS, is_fast: true }
     }
 
     /// The same with another largest number of sweeps.
@@ -228,7 +228,7 @@ impl Solver {
             self.forced = fastest;
         }
         // Rates need no accuracy far below their change by forces in a substep.
-        let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
+        let part = if purpose == Purpose::Impact { IMPACT_SWEEP_TOLERANCE } else { FORCE_SWEEP_TOLERANCE };
         let tolerance = part * fastest.max(self.forced);
         let members = self.members.clone();
         let mut goals = goals.to_vec();

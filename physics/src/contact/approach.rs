@@ -11,19 +11,22 @@ use super::path::{Moving, Path};
 use super::solid::{Pose, Solid};
 use super::touch::touches;
 
-/// Bodies touch if their gap is below this fraction of their coordinates, a few rounding errors. Lower bounces are ignored.
-pub(super) const TOUCH: f64 = 4e-15;
+/// Bodies touch if their gap is below this fraction of their coordinates: a few rounding errors. Bounces that are lower than this are
+/// ignored.
+pub(super) const COORDINATE_ROUNDING: f64 = 4e-15;
 
 /// If the gap of two bodies is below this fraction of the smaller one's size, all pairs of nearby points are examined.
-const CLOSE: f64 = 0.01;
+const NEARBY_GAP: f64 = 0.01;
 
 /// The tolerance for the gap at a pair of points, as a fraction of the smaller body's size. Beyond an edge, rounding errors can make this
 /// gap too small.
-const SLACK: f64 = 1e-8;
+const GAP_TOLERANCE: f64 = 1e-8;
 
-/// The largest number of safe time steps in one search. After them, each step covers at least the fraction `PART` of the whole interval.
-const STEPS: usize = 2_000;
-const PART: f64 = 1.0 / 64.0;
+/// The largest number of safe time steps in one search. After them, each step covers at least the fraction [`MIN_STEP_FRACTION`] of
+/// the whole interval.
+const MAX_SAFE_STEPS: usize = 2_000;
+/// The shortest time step after [`MAX_SAFE_STEPS`], as a fraction of the whole interval.
+const MIN_STEP_FRACTION: f64 = 1.0 / 64.0;
 
 /// The search for the first touch of two bodies on their paths through a step.
 pub(super) struct Approach<'a> {
@@ -47,7 +50,7 @@ pub(super) fn places(
     let has_one = |ball: &Solid, other: &Solid| ball.is_ball() && other.parts().len() == 1;
     if !has_one(a, b) && !has_one(b, a) {
         // No pair of points is closer than the closest points. A pair that seems closer lies on the far side of an edge.
-        let slack = SLACK * a.size().min(b.size());
+        let slack = GAP_TOLERANCE * a.size().min(b.size());
         let others = touches(a, poses[0], b, poses[1], within);
         let others = others.iter().map(|touch| touch.meeting).filter(|other| other.gap >= near.gap - slack);
         all.extend(others.map(|other| ClosestPoints { gap: other.gap.max(near.gap), ..other }));
@@ -63,7 +66,7 @@ pub(super) fn are_convex(solids: [&Solid; 2]) -> bool {
 
 /// Returns the gap, m, below which all pairs of nearby points of two bodies are examined.
 pub(super) fn close(solids: [&Solid; 2]) -> f64 {
-    CLOSE * solids[0].size().min(solids[1].size()).min(f64::MAX)
+    NEARBY_GAP * solids[0].size().min(solids[1].size()).min(f64::MAX)
 }
 
 /// Computes the rate of the gap at one pair of points of two moving bodies, m/s. It is negative while the bodies approach.
@@ -89,7 +92,7 @@ impl Approach<'_> {
             let (shrink, bend) = self.bounds(&near, &moving);
             let mut safe =
                 if is_shift { f64::INFINITY } else { self.until(near.gap.max(close), shrink, bend) };
-            let mut is_stuck = step > STEPS;
+            let mut is_stuck = step > MAX_SAFE_STEPS;
             if is_shift || near.gap <= close {
                 let near = if is_shift {
                     vec![near]
@@ -108,7 +111,7 @@ impl Approach<'_> {
                 }
             }
             // If the bodies touch without approaching, or approach endlessly, the search goes on in small time steps.
-            time += if is_stuck { safe.max(PART * end) } else { safe };
+            time += if is_stuck { safe.max(MIN_STEP_FRACTION * end) } else { safe };
             if time.is_nan() || time >= end {
                 return None;
             }

@@ -7,9 +7,9 @@ use super::closest_points::ClosestPoints;
 use super::patch::{Patch, meet};
 use super::solid::Pose;
 
-/// The step of numerical differentiation, for contacts without a formula: the bodies rotate by about this angle, rad, or move by this
+/// The step of numerical differentiation, for contacts without a formula. The bodies rotate by about this angle (rad), or move by this
 /// fraction of their size.
-const DIFFERENCE: f64 = 1e-4;
+const DIFFERENTIATION_STEP: f64 = 1e-4;
 
 /// The rates at which the point and the normal of a contact change, for given velocities of the bodies.
 pub(super) struct Change {
@@ -112,7 +112,7 @@ impl Change {
         if fastest == 0.0 {
             return Change { normal: DVec3::ZERO, place: DVec3::ZERO };
         }
-        let step = DIFFERENCE / fastest;
+        let step = DIFFERENTIATION_STEP / fastest;
         let moved = |time: f64| {
             let [p, q] = members.map(|member| advanced(member, time));
             meet(a, &p, b, &q)

@@ -7,19 +7,19 @@ use super::gjk;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A feature is near a guessed point if their distance is below this fraction of the convex part's size. GJK's guesses are better than
+/// A feature is near a guessed point if their distance is below this fraction of the convex part's size. The guesses of GJK are better than
 /// this, except for overlapping round parts.
-const NEAR: f64 = 1e-3;
-/// A point outside a feature by up to this fraction of the convex part's size counts as on the feature. The resulting error of the gap is
+const GUESS_TOLERANCE: f64 = 1e-3;
+/// A point counts as on a feature if it lies outside by at most this fraction of the convex part's size. The resulting error of the gap is
 /// only about the square of this fraction.
-pub(super) const EDGE: f64 = 1e-9;
-/// A point outside a triangle by up to this fraction of its size counts as on the triangle, if the other body is round. Adjacent triangles
+pub(super) const FEATURE_TOLERANCE: f64 = 1e-9;
+/// If the other body is round, a point counts as on a triangle if it lies outside by at most this fraction of the size. Adjacent triangles
 /// at a slight angle would otherwise leave a crack.
-const SEAM: f64 = 1e-7;
+const SEAM_TOLERANCE: f64 = 1e-7;
 /// The search among the triangles of a mesh begins with triangles that are nearer than this fraction of the smaller body's size.
-const START: f64 = 0.25;
-/// Two convex parts with at most this many pairs of features are compared without a guess by GJK.
-const FEW: usize = 16;
+const INITIAL_SEARCH_DISTANCE: f64 = 0.25;
+/// The largest number of pairs of features of two convex parts that are compared without a guess by GJK.
+const MAX_PAIRS_WITHOUT_GUESS: usize = 16;
 
 /// The closest points of two solids, with their gap and normal. For overlapping solids, these are the points of deepest penetration: the
 /// smallest motion that separates the solids moves one point onto the other.
@@ -50,7 +50,11 @@ impl ClosestPoints {
 /// A small gap is exact to within rounding errors. No returned gap is larger than the true one.
 pub(crate) fn nearest(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, beyond: f64) -> Option<ClosestPoints> {
     let mut best: Option<ClosestPoints> = None;
-    let mut within = if a.is_surface() || b.is_surface() { START * a.size().min(b.size()) } else { beyond };
+    let mut within = if a.is_surface() || b.is_surface() {
+        INITIAL_SEARCH_DISTANCE * a.size().min(b.size())
+    } else {
+        beyond
+    };
     loop {
         for_pairs(a, pa, b, pb, within, &mut |i, j| {
             let (part_a, part_b) = (&a.parts()[i], &b.parts()[j]);
@@ -144,7 +148,7 @@ fn on_ground(ground: &Pose, at: DVec3, normal: DVec3, part: &Part, pose: &Pose) 
 /// Returns the distance outside a feature at which a point still counts as on the feature, m. `round` is true if the other body is round
 /// there.
 pub(super) fn edge(part: &Part, round: bool) -> f64 {
-    part.bound * if round && part.surface.is_some() { SEAM } else { EDGE }
+    part.bound * if round && part.surface.is_some() { SEAM_TOLERANCE } else { FEATURE_TOLERANCE }
 }
 
 /// Computes the closest points of a ball and a convex part, and the index of the part's feature at its closest point.
@@ -154,7 +158,7 @@ pub(super) fn ball_and(ball: &Part, pose: &Pose, part: &Part, at: &Pose) -> (Clo
     let centre = at.local(pose.point(ball.centre));
     let local = Patch::Point { at: centre, radius: ball.radius };
     // Adjacent triangles can meet at a slight angle, which leaves a crack for a ball.
-    let edge = -(edge(part, true) + if part.surface.is_some() { SEAM * ball.radius } else { 0.0 });
+    let edge = -(edge(part, true) + if part.surface.is_some() { SEAM_TOLERANCE * ball.radius } else { 0.0 });
     if let Some(i) = part.half.and_then(|half| feature_of_box(centre - part.centre, half, -edge)) {
         return (meet(patch, pose, &part.features[i].patch, at), i);
     }
@@ -215,10 +219,10 @@ fn convex(a: &Part, pa: &Pose, b: &Part, pb: &Pose) -> ClosestPoints {
         return found;
     }
     let mut search = Search::new(a, pa, b, pb);
-    if a.features.len() * b.features.len() > FEW
+    if a.features.len() * b.features.len() > MAX_PAIRS_WITHOUT_GUESS
         && let Some(guess) = gjk::cores(a, pa, b, pb)
     {
-        let tolerance = NEAR * a.bound.max(b.bound);
+        let tolerance = GUESS_TOLERANCE * a.bound.max(b.bound);
         let places = [pa.local(guess.on[0]), pb.local(guess.on[1])];
         let radii = [a.radius, b.radius];
         search.pairs(|i, feature| feature.is_near(places[i], radii[i], tolerance));
@@ -345,7 +349,8 @@ impl<'a> Search<'a> {
             |(feature, pose, part, side, sign)| {
                 let place = pose.local(found.on[side]);
                 let normal = pose.orientation.conjugate() * (sign * found.normal);
-                feature.margin(place) > -EDGE * part.bound && feature.slack(place, normal) > -lost
+                feature.margin(place) > -FEATURE_TOLERANCE * part.bound
+                    && feature.slack(place, normal) > -lost
             },
         )
     }
@@ -385,7 +390,7 @@ impl<'a> Search<'a> {
         let parts = [(self.a, self.pa, found.on[0]), (self.b, self.pb, found.on[1])];
         let is_on = |(part, pose, place): (&Part, &Pose, DVec3)| {
             let place = pose.local(place);
-            part.features.iter().any(|feature| feature.holds(place, EDGE * part.bound))
+            part.features.iter().any(|feature| feature.holds(place, FEATURE_TOLERANCE * part.bound))
         };
         let is_exact = (found.gap - along).abs() <= 4.0 * self.digits;
         // The closest points of overlapping convex parts may lie outside of the features.
@@ -416,7 +421,7 @@ impl<'a> Search<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{ALL, Random, solid};
+    use super::super::tests::{ALL_SHAPES, Random, solid};
     use super::*;
 
     impl Search<'_> {
@@ -439,8 +444,8 @@ mod tests {
     #[test]
     fn the_search_finds_what_the_comparison_of_all_pairs_finds() {
         let mut random = Random::new(12);
-        for a in &ALL {
-            for b in &ALL {
+        for a in &ALL_SHAPES {
+            for b in &ALL_SHAPES {
                 let (a, b) = (solid(a), solid(b));
                 let (a, b) = (&a.parts()[0], &b.parts()[0]);
                 for k in 0..60 {

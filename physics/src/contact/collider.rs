@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::super::{BodyId, Breakdown, Constraint, LawResidual, Model, State};
-use super::approach::{Approach, TOUCH, are_convex, close, places};
+use super::approach::{Approach, COORDINATE_ROUNDING, are_convex, close, places};
 use super::closest_points::{ClosestPoints, nearest};
 use super::crowd::Crowd;
 use super::group::Focus;
@@ -19,20 +19,21 @@ use super::touch::{Touch, inside, touches};
 use super::{ContactProperties, Contacts, Impact};
 
 /// At an event, bodies count as touching if their gap is below this fraction of their size.
-pub(super) const NEAR: f64 = 1e-10;
+pub(super) const CONTACT_TOLERANCE: f64 = 1e-10;
 
-/// For bodies at rest, further points count as touching if their gap is below this fraction of their size. Otherwise a body that
+/// For bodies at rest, further points count as touching if their gap is below this fraction of the bodies' size. Otherwise a body that
 /// stands on three of four corners would never come to rest.
-const SNUG: f64 = 1e-8;
+const RESTING_CONTACT_TOLERANCE: f64 = 1e-8;
 
-/// Further points of touching bodies may overlap by this fraction of their size before an event ends the step.
-const PASSED: f64 = 1e-12;
+/// Further points of touching bodies may overlap by this fraction of the bodies' size before an event ends the step. The event also
+/// tolerates this difference between the cosine of a contact's rotation and its limit.
+const EVENT_OVERLAP_TOLERANCE: f64 = 1e-12;
 
-/// A body that appears may overlap others by this fraction of their size.
-const OVERLAP: f64 = 1e-9;
+/// The largest overlap of a body with others when it appears, as a fraction of their size.
+const MAX_INITIAL_OVERLAP: f64 = 1e-9;
 
-/// A closing speed below this fraction of the largest one so far counts as a rounding error.
-pub(super) const SLIGHT: f64 = 1e-10;
+/// A closing speed counts as a rounding error if it is below this fraction of the largest one so far.
+pub(super) const SPEED_ROUNDING: f64 = 1e-10;
 
 /// The colliding bodies, their contacts and impacts, and the search for them.
 #[derive(Clone)]
@@ -188,7 +189,7 @@ impl Collider {
             let [a, b] = pair.bodies;
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
             let scale = Scale::of(pair.bodies, [x, y], (model, before));
-            let near_enough = scale.tolerance(NEAR);
+            let near_enough = scale.tolerance(CONTACT_TOLERANCE);
             if pair.free > near_enough {
                 continue;
             }
@@ -207,7 +208,7 @@ impl Collider {
                 continue;
             }
             let speed = (before.velocity[b] - before.velocity[a]).length();
-            let slight = 2.0 * SLIGHT * fastest.max(speed);
+            let slight = 2.0 * SPEED_ROUNDING * fastest.max(speed);
             let approach =
                 Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: scale.touch() };
             if let Some(time) = approach.first(end) {
@@ -247,9 +248,10 @@ impl Collider {
             let [a, b] = contact.bodies;
             let (Some(x), Some(y)) = (&self.solids[a], &self.solids[b]) else { continue };
             let [p, q] = [a, b].map(|i| pose(i, model, state));
-            let tolerated = Scale::of(contact.bodies, [x, y], (model, state)).tolerance(PASSED);
+            let tolerated =
+                Scale::of(contact.bodies, [x, y], (model, state)).tolerance(EVENT_OVERLAP_TOLERANCE);
             margin = margin.min(inside(&contact.touch, x, &p, y, &q) / tolerated);
-            margin = margin.min(contact.left([p, q]) / PASSED);
+            margin = margin.min(contact.left([p, q]) / EVENT_OVERLAP_TOLERANCE);
             if last == Some(contact.bodies) {
                 continue;
             }
@@ -281,7 +283,7 @@ impl Collider {
                 continue;
             }
             let scale = Scale::of(pair.bodies, [x, y], (model, state));
-            let within = scale.tolerance(NEAR);
+            let within = scale.tolerance(CONTACT_TOLERANCE);
             if pair.free > within {
                 continue;
             }
@@ -291,7 +293,8 @@ impl Collider {
             if pair.free > within {
                 continue;
             }
-            let found = touches(x, &poses[0], y, &poses[1], scale.tolerance(SNUG)).into_iter();
+            let found =
+                touches(x, &poses[0], y, &poses[1], scale.tolerance(RESTING_CONTACT_TOLERANCE)).into_iter();
             let (touches, snug) = found.partition(|touch| touch.meeting.gap <= within);
             all.push(Touching { bodies: pair.bodies, law: pair.law, touches, snug });
         }
@@ -319,7 +322,7 @@ impl Collider {
             }
             let poses = [a, b].map(|i| pose(i, model, state));
             let near = nearest(x, &poses[0], y, &poses[1], f64::INFINITY)?;
-            let tolerated = Scale::of(bodies, [x, y], (model, state)).tolerance(OVERLAP);
+            let tolerated = Scale::of(bodies, [x, y], (model, state)).tolerance(MAX_INITIAL_OVERLAP);
             let tolerated = tolerated.max(part * x.size().min(y.size()));
             (near.gap < -tolerated).then_some(-near.gap)
         };
@@ -392,7 +395,7 @@ impl Scale {
 
     /// Returns the gap at which the bodies touch to within rounding errors, m.
     pub(super) fn touch(self) -> f64 {
-        TOUCH * self.coordinates
+        COORDINATE_ROUNDING * self.coordinates
     }
 }
 

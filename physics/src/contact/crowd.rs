@@ -22,7 +22,7 @@ use super::laws::LawBook;
 
 /// The largest number of further steps for which a body stays in the crowd (the bodies that Moreau's scheme advances). Without further
 /// steps, a settling heap would collect thousands of events in each step before it joins the crowd again.
-const AGAIN: u32 = 16;
+const MAX_FURTHER_STEPS: u32 = 16;
 
 /// The set of bodies that Moreau's scheme advances, with their contacts and computed motion.
 #[derive(Clone, Default)]
@@ -189,7 +189,7 @@ impl Collider {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
             let again = self.crowd.again.entry(*body).or_default();
-            longest = longest.max(again.left).max((2 * again.span).clamp(1, AGAIN));
+            longest = longest.max(again.left).max((2 * again.span).clamp(1, MAX_FURTHER_STEPS));
         }
         for body in self.crowd.bodies.difference(before) {
             self.crowd.again.insert(*body, Again { left: longest, span: longest, is_over: false });

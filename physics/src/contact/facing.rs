@@ -12,18 +12,18 @@ use super::solid::{Core, Part, Pose};
 
 /// Two separations count as equal if they differ by less than this fraction of the sizes and the distance of the boxes. This is ten times
 /// what rounding errors may amount to.
-const EQUAL: f64 = 1e-13;
+const SEPARATION_ROUNDING: f64 = 1e-13;
 /// A corner counts as lying on an edge of the other box if their distance is below this fraction of the sizes and the distance of the boxes.
 /// Rounding errors then hide the normal between the corner and the edge.
 const ON_EDGE: f64 = 1e-10;
-/// Boxes that overlap by more than this fraction of the smaller one's size need a closer search.
-const DEEP: f64 = 1e-3;
-/// Two normals count as equal if their scalar product differs from 1 by less than this.
-const PARALLEL: f64 = 1e-12;
+/// Boxes need a closer search if they overlap by more than this fraction of the smaller one's size.
+const DEEP_OVERLAP: f64 = 1e-3;
+/// Two unit normals count as equal if their scalar product differs from 1 by less than this.
+const NORMAL_TOLERANCE: f64 = 1e-12;
 /// Two edges count as parallel if the square of the sine of the angle between them is below this.
-const CROSS: f64 = 1e-18;
+const PARALLEL_SINE_SQUARED: f64 = 1e-18;
 /// The number of corners of a box.
-const CORNERS: usize = 8;
+const BOX_CORNERS: usize = 8;
 
 /// How two boxes face each other.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,7 @@ impl<'a> Best<'a> {
         if along <= self.along - self.equal {
             return;
         }
-        let is_same = normal.dot(self.normal) > 1.0 - PARALLEL;
+        let is_same = normal.dot(self.normal) > 1.0 - NORMAL_TOLERANCE;
         self.is_clear = along > self.along + self.equal || self.is_clear && is_same;
         if along > self.along {
             (self.along, self.normal, self.owner) = (along, normal, owner);
@@ -76,7 +76,7 @@ pub(super) fn facing(a: &Part, pa: &Pose, b: &Part, pb: &Pose, within: f64) -> O
     let (turn, shift) = (pa.orientation.conjugate() * pb.orientation, pa.local(pb.location));
     let of_b = of_b.map(|corner| shift + turn * corner);
     let lengths = a.bound + b.bound + a.centre.length() + b.centre.length() + shift.length();
-    let (equal, blurred) = (EQUAL * lengths, ON_EDGE * lengths);
+    let (equal, blurred) = (SEPARATION_ROUNDING * lengths, ON_EDGE * lengths);
     let none = f64::NEG_INFINITY;
     let mut best =
         Best { along: none, normal: DVec3::ZERO, owner: Owner::Edges([0; 2]), is_clear: true, equal };
@@ -100,7 +100,7 @@ pub(super) fn facing(a: &Part, pa: &Pose, b: &Part, pb: &Pose, within: f64) -> O
         for (j, v) in along_b.into_iter().enumerate() {
             let cross = u.cross(v);
             let square = cross.length_squared();
-            if square > CROSS {
+            if square > PARALLEL_SINE_SQUARED {
                 let normal = cross / square.sqrt();
                 let ([low_a, high_a], [low_b, high_b]) = (extent(of_a, normal), extent(&of_b, normal));
                 best.consider(low_b - high_a, normal, Owner::Edges([i, j]));
@@ -138,13 +138,13 @@ pub(super) fn facing(a: &Part, pa: &Pose, b: &Part, pb: &Pose, within: f64) -> O
         is_on_edge(&of_b, a, normal, blurred)
             || is_on_edge(&of_a.map(local), b, turn.conjugate() * -normal, blurred)
     };
-    let deep = DEEP * a.bound.min(b.bound);
+    let deep = DEEP_OVERLAP * a.bound.min(b.bound);
     let is_sure = -deep < gap && gap < within - equal && best.is_clear;
     (is_sure && is_nearest() && !is_blurred()).then(|| Facing::Near { gap, normal: pa.orientation * normal })
 }
 
 /// Returns true if a corner of another box lies on an edge of a box that is highest along `normal`, to within `blurred`, m.
-fn is_on_edge(corners: &[DVec3; CORNERS], part: &Part, normal: DVec3, blurred: f64) -> bool {
+fn is_on_edge(corners: &[DVec3; BOX_CORNERS], part: &Part, normal: DVec3, blurred: f64) -> bool {
     let high = part.core.support(normal).dot(normal);
     corners.iter().filter(|corner| corner.dot(normal) <= high + blurred).any(|corner| {
         edges(part).any(|edge| match edge.patch {
@@ -159,7 +159,7 @@ fn is_on_edge(corners: &[DVec3; CORNERS], part: &Part, normal: DVec3, blurred: f
 }
 
 /// Returns the corners of a box without its rounding. `None` for all other parts.
-fn corners(part: &Part) -> Option<&[DVec3; CORNERS]> {
+fn corners(part: &Part) -> Option<&[DVec3; BOX_CORNERS]> {
     match &part.core {
         Core::Hull(corners) if part.surface.is_none() => corners.as_slice().try_into().ok(),
         _ => None,
@@ -183,12 +183,12 @@ fn directions(part: &Part) -> [DVec3; 3] {
 }
 
 /// Returns how far points extend along a vector at least, m.
-fn lowest(places: &[DVec3; CORNERS], direction: DVec3) -> f64 {
+fn lowest(places: &[DVec3; BOX_CORNERS], direction: DVec3) -> f64 {
     places.iter().map(|place| place.dot(direction)).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns how far points extend along a vector at least and at most, m.
-fn extent(places: &[DVec3; CORNERS], direction: DVec3) -> [f64; 2] {
+fn extent(places: &[DVec3; BOX_CORNERS], direction: DVec3) -> [f64; 2] {
     places
         .iter()
         .map(|place| place.dot(direction))

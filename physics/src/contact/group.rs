@@ -7,7 +7,7 @@ use super::super::sets::Sets;
 use super::super::{Model, State};
 use super::approach::Approach;
 use super::closest_points::nearest;
-use super::collider::{Collider, NEAR, SLIGHT, Scale, is_passive};
+use super::collider::{CONTACT_TOLERANCE, Collider, SPEED_ROUNDING, Scale, is_passive};
 use super::crowd::Crowd;
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
@@ -16,7 +16,7 @@ use super::path::{Path, pose};
 
 /// Two bodies belong to the same group if they could meet by moving this many times as far as they move in the step without impacts. The
 /// margin is needed because impacts can make bodies faster.
-const GENEROUS: f64 = 2.0;
+const PATH_MARGIN_FACTOR: f64 = 2.0;
 
 /// A group of bodies that may meet each other within a step, but no movable body of another group.
 pub(crate) struct Group {
@@ -99,8 +99,8 @@ impl Collider {
                 continue;
             }
             let (ways, scale) = (free[a] + free[b], Scale::of(pair.bodies, [x, y], (model, before)));
-            let touch = scale.tolerance(NEAR);
-            let meet = touch + (GENEROUS - 1.0) * ways;
+            let touch = scale.tolerance(CONTACT_TOLERANCE);
+            let meet = touch + (PATH_MARGIN_FACTOR - 1.0) * ways;
             let is_settled = |body: usize| is_busy[body] || !model.can_move(body);
             if pair.free > meet || is_settled(a) && is_settled(b) && sets.are_one([a, b], model) {
                 continue;
@@ -115,7 +115,7 @@ impl Collider {
                 continue;
             }
             let speed = (before.velocity[b] - before.velocity[a]).length();
-            let slight = 2.0 * SLIGHT * fastest.max(speed);
+            let slight = 2.0 * SPEED_ROUNDING * fastest.max(speed);
             let approach =
                 Approach { solids: [x, y], paths: [&paths[a], &paths[b]], slight, touch: scale.touch() };
             if approach.first(duration).is_some() {
@@ -194,7 +194,7 @@ impl Collider {
             let [a, b] = pair.bodies;
             pair.free -= more[a] + more[b];
             let (Some(x), Some(y)) = (&solids[a], &solids[b]) else { continue };
-            let touch = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(NEAR);
+            let touch = Scale::of(pair.bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE);
             if !is_passive(pair.bodies, model) && pair.free <= touch {
                 met.push(pair.bodies);
             }

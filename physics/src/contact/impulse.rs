@@ -15,13 +15,13 @@ use glam::{DMat3, DVec2, DVec3, DVec4};
 use super::super::constraint::Anderson;
 
 /// The largest number of sweeps for the impulses at coupled contact points.
-const SWEEPS: usize = 2_000;
+const MAX_SWEEPS: usize = 2_000;
 
 /// The largest number of sweeps whose results are extrapolated. Extrapolations rarely go round in a circle, and then plain sweeps converge.
 const EXTRAPOLATED_SWEEPS: usize = 500;
 
 /// The sweeps end when they change impulses by less than this fraction of the largest impulse.
-const SETTLED: f64 = 1e-14;
+const SWEEP_TOLERANCE: f64 = 1e-14;
 
 /// The number of directions of slip among which the search for the slip after an impact begins.
 const SLIP_DIRECTIONS: u32 = 32;
@@ -33,10 +33,10 @@ const ANGLE_HALVINGS: u32 = 52;
 const ENLARGED_DIAGONAL: f64 = 1e-12;
 
 /// The number of iterative refinements that remove the error of the enlarged diagonal.
-const REFINEMENTS: u32 = 3;
+const ITERATIVE_REFINEMENTS: u32 = 3;
 
-/// A solution solves its equations if it misses the right-hand side by at most this fraction.
-const SOLVED: f64 = 1e-6;
+/// A solution solves its equations if its error is at most this fraction of the right-hand side.
+const SOLUTION_TOLERANCE: f64 = 1e-6;
 
 /// The restitution and the friction at one contact point of an impact.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +57,7 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
     let shares = Shares::of(rates.len(), response);
     let mut impulses = vec![DVec3::ZERO; rates.len()];
     let mut anderson = Anderson::from(&vec![0.0; 3 * rates.len()], &shares.weights());
-    for sweep in 1..=SWEEPS {
+    for sweep in 1..=MAX_SWEEPS {
         let before = impulses.clone();
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for (place, impulse) in impulses.iter_mut().enumerate() {
@@ -69,7 +69,7 @@ pub(super) fn impulses(bounces: &[Bounce], rates: &[DVec3], response: &[f64]) ->
             change = change.max((*impulse - before[place]).length());
             size = size.max(impulse.length());
         }
-        if change <= SETTLED * size {
+        if change <= SWEEP_TOLERANCE * size {
             break;
         }
         // An extrapolation may break the laws. The next sweep restores them.
@@ -150,7 +150,7 @@ fn single(bounce: &Bounce, rate: DVec3, goal: f64, response: &[f64]) -> DVec3 {
     let stopped = DVec3::new(needed, -rate.y, -rate.z);
     let stick = solution(w, stopped);
     // Joints may make it impossible to rebound and to stick.
-    let is_solved = (w * stick - stopped).length() <= SOLVED * stopped.length();
+    let is_solved = (w * stick - stopped).length() <= SOLUTION_TOLERANCE * stopped.length();
     if is_solved && stick.x >= 0.0 && stick.yz().length() <= bounce.friction * stick.x {
         return stick;
     }
@@ -167,7 +167,7 @@ fn solution(w: DMat3, b: DVec3) -> DVec3 {
         (w + DMat3::from_diagonal(DVec3::splat(ENLARGED_DIAGONAL * (w.x_axis.x + w.y_axis.y + w.z_axis.z))))
             .inverse();
     // Iterative refinement removes the error of the enlarged diagonal.
-    (0..REFINEMENTS).fold(inverse * b, |x, _| x + inverse * (b - w * x))
+    (0..ITERATIVE_REFINEMENTS).fold(inverse * b, |x, _| x + inverse * (b - w * x))
 }
 
 /// The search for the impulse at a single contact point that slides: it is along (1, −μ d), where d is the direction of the remaining slip.

@@ -40,13 +40,13 @@ pub(crate) fn spoke(patches: &[Patch; 2], poses: [&Pose; 2], meeting: &ClosestPo
     (meeting.on[side] - poses[side].point(centre)).normalize_or_zero()
 }
 
-/// Limits for the cosine of the angle by which the normal has turned since the contact was found. Below the first limit, the step ends and
-/// the tangents are chosen again. At events with another cause, the tangents are chosen again below the second.
-const TURNED: [f64; 2] = [0.0, 0.25];
+/// Two limits for the cosine of the angle by which the normal has turned since the contact was found. Below the first limit, the step ends
+/// and the tangents are chosen again. Below the second limit, the tangents are chosen again at events with another cause.
+const NORMAL_COSINE_LIMITS: [f64; 2] = [0.0, 0.25];
 
-/// The same limits for the angle by which the contact point has run around a rim, 5 degrees and 3.6 degrees. A step is accurate only
-/// if the forces in it act at nearly one place.
-const RUN: [f64; 2] = [0.9962, 0.998];
+/// The same two limits for the cosine of the angle by which the contact point has moved around a rim: cos 5° and cos 3.6°. A step is
+/// accurate only if the forces in it act at nearly one place.
+const RIM_COSINE_LIMITS: [f64; 2] = [0.9962, 0.998];
 
 impl LastingContact {
     /// Returns true if one of the contact's bodies is in this set.
@@ -63,8 +63,8 @@ impl LastingContact {
     /// valid.
     pub(crate) fn is(&self, new: &LastingContact) -> bool {
         let is_same = self.bodies == new.bodies && self.touch.patches == new.touch.patches;
-        let has_turned = self.touch.meeting.normal.dot(new.touch.meeting.normal) < TURNED[1];
-        let has_run = self.spoke != DVec3::ZERO && self.spoke.dot(new.spoke) < RUN[1];
+        let has_turned = self.touch.meeting.normal.dot(new.touch.meeting.normal) < NORMAL_COSINE_LIMITS[1];
+        let has_run = self.spoke != DVec3::ZERO && self.spoke.dot(new.spoke) < RIM_COSINE_LIMITS[1];
         is_same && !has_turned && !has_run
     }
 
@@ -73,12 +73,12 @@ impl LastingContact {
     /// forces at the place where it was would then press the rim into the plane.
     pub(super) fn left(&self, poses: [Pose; 2]) -> f64 {
         let meeting = self.meet(poses);
-        let turned = self.touch.meeting.normal.dot(meeting.normal) - TURNED[0];
+        let turned = self.touch.meeting.normal.dot(meeting.normal) - NORMAL_COSINE_LIMITS[0];
         if self.spoke == DVec3::ZERO {
             return turned;
         }
         let spoke = spoke(&self.touch.patches, [&poses[0], &poses[1]], &meeting);
-        turned.min(self.spoke.dot(spoke) - RUN[0])
+        turned.min(self.spoke.dot(spoke) - RIM_COSINE_LIMITS[0])
     }
 
     /// Returns two unit tangents, perpendicular to the normal and to each other. They turn with the normal by the shortest way from those

@@ -40,12 +40,12 @@ impl MotionLaw {
     }
 }
 
-/// A law is broken if its residual exceeds this fraction of its scale. Smaller residuals are what the sweeps over many contacts leave.
-const BROKEN: f64 = 1e-3;
+/// A law is broken if its residual exceeds this fraction of its scale. Sweeps over many contacts leave smaller residuals.
+const MAX_LAW_RESIDUAL: f64 = 1e-3;
 
-/// A substep whose impulses add more energy than this fraction of the scale is repeated in smaller parts. Sweeps over contacts end when
-/// they change rates by less than 1e-7 of the largest, so what they leave is less.
-const EXCESS: f64 = 1e-6;
+/// A substep is repeated in smaller parts if its impulses add more energy than this fraction of the scale. Sweeps over contacts end when
+/// they change rates by less than 1e-7 of the largest rate, so the energy that they leave is less.
+const MAX_ENERGY_GAIN: f64 = 1e-6;
 
 /// How far one solve of contacts was off a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,14 +79,14 @@ impl LawResidual {
 
     /// Returns true if a substep with this residual is repeated in smaller parts.
     pub(super) fn is_excess(&self) -> bool {
-        self.part > EXCESS || self.part.is_nan()
+        self.part > MAX_ENERGY_GAIN || self.part.is_nan()
     }
 
     /// Returns true if the residual is larger than the errors that solvers leave.
     #[must_use]
     pub fn is_broken(&self) -> bool {
         // A NaN is broken, too.
-        self.part > BROKEN || self.part.is_nan()
+        self.part > MAX_LAW_RESIDUAL || self.part.is_nan()
     }
 }
 

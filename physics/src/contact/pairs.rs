@@ -12,7 +12,7 @@ use super::solid::Solid;
 use super::{ContactProperties, Contacts};
 
 /// The margin around the box of a body, as a multiple of the distance that the body moves in a step.
-const WAYS: f64 = 8.0;
+const BOX_MARGIN_FACTOR: f64 = 8.0;
 
 /// Two bodies that may touch soon.
 #[derive(Clone, Debug)]
@@ -80,7 +80,11 @@ impl Pairs {
                 .map(|i| {
                     let size = solids[i].as_ref().map_or(0.0, Solid::size);
                     let least = expected.get(i).map_or(0.0, |way| 2.0 * way);
-                    (WAYS * way(i)).max(least).max(if size.is_finite() { 0.25 * size } else { 0.0 })
+                    (BOX_MARGIN_FACTOR * way(i)).max(least).max(if size.is_finite() {
+                        0.25 * size
+                    } else {
+                        0.0
+                    })
                 })
                 .collect();
             self.list = near(contacts, solids, &margins, (model, before));
@@ -140,7 +144,7 @@ pub(super) fn near(
 
 /// The number of overlapping pairs per body after which the search for overlaps ends. Without an overlap, the number of pairs whose boxes
 /// overlap is proportional to the number of bodies.
-const MOST_OVERLAPS: usize = 8;
+const MAX_OVERLAPS_PER_BODY: usize = 8;
 
 /// Finds pairs of bodies that overlap and do not pass through each other. `depth` returns the overlap of a pair of near bodies, m, or
 /// `None`. Returns all such pairs, in no special order, and false; or, if there are very many, some of them and true. So many bodies in one
@@ -151,7 +155,7 @@ pub(super) fn overlapping(
     (model, state): (&Model, &State),
     depth: impl Fn([usize; 2]) -> Option<f64>,
 ) -> (Vec<([usize; 2], f64)>, bool) {
-    let most = MOST_OVERLAPS * solids.iter().flatten().count().max(MOST_OVERLAPS);
+    let most = MAX_OVERLAPS_PER_BODY * solids.iter().flatten().count().max(MAX_OVERLAPS_PER_BODY);
     let mut found = Vec::new();
     sweep(
         solids,

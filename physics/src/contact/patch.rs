@@ -8,7 +8,7 @@ use super::closest_points::ClosestPoints;
 use super::solid::Pose;
 
 /// Two directions count as parallel if the sine of the angle between them is below this.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_SINE: f64 = 1e-9;
 
 /// The surface of a body around a contact point, in body axes.
 ///
@@ -258,7 +258,7 @@ fn spines(a: &Spine, b: &Spine) -> ClosestPoints {
     let (u, v) = (a.along, b.along);
     let cross = u.cross(v);
     let sine = cross.length();
-    if b.is_point() || sine < PARALLEL {
+    if b.is_point() || sine < PARALLEL_SINE {
         // Parallel lines are in contact at the middle of the length that they share, or at their nearer ends.
         let t = if b.is_point() { 0.0 } else { common_middle(a, b, w) };
         let from = w + t * v;
@@ -267,7 +267,7 @@ fn spines(a: &Spine, b: &Spine) -> ClosestPoints {
         let h = across.length();
         let taper = a.taper + b.taper * u.dot(v);
         let below = (1.0 - taper * taper).max(0.0).sqrt();
-        if below < PARALLEL {
+        if below < PARALLEL_SINE {
             return nowhere(a.at + s0 * u, b.at + t * v, across.try_normalize().unwrap_or(DVec3::X));
         }
         let s = s0 + taper * h / below;
@@ -286,7 +286,7 @@ fn spines(a: &Spine, b: &Spine) -> ClosestPoints {
     let sign = if out == 0.0 { 1.0_f64.copysign(h) } else { out.signum() };
     // Since the gap has a sign, it is smooth even when the lines cross each other.
     let below = (1.0 - k[0] * steepest[0] - k[1] * steepest[1]).max(0.0).sqrt();
-    if below < PARALLEL {
+    if below < PARALLEL_SINE {
         return nowhere(a.at + s0 * u, b.at + t0 * v, sign * unit);
     }
     let scale = sign * h / below;

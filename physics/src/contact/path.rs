@@ -5,11 +5,11 @@ use glam::{DQuat, DVec3};
 use super::super::{Model, State};
 use super::solid::Pose;
 
-/// Deviations below this fraction of the coordinates count as rounding errors.
-const ROUNDING: f64 = 2e-15;
+/// Deviations count as rounding errors if they are below this fraction of the coordinates.
+const COORDINATE_ROUNDING: f64 = 2e-15;
 
-/// Rotations that differ by less than this count as equal, rad: some rounding errors of orientations.
-const TURNING: f64 = 1e-14;
+/// Rotations count as equal if they differ by at most this angle, rad: some rounding errors of orientations.
+const ROTATION_ROUNDING: f64 = 1e-14;
 
 /// The path of a body between the two ends of a step: a cubic polynomial through positions and velocities, and a rotation whose angular
 /// velocity changes evenly. This accuracy is sufficient: if a touch is found on the path, steps of the integrator then locate it exactly.
@@ -45,7 +45,8 @@ impl Path {
         let h = duration;
         // The deviation from constant acceleration. In short steps, a rounding error would look like a large acceleration.
         let rest = way - 0.5 * h * (v + w);
-        let rounding = ROUNDING * after.location[i].abs().max(before.location[i].abs()).max_element();
+        let rounding =
+            COORDINATE_ROUNDING * after.location[i].abs().max(before.location[i].abs()).max_element();
         let rest = if rest.abs().max_element() <= rounding { DVec3::ZERO } else { rest };
         let (steady, rest) = ((w - v) / h, rest * (6.0 / (h * h)));
         let acceleration = [steady + rest, steady - rest];
@@ -53,7 +54,7 @@ impl Path {
         let first_turning = model.angular_velocity(i, before);
         let turning = 0.5 * (first_turning + model.angular_velocity(i, after));
         // In short steps, a rounding error of the orientation would look like a large angular velocity.
-        let turning = if (turned - h * turning).length() <= TURNING { turning } else { turned / h };
+        let turning = if (turned - h * turning).length() <= ROTATION_ROUNDING { turning } else { turned / h };
         let bend = acceleration[0].length().max(acceleration[1].length());
         Path {
             start: pose(i, model, before),

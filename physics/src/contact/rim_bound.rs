@@ -9,8 +9,8 @@ use super::patch::Patch;
 use super::path::Moving;
 use super::solid::Part;
 
-/// The search for a root ends when the root is known to within this fraction.
-const ACCURACY: f64 = 1e-3;
+/// The search for a root ends when the root is known to within this fraction of its value.
+const ROOT_TOLERANCE: f64 = 1e-3;
 
 /// The largest number of steps in the search for a root.
 const ROOT_STEPS: usize = 50;
@@ -83,7 +83,7 @@ fn until_root(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, touch: f64
         let next = high - end / slope(high);
         low += (high - low) * start / (start - end);
         high = next;
-        if high - low <= ACCURACY * low {
+        if high - low <= ROOT_TOLERANCE * low {
             break;
         }
     }
@@ -99,7 +99,8 @@ mod tests {
     /// rise and tilt.
     #[test]
     fn the_bound_is_just_below_the_time_at_which_the_first_point_comes_down() {
-        const MOST: f64 = 1.0;
+        /// The end of the search, s.
+        const MAX_TIME: f64 = 1.0;
         let mut random = Random::new(31);
         let mut landed = 0;
         for _ in 0..300 {
@@ -108,7 +109,7 @@ mod tests {
             let bend = 1.0 + random.number();
             let lowest = |t: f64| height + rate * t - (lean + t * leaning).length() - 0.5 * bend * t * t;
             let slope = |t: f64| rate - (lean + t * leaning).normalize().dot(leaning) - bend * t;
-            let bound = until_root(lowest, slope, 0.0, MOST);
+            let bound = until_root(lowest, slope, 0.0, MAX_TIME);
             let around = |t: f64| {
                 let points = (0..3_600).map(|i| f64::from(i) * std::f64::consts::TAU / 3_600.0);
                 let heights = points.map(|angle| {
@@ -119,7 +120,7 @@ mod tests {
             };
             let is_down = |t: f64| around(t) <= 0.0;
             assert!(!is_down(0.999 * bound), "{bound}");
-            if bound < MOST {
+            if bound < MAX_TIME {
                 assert!(is_down(1.002 * bound + 1e-6), "{bound}");
                 landed += 1;
             }

@@ -8,50 +8,54 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::constraint::{IMPLIED, Solver};
+use super::super::constraint::{PIVOT_TOLERANCE, Solver};
 use super::super::motion::Twist;
 use super::super::{BodyId, Breakdown, Model, State};
 use super::Impact;
 use super::closest_points::ClosestPoints;
-use super::collider::{Collider, SLIGHT, Touching};
+use super::collider::{Collider, SPEED_ROUNDING, Touching};
 use super::impulse::{Bounce, changed, impulses};
 use super::lasting_contact::{LastingContact, spoke};
 use super::laws::LawResidual;
 use super::path::pose;
 use super::touch::Touch;
 
-/// A rebound speed below this fraction of the largest closing speed is suppressed, because it would be invisible.
-const REST: f64 = 1e-8;
+/// A rebound is suppressed if its speed is below this fraction of the largest closing speed, because it would be invisible.
+const MIN_REBOUND_SPEED: f64 = 1e-8;
 
-/// Contact points that separate at less than this fraction of the largest closing speed may stay closed.
-const STILL: f64 = 1e-9;
+/// Contact points may stay closed if they separate at no more than this fraction of the largest closing speed. Elastic bodies are jammed if
+/// they approach faster than this after [`MAX_IMPACTS_PER_INSTANT`].
+const NORMAL_SPEED_TOLERANCE: f64 = 1e-9;
 
-/// If two bodies have more impacts in a step than their restitution explains, by more than this number, slow impacts count as rest. Bodies
-/// pressed together by others would otherwise bounce endlessly.
-const OFTEN: f64 = 10.0;
+/// Two bodies may have this many more impacts in a step than their restitution explains. After that, slow impacts count as rest. Bodies
+/// that others press together would otherwise bounce endlessly.
+const EXCESS_IMPACTS_BEFORE_REST: f64 = 10.0;
 
-/// With each further `MORE` impacts, the speed below which bodies count as at rest doubles. `MOST` is the largest factor.
-const MORE: f64 = 5.0;
-const MOST: f64 = 1000.0;
+/// After [`EXCESS_IMPACTS_BEFORE_REST`], the speed below which bodies count as at rest doubles with each further group of this many
+/// impacts.
+const IMPACTS_PER_DOUBLING: f64 = 5.0;
+/// The largest factor by which further impacts raise the speed below which bodies count as at rest.
+const MAX_REST_SPEED_FACTOR: f64 = 1000.0;
 
-/// If one pair has this many more impacts within a step than its restitution explains, or all pairs have `TOGETHER` impacts, Moreau's
-/// scheme replaces the search for single events.
-const TOO_OFTEN: f64 = 40.0;
-const TOGETHER: u32 = 1_000;
+/// Moreau's scheme replaces the search for single events if one pair has this many more impacts within a step than its restitution
+/// explains.
+const EXCESS_IMPACTS_BEFORE_MOREAU: f64 = 40.0;
+/// Moreau's scheme also replaces the search for single events if all pairs together have more impacts than this within a step.
+const IMPACTS_BEFORE_MOREAU: u32 = 1_000;
 
-/// Velocities count as equal if they differ by less than this fraction.
-const ALIKE: f64 = 1e-13;
+/// Velocities count as equal if they differ by at most this fraction of the speed.
+const VELOCITY_TOLERANCE: f64 = 1e-13;
 
 /// An impact adds energy if its work exceeds this fraction of the work that stops the approach. Rounding errors are smaller. The
-/// restitution that adds none is found to this accuracy.
-const GAIN: f64 = 1e-12;
+/// coefficient of restitution that adds no energy is found to this accuracy.
+const ENERGY_GAIN_TOLERANCE: f64 = 1e-12;
 
-/// The largest number of impacts in one instant, per touching pair.
-const ROUNDS: usize = 2_000;
+/// The largest number of impacts in one instant per touching pair.
+const MAX_IMPACTS_PER_INSTANT: usize = 2_000;
 
 /// The largest number of impacts in one instant per touching pair, if every impact dissipates energy. Wedged bodies have many impacts that
 /// each dissipate little. After this number, the remaining approach is stopped at once.
-const ROUNDS_WITH_LOSSES: usize = 100;
+const MAX_IMPACTS_WITH_LOSSES: usize = 100;
 
 /// A contact point of an impact: the unit vectors of its normal and its two tangents, and its position.
 #[derive(Clone, Copy)]
@@ -130,17 +134,17 @@ impl Collider {
         let mut speeds: Vec<f64> = (0..touching.len()).map(|i| approach(i, state)).collect();
         let mut struck = Vec::new();
         let is_elastic = touching.iter().any(|pair| pair.law.restitution == 1.0);
-        let rounds = if is_elastic { ROUNDS } else { ROUNDS_WITH_LOSSES };
+        let rounds = if is_elastic { MAX_IMPACTS_PER_INSTANT } else { MAX_IMPACTS_WITH_LOSSES };
         for round in 0.. {
             let fastest =
                 (0..touching.len()).max_by(|&i, &j| speeds[i].total_cmp(&speeds[j]).then(j.cmp(&i)));
             let Some(i) = fastest.filter(|&i| speeds[i] > 0.0) else { break };
             self.fastest = self.fastest.max(speeds[i]);
-            if speeds[i] <= SLIGHT * self.fastest {
+            if speeds[i] <= SPEED_ROUNDING * self.fastest {
                 break;
             }
             if round > rounds * touching.len() {
-                if is_elastic && speeds[i] > STILL * self.fastest {
+                if is_elastic && speeds[i] > NORMAL_SPEED_TOLERANCE * self.fastest {
                     return Err(Breakdown::Jammed { bodies: touching[i].bodies.map(BodyId::new), time });
                 }
                 // The decision of modes afterwards stops the remaining approach at all contact points at once.
@@ -164,7 +168,7 @@ impl Collider {
         for (pair, places) in touching.iter().zip(&places) {
             let twists = pair.bodies.map(|body| twist(body, model, state));
             let size = self.size(pair.bodies);
-            let still = STILL * self.fastest * self.haste(pair);
+            let still = NORMAL_SPEED_TOLERANCE * self.fastest * self.haste(pair);
             let near = pair.touches.iter().zip(places).filter(|(_, place)| place.rate(twists).x <= still);
             let near: Vec<&Touch> = near.map(|(touch, _)| touch).collect();
             let is_still =
@@ -186,8 +190,9 @@ impl Collider {
         if pair.law.restitution == 1.0 {
             return 1.0;
         }
-        let more = (f64::from(hits) - bounces(pair.law.restitution) - OFTEN) / MORE;
-        libm::exp2(more.max(0.0)).min(MOST)
+        let more = (f64::from(hits) - bounces(pair.law.restitution) - EXCESS_IMPACTS_BEFORE_REST)
+            / IMPACTS_PER_DOUBLING;
+        libm::exp2(more.max(0.0)).min(MAX_REST_SPEED_FACTOR)
     }
 
     /// Returns true if two bodies have hit each other too often in the current step, beyond what their restitution explains, or if all
@@ -196,7 +201,8 @@ impl Collider {
         let Some(law) = self.pairs.law(bodies).filter(|law| law.restitution < 1.0) else { return false };
         let hits = self.hits.get(&bodies).copied().unwrap_or(0);
         let all: u32 = self.hits.values().sum();
-        f64::from(hits) - bounces(law.restitution) > TOO_OFTEN || all > TOGETHER
+        f64::from(hits) - bounces(law.restitution) > EXCESS_IMPACTS_BEFORE_MOREAU
+            || all > IMPACTS_BEFORE_MOREAU
     }
 
     /// Returns a typical length of the smaller of two bodies, m.
@@ -217,7 +223,7 @@ impl Collider {
     ) -> LawResidual {
         let twists = |state: &State| pair.bodies.map(|body| twist(body, model, state));
         let before: Vec<DVec3> = places.iter().map(|place| place.rate(twists(state))).collect();
-        let rest = REST * self.fastest * self.haste(pair);
+        let rest = MIN_REBOUND_SPEED * self.fastest * self.haste(pair);
         let rests = pair.law.restitution < 1.0 && pair.law.restitution * speed <= rest;
         *self.hits.entry(pair.bodies).or_default() += 1;
         let bounce = Bounce {
@@ -279,7 +285,7 @@ impl Collider {
         let residual = self.laws.weigh(energy(state) - kinetic - given, kinetic, pair.bodies, time);
         self.laws.note(residual);
         self.laws.note_moment(moment.length(), moments, pair.bodies, time);
-        if (pair.law.restitution == 1.0 || speed > REST * self.fastest) && weight > 0.0 {
+        if (pair.law.restitution == 1.0 || speed > MIN_REBOUND_SPEED * self.fastest) && weight > 0.0 {
             let (place, normal) = (place / weight, normal.normalize_or_zero());
             let energy = (-work).max(0.0);
             self.impacts.push(Impact { time, bodies: pair.bodies, place, normal, impulse, energy });
@@ -298,14 +304,14 @@ fn without_gain(bounce: Bounce, before: &[DVec3], response: &[f64]) -> Vec<DVec3
             work += impulse.dot(*before + 0.5 * changed(response, &all, place));
             size += (*impulse * *before).abs().element_sum();
         }
-        (all, work > GAIN * size)
+        (all, work > ENERGY_GAIN_TOLERANCE * size)
     };
     let (all, gains) = find(bounce.restitution);
     if !gains {
         return all;
     }
     let (mut least, mut most) = (0.0, bounce.restitution);
-    while most - least > GAIN {
+    while most - least > ENERGY_GAIN_TOLERANCE {
         let middle = 0.5 * (least + most);
         *if find(middle).1 { &mut most } else { &mut least } = middle;
     }
@@ -314,7 +320,7 @@ fn without_gain(bounce: Bounce, before: &[DVec3], response: &[f64]) -> Vec<DVec3
 
 /// Returns the number of bounces in which a coefficient of restitution reduces the fastest approach to rest.
 fn bounces(restitution: f64) -> f64 {
-    libm::log(REST) / libm::log(restitution)
+    libm::log(MIN_REBOUND_SPEED) / libm::log(restitution)
 }
 
 /// Replaces an impact at several points by one at their middle, if the impact causes no rotation. Returns the contact point, its velocity
@@ -331,7 +337,7 @@ fn middle(
     let rate = before[0];
     let speed = rate.length();
     let is_same = |place: &Place| place.axes[0].dot(first.axes[0]) > 1.0 - 1e-14;
-    let is_alike = |other: &DVec3| (*other - rate).length() <= ALIKE * speed;
+    let is_alike = |other: &DVec3| (*other - rate).length() <= VELOCITY_TOLERANCE * speed;
     if !(places.iter().all(is_same) && before.iter().all(is_alike)) {
         return None;
     }
@@ -344,7 +350,7 @@ fn middle(
     let impulse = impulses(&[bounce], &[rate], &own)[0];
     let moved = |row: usize| (0..3).map(|column| response[row * 3 + column] * impulse[column]).sum::<f64>();
     let after = |at: usize| DVec3::new(moved(3 * at), moved(3 * at + 1), moved(3 * at + 2));
-    let is_turned = (1..n / 3).any(|at| (after(at) - after(0)).length() > ALIKE * speed);
+    let is_turned = (1..n / 3).any(|at| (after(at) - after(0)).length() > VELOCITY_TOLERANCE * speed);
     (!is_turned).then_some((place, rate, impulse))
 }
 
@@ -403,7 +409,7 @@ fn response_to(
     let along = (0..n).step_by(3).flat_map(|first| [first..first + 1, first + 1..first + 3]);
     for axes in along.filter(|_| joints.is_some()) {
         let own: f64 = axes.clone().map(|axis| response[axis * n + axis]).sum();
-        if own > IMPLIED * all_free[axes.clone()].iter().sum::<f64>() {
+        if own > PIVOT_TOLERANCE * all_free[axes.clone()].iter().sum::<f64>() {
             continue;
         }
         for axis in axes {

@@ -1,7 +1,7 @@
 //! The contact properties of surfaces: restitution and friction.
 
 /// The coefficient of friction of two bodies if neither specifies one.
-const FRICTION: f64 = 0.5;
+const DEFAULT_FRICTION: f64 = 0.5;
 
 /// The contact properties of a body's surface; `None` where the body does not specify a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ impl Surface {
         };
         ContactProperties {
             restitution: mix(self.restitution, other.restitution, f64::max, 0.0),
-            friction: mix(self.friction, other.friction, |a, b| (a * b).sqrt(), FRICTION),
+            friction: mix(self.friction, other.friction, |a, b| (a * b).sqrt(), DEFAULT_FRICTION),
             rolling_friction: mix(self.rolling_friction, other.rolling_friction, f64::max, 0.0),
         }
     }

@@ -63,12 +63,13 @@ fn touch(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> Vec<Touch> {
 const GROUND: Shape = Shape::Plane { normal: DVec3::Y };
 const BALL: Shape = Shape::Sphere { radius: 0.5 };
 const CUBE: Shape = Shape::Box { size: DVec3::new(1.0, 1.4, 0.6) };
-const SOFT: Shape = Shape::RoundedBox { size: DVec3::new(1.0, 1.4, 0.6), rounding: 0.2 };
+const ROUNDED_CUBE: Shape = Shape::RoundedBox { size: DVec3::new(1.0, 1.4, 0.6), rounding: 0.2 };
 const CAN: Shape = Shape::Cylinder { radius: 0.4, height: 1.2 };
 const PILL: Shape = Shape::Capsule { radius: 0.3, height: 1.6 };
 const CONE: Shape = Shape::Cone { radius: 0.5, top_radius: 0.0, height: 1.0 };
 const BUCKET: Shape = Shape::Cone { radius: 0.3, top_radius: 0.6, height: 0.8 };
-pub(super) const ALL: [Shape; 7] = [BALL, CUBE, SOFT, CAN, PILL, CONE, BUCKET];
+/// All shapes above except the ground.
+pub(super) const ALL_SHAPES: [Shape; 7] = [BALL, CUBE, ROUNDED_CUBE, CAN, PILL, CONE, BUCKET];
 
 #[test]
 fn gaps_have_closed_forms() {
@@ -91,7 +92,7 @@ fn gaps_have_closed_forms() {
         (&CUBE, &CUBE, at(0.1, 1.5, 0.2), 0.1),
         (&CUBE, &CUBE, at(0.1, 1.3, 0.1), -0.1),
         (&CUBE, &CUBE, at(1.3, 1.8, 0.2), 0.5),
-        (&SOFT, &CUBE, at(1.3, 1.8, 0.2), libm::hypot(0.5, 0.6) - 0.2),
+        (&ROUNDED_CUBE, &CUBE, at(1.3, 1.8, 0.2), libm::hypot(0.5, 0.6) - 0.2),
         (&CAN, &BALL, at(1.2, 0.3, 0.0), 0.3),
         (&CAN, &BALL, at(0.7, 1.0, 0.0), 0.5 - 0.5),
         (&CAN, &CAN, at(0.6, 0.2, 0.8), 0.2),
@@ -147,7 +148,7 @@ fn parry(a: &Shape, pa: &Pose, b: &Shape, pb: &Pose) -> f64 {
 #[test]
 fn gaps_are_those_of_parry() {
     let mut random = Random::new(1);
-    let shapes = [BALL, CUBE, SOFT, CAN, PILL, CONE];
+    let shapes = [BALL, CUBE, ROUNDED_CUBE, CAN, PILL, CONE];
     let mut worst = 0.0_f64;
     for a in &shapes {
         for b in &shapes {
@@ -171,8 +172,8 @@ fn gaps_are_those_of_parry() {
 #[test]
 fn nearest_places_prove_the_gap() {
     let mut random = Random::new(5);
-    for a in &ALL {
-        for b in &ALL {
+    for a in &ALL_SHAPES {
+        for b in &ALL_SHAPES {
             for _ in 0..100 {
                 let (pa, pb) = (random.pose(0.9), random.pose(0.9));
                 let found = near(a, &pa, b, &pb);
@@ -198,8 +199,8 @@ fn nearest_places_prove_the_gap() {
 #[test]
 fn gaps_do_not_depend_on_the_order_nor_on_the_place() {
     let mut random = Random::new(2);
-    for a in &ALL {
-        for b in &ALL {
+    for a in &ALL_SHAPES {
+        for b in &ALL_SHAPES {
             for _ in 0..100 {
                 let (pa, pb, motion) = (random.pose(1.0), random.pose(1.0), random.pose(1.0));
                 let move_by = |pose: &Pose| Pose {
@@ -227,8 +228,8 @@ fn gaps_do_not_depend_on_the_order_nor_on_the_place() {
 #[test]
 fn bodies_at_random_touch_once() {
     let mut random = Random::new(3);
-    for a in &ALL {
-        for b in &ALL {
+    for a in &ALL_SHAPES {
+        for b in &ALL_SHAPES {
             for _ in 0..50 {
                 let (pa, mut pb) = (random.pose(0.1), random.pose(2.0));
                 let apart = near(a, &pa, b, &pb);
@@ -312,8 +313,8 @@ fn bodies_rest_on_all_their_corners() {
         (&CUBE, 0.7, DQuat::IDENTITY, 4),
         (&CUBE, 0.5, lying, 4),
         (&CUBE, 0.7 * cos + 0.5 * sin, tilted, 2),
-        (&SOFT, 0.7, DQuat::IDENTITY, 4),
-        (&SOFT, 0.2 + 0.5 * cos + 0.3 * sin, tilted, 2),
+        (&ROUNDED_CUBE, 0.7, DQuat::IDENTITY, 4),
+        (&ROUNDED_CUBE, 0.2 + 0.5 * cos + 0.3 * sin, tilted, 2),
         (&CAN, 0.6, DQuat::IDENTITY, 4),
         (&CAN, 0.4, lying, 2),
         (&CAN, 0.6 * cos + 0.4 * sin, tilted, 1),
@@ -387,7 +388,7 @@ fn a_mesh_touches_as_the_solid_does_that_it_encloses() {
     let mut random = Random::new(6);
     let Shape::Box { size } = CUBE else { return };
     let mesh = mesh_of_box(size);
-    for other in &ALL {
+    for other in &ALL_SHAPES {
         for _ in 0..50 {
             let (pa, mut pb) = (random.pose(0.1), random.pose(2.0));
             let solid_gap = near(&CUBE, &pa, other, &pb);

@@ -2,20 +2,21 @@
 
 use glam::DVec3;
 
-use super::closest_points::{ClosestPoints, EDGE, apart, ball_and, between, edge, for_pairs};
+use super::closest_points::{ClosestPoints, FEATURE_TOLERANCE, apart, ball_and, between, edge, for_pairs};
 use super::facing::{Facing, facing};
 use super::feature::Feature;
 use super::patch::{Patch, meet, meet_placed};
 use super::solid::{Core, Part, Pose, Solid};
 
-/// A flat end lies flat on a face if the sine of the angle between them is below this.
-const FLAT: f64 = 1e-7;
-/// Two contact points count as the same if their distance is below this fraction of the body's size.
-const SAME: f64 = 1e-6;
+/// A flat end lies flat on a face, and two sides lie along each other, if the sine of the angle between them is below this.
+const FLAT_CONTACT_SINE: f64 = 1e-7;
+/// Two contact points count as the same if their distance is below this fraction of the smaller body's size, and if the cosine of the angle
+/// between their normals differs from 1 by less than this.
+const SAME_POINT_TOLERANCE: f64 = 1e-6;
 /// The tolerances at the borders of two features and the rounding errors there are below this fraction of the bodies' sizes.
-const BORDER: f64 = 1e-6;
-/// The largest number of contact points kept for a pair of convex parts. They are enough to hold one part on the other.
-const MOST: usize = 8;
+const BORDER_TOLERANCE: f64 = 1e-6;
+/// The largest number of contact points that are kept for a pair of convex parts. So many are enough to hold one part on the other.
+const MAX_CONTACT_POINTS: usize = 8;
 
 /// A contact point of two solids that touch or nearly touch.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +57,7 @@ pub(crate) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -
     });
     if a.is_surface() || b.is_surface() {
         // Adjacent triangles share edges and corners, so the same contact may occur several times.
-        let same = SAME * a.size().min(b.size());
+        let same = SAME_POINT_TOLERANCE * a.size().min(b.size());
         let mut once: Vec<Touch> = Vec::new();
         for touch in all {
             if !once.iter().any(|other| is_same(&other.meeting, &touch.meeting, same)) {
@@ -75,7 +76,7 @@ pub(crate) fn touches(a: &Solid, pa: &Pose, b: &Solid, pb: &Pose, within: f64) -
 
 /// Returns true if two contact points coincide, with the same normal. `same` is the tolerance, m.
 fn is_same(a: &ClosestPoints, b: &ClosestPoints, same: f64) -> bool {
-    a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME
+    a.on[1].distance(b.on[1]) < same && a.normal.dot(b.normal) > 1.0 - SAME_POINT_TOLERANCE
 }
 
 /// Returns the distance of a contact point from the borders of its features, m. It is negative outside, and infinite without borders.
@@ -99,7 +100,7 @@ pub(crate) fn inside(touch: &Touch, a: &Solid, pa: &Pose, b: &Solid, pb: &Pose) 
         if !matches!(touch.patches[1 - side], Patch::Plane { .. }) && sum > 0.0 {
             let normal = if side == 0 { meeting.normal } else { -meeting.normal };
             let slack = feature.slack(place, pose.orientation.conjugate() * normal);
-            least = least.min(sum * (slack + EDGE));
+            least = least.min(sum * (slack + FEATURE_TOLERANCE));
         }
     }
     least
@@ -180,7 +181,7 @@ impl Pair<'_> {
                 (nearest.gap, normal, [top(pa, nearest.on[0], normal), top(pb, nearest.on[1], -normal)])
             }
         };
-        self.depth = self.within + gap.abs() + SAME * a.bound.min(b.bound);
+        self.depth = self.within + gap.abs() + SAME_POINT_TOLERANCE * a.bound.min(b.bound);
         let near_a = near_plane(a, pa, tops[0] - self.depth, normal);
         let near_b = near_plane(b, pb, tops[1] - self.depth, -normal);
         // Each feature is transformed once, not for each pair.
@@ -202,7 +203,7 @@ impl Pair<'_> {
     ) {
         let origin = self.pa.location;
         // Beyond this distance, two features do not touch within their borders.
-        let reach = self.within.max(2.0 * self.depth) + BORDER * (self.a.bound + self.b.bound);
+        let reach = self.within.max(2.0 * self.depth) + BORDER_TOLERANCE * (self.a.bound + self.b.bound);
         for (i, a) in near_a {
             for (j, b) in near_b {
                 if !is_wanted(a, b) || !a.may_reach(b, reach) {
@@ -248,7 +249,7 @@ impl Pair<'_> {
         let (own, other) = if of_second { (self.pb, self.pa) } else { (self.pa, self.pb) };
         match *rim {
             Patch::Circle { axis, .. } => {
-                (own.orientation * axis).cross(other.orientation * normal).length() < FLAT
+                (own.orientation * axis).cross(other.orientation * normal).length() < FLAT_CONTACT_SINE
             }
             _ => false,
         }
@@ -296,7 +297,8 @@ impl Pair<'_> {
             let Some(feature) = features[side].map(|i| &part.features[i]) else { continue };
             let edge = edge(part, !patches[1 - side].is_sharp());
             // Two faces may be slightly tilted while all corners are within reach.
-            let tilt = (FLAT + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1) * part.bound;
+            let tilt = (FLAT_CONTACT_SINE + 4.0 * (self.within + meeting.gap.abs()) / part.bound).min(0.1)
+                * part.bound;
             let place = pose.local(meeting.on[side]);
             if feature.margin(place) < -edge {
                 return;
@@ -306,7 +308,7 @@ impl Pair<'_> {
                 return;
             }
         }
-        let same = SAME * self.a.bound.min(self.b.bound);
+        let same = SAME_POINT_TOLERANCE * self.a.bound.min(self.b.bound);
         if self.found.iter().any(|touch| is_same(&touch.meeting, &meeting, same)) {
             return;
         }
@@ -320,7 +322,7 @@ impl Pair<'_> {
             [
                 Patch::Line { along: u, .. } | Patch::Side { along: u, .. },
                 Patch::Line { along: v, .. } | Patch::Side { along: v, .. },
-            ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT,
+            ] => (self.pa.orientation * u).cross(self.pb.orientation * v).length() < FLAT_CONTACT_SINE,
             _ => false,
         };
         // Parallel lines in contact are supported at their ends, which are separate contact points.
@@ -335,12 +337,12 @@ impl Pair<'_> {
 
 /// Limits the number of contact points: keeps the points farthest from each other, beginning with the smallest gap.
 fn farthest(all: Vec<Touch>) -> Vec<Touch> {
-    if all.len() <= MOST {
+    if all.len() <= MAX_CONTACT_POINTS {
         return all;
     }
     let first = (0..all.len()).min_by(|&i, &j| all[i].meeting.gap.total_cmp(&all[j].meeting.gap));
     let mut kept: Vec<usize> = first.into_iter().collect();
-    while kept.len() < MOST {
+    while kept.len() < MAX_CONTACT_POINTS {
         let far = |i: usize| {
             let place = all[i].meeting.on[0];
             kept.iter().map(|&k| all[k].meeting.on[0].distance(place)).fold(f64::INFINITY, f64::min)
@@ -389,7 +391,7 @@ fn near_plane(part: &Part, pose: &Pose, lowest: f64, normal: DVec3) -> Vec<usize
 mod tests {
     use glam::DQuat;
 
-    use super::super::tests::{ALL, Random, solid};
+    use super::super::tests::{ALL_SHAPES, Random, solid};
     use super::*;
     use crate::shape::Shape;
 
@@ -399,7 +401,7 @@ mod tests {
         if nearest.gap > pair.within {
             return;
         }
-        pair.depth = pair.within + nearest.gap.abs() + SAME * pair.a.bound.min(pair.b.bound);
+        pair.depth = pair.within + nearest.gap.abs() + SAME_POINT_TOLERANCE * pair.a.bound.min(pair.b.bound);
         let near = |part: &Part, pose: &Pose, at: DVec3, normal: DVec3| {
             let lowest = pose.local(at).dot(pose.orientation.conjugate() * normal) - pair.depth;
             near_plane(part, pose, lowest, normal)
@@ -423,7 +425,7 @@ mod tests {
     fn touches_are_those_of_all_pairs_of_features() {
         let mut random = Random::new(13);
         let brick = Shape::Box { size: DVec3::new(0.2, 0.1, 0.2) };
-        let shapes: Vec<&Shape> = ALL.iter().skip(1).chain([&brick]).collect();
+        let shapes: Vec<&Shape> = ALL_SHAPES.iter().skip(1).chain([&brick]).collect();
         let (mut found, mut points) = (0, 0);
         for x in &shapes {
             for y in &shapes {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// The largest number of boxes in a leaf of the tree.
-const LEAF: usize = 4;
+const MAX_LEAF_BOXES: usize = 4;
 
 /// An axis-parallel box: its lowest and its highest corner, m.
 type Bounds = [DVec3; 2];
@@ -68,7 +68,7 @@ fn grow(nodes: &mut Vec<Node>, boxes: &mut [(usize, Bounds)], first: usize) {
     }
     let number = nodes.len();
     nodes.push(Node { bounds: [low, high], first, end: first + boxes.len(), next: 0 });
-    if boxes.len() > LEAF {
+    if boxes.len() > MAX_LEAF_BOXES {
         let (axis, middle) = ((high - low).max_position(), boxes.len() / 2);
         let at = |(_, [low, high]): &(usize, Bounds)| low[axis] + high[axis];
         boxes.select_nth_unstable_by(middle, |a, b| at(a).total_cmp(&at(b)));

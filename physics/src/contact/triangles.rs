@@ -10,7 +10,7 @@ use super::solid::Pose;
 use crate::shape::Mesh;
 
 /// Adjacent triangles count as coplanar if the sine of the angle between them is below this. Their common edge then makes no contact.
-const FLAT: f64 = 1e-9;
+const COPLANAR_SINE: f64 = 1e-9;
 
 /// Returns the triangles of a mesh, each with its corners and its features. `pose` is the pose of the mesh in body axes.
 ///
@@ -85,11 +85,11 @@ fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
 fn outward(into: &[DVec3]) -> Option<DVec3> {
     let sum: DVec3 = into.iter().sum();
     let out = -sum.try_normalize()?;
-    (sum.length() > FLAT && into.iter().all(|direction| direction.dot(out) <= 0.0)).then_some(out)
+    (sum.length() > COPLANAR_SINE && into.iter().all(|direction| direction.dot(out) <= 0.0)).then_some(out)
 }
 
 /// Returns true if a corner of a mesh is convex. `edges` holds the directions of its edges.
 fn outward_of_all(edges: &[DVec3]) -> bool {
     let out = -edges.iter().sum::<DVec3>().normalize_or_zero();
-    edges.iter().all(|edge| edge.dot(out) < -FLAT)
+    edges.iter().all(|edge| edge.dot(out) < -COPLANAR_SINE)
 }

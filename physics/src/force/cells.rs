@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 /// The largest number of cells along an axis. The key of a cell holds its cell number along each of the three axes.
-const MOST: f64 = 1_048_576.0;
-/// The bits of a key for each axis. [`MOST`] cells need one bit less; the extra bit leaves room for a border of cells on all sides.
-const BITS: u32 = 21;
+const MAX_CELLS_PER_AXIS: f64 = 1_048_576.0;
+/// The bits of a key for each axis. [`MAX_CELLS_PER_AXIS`] cells need one bit less; the extra bit leaves room for a border of cells on all
+/// sides.
+const KEY_BITS_PER_AXIS: u32 = 21;
 
 /// Points sorted by cells. A cell is a box whose edges are at least as long as the reach, the largest distance of a pair of near points. So
 /// all points within reach of a point are in the same cell or in one of the 26 cells around it. The keys of neighbouring cells along x are
@@ -23,9 +24,9 @@ pub(super) struct Cells {
     spare: (Vec<u64>, Vec<u32>),
 }
 
-/// The offsets (y, z) of the four neighbouring rows of cells that are searched from each row. Together with the row itself, they cover
-/// each pair of neighbouring cells once.
-const AHEAD: [(i64, i64); 4] = [(1, 0), (-1, 1), (0, 1), (1, 1)];
+/// The offsets (y, z) of the four neighboring rows of cells that are searched from each row. Together with the row itself, they cover each
+/// pair of neighboring cells once.
+const NEIGHBOR_ROW_OFFSETS: [(i64, i64); 4] = [(1, 0), (-1, 1), (0, 1), (1, 1)];
 
 impl Cells {
     /// Sorts points into cells whose edges are at least `reach`, m.
@@ -34,7 +35,7 @@ impl Cells {
         let finite = || points.iter().filter(|point| point.is_finite());
         let low = finite().fold(DVec3::INFINITY, |low, point| low.min(*point));
         let high = finite().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
-        let edge = ((high - low) / (MOST - 2.0)).max(DVec3::splat(reach));
+        let edge = ((high - low) / (MAX_CELLS_PER_AXIS - 2.0)).max(DVec3::splat(reach));
         self.keys.clear();
         self.keys.extend(points.iter().map(|point| key((*point - low) / edge)));
         self.number.clear();
@@ -50,15 +51,16 @@ impl Cells {
     /// order.
     #[allow(clippy::cast_possible_truncation, reason = "a digit is small, and so is the number of points")]
     fn sort_keys(&mut self) {
-        const DIGIT: u32 = 11;
+        /// The number of bits of a key by which one pass sorts.
+        const DIGIT_BITS: u32 = 11;
         let used = self.keys.iter().fold(0, |used, key| used | key);
         let (keys, numbers) = &mut self.spare;
         keys.resize(self.keys.len(), 0);
         numbers.resize(self.keys.len(), 0);
         let mut shift = 0;
         while shift < u64::BITS && used >> shift != 0 {
-            let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT) - 1);
-            let mut begin = [0_u32; 1 << DIGIT];
+            let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT_BITS) - 1);
+            let mut begin = [0_u32; 1 << DIGIT_BITS];
             self.keys.iter().for_each(|key| begin[digit(*key)] += 1);
             let mut sum = 0;
             for count in &mut begin {
@@ -71,7 +73,7 @@ impl Cells {
             }
             std::mem::swap(&mut self.keys, keys);
             std::mem::swap(&mut self.number, numbers);
-            shift += DIGIT;
+            shift += DIGIT_BITS;
         }
     }
 
@@ -81,7 +83,7 @@ impl Cells {
         let count = self.keys.len();
         // For each of the four rows, the search continues at the position that the previous cell has reached, because cells and their
         // neighbours come in rising order.
-        let mut from = [0; AHEAD.len()];
+        let mut from = [0; NEIGHBOR_ROW_OFFSETS.len()];
         let mut first = 0;
         while first < count {
             let key = self.keys[first];
@@ -91,8 +93,8 @@ impl Cells {
             for point in first..end {
                 see(point, point + 1..end + next);
             }
-            for (from, (y, z)) in from.iter_mut().zip(AHEAD) {
-                let row = key.wrapping_add_signed((y << BITS) + (z << (2 * BITS)));
+            for (from, (y, z)) in from.iter_mut().zip(NEIGHBOR_ROW_OFFSETS) {
+                let row = key.wrapping_add_signed((y << KEY_BITS_PER_AXIS) + (z << (2 * KEY_BITS_PER_AXIS)));
                 while *from < count && self.keys[*from] < row - 1 {
                     *from += 1;
                 }
@@ -114,8 +116,8 @@ impl Cells {
     reason = "the conversion saturates, and what is nowhere may be in any cell"
 )]
 fn key(place: DVec3) -> u64 {
-    let [x, y, z] = place.to_array().map(|place| place.clamp(0.0, MOST - 1.0) as u64 + 1);
-    x | y << BITS | z << (2 * BITS)
+    let [x, y, z] = place.to_array().map(|place| place.clamp(0.0, MAX_CELLS_PER_AXIS - 1.0) as u64 + 1);
+    x | y << KEY_BITS_PER_AXIS | z << (2 * KEY_BITS_PER_AXIS)
 }
 
 #[cfg(test)]

@@ -6,10 +6,10 @@ use super::super::BodyId;
 use super::{Loads, Moment};
 
 /// The number of bodies in a tile. Two tiles and their sums fit into the first-level cache, and are kept on the stack.
-const TILE: usize = 128;
-/// The largest number of bodies for which tiles are not used: for so few bodies, copying a tile takes as long as visiting all pairs.
-const FEW: usize = 16;
-/// The number of interactions that are computed side by side, so that the compiler can vectorise the loop.
+const TILE_SIZE: usize = 128;
+/// The largest number of bodies for which tiles are not used. For so few bodies, it takes as long to copy a tile as to visit all pairs.
+const MAX_BODIES_WITHOUT_TILES: usize = 16;
+/// The number of interactions that are computed side by side, so that the compiler can vectorize the loop.
 const LANES: usize = 4;
 
 /// The force and the potential of all pairs of some bodies:
@@ -49,7 +49,7 @@ pub(super) fn count(bodies: &[BodyId], against: Option<&[BodyId]>) -> u64 {
 impl Pairs<'_> {
     /// Adds the forces of all pairs to the loads of their bodies.
     pub(super) fn apply(&self, moment: &Moment, loads: &mut Loads) {
-        if self.against.is_none() && self.bodies.len() <= FEW {
+        if self.against.is_none() && self.bodies.len() <= MAX_BODIES_WITHOUT_TILES {
             return self.apply_to_few(moment, loads);
         }
         let softening = self.softening * self.softening;
@@ -71,7 +71,7 @@ impl Pairs<'_> {
     fn apply_to_few(&self, moment: &Moment, loads: &mut Loads) {
         let (bodies, places) = (moment.model.present(self.bodies), moment.state.location.as_slice());
         let softening = self.softening * self.softening;
-        let mut pulls = [DVec3::ZERO; FEW];
+        let mut pulls = [DVec3::ZERO; MAX_BODIES_WITHOUT_TILES];
         for (j, there) in bodies.iter().map(|body| body.index()).enumerate().skip(1) {
             let (at, strength) = (places[there], self.strength[there]);
             let mut back = DVec3::ZERO;
@@ -110,9 +110,9 @@ impl Pairs<'_> {
         let bodies = moment.model.present(self.bodies);
         if let Some(against) = self.against {
             let against = moment.model.present(against);
-            for head in bodies.chunks(TILE) {
+            for head in bodies.chunks(TILE_SIZE) {
                 let mut first = self.tile(head, moment);
-                let mut others = against.chunks(TILE).peekable();
+                let mut others = against.chunks(TILE_SIZE).peekable();
                 while let Some(other) = others.next() {
                     let mut second = self.tile(other, moment);
                     see(&mut first, Some(&mut second), others.peek().is_none());
@@ -123,11 +123,11 @@ impl Pairs<'_> {
         }
         let mut rest = &*bodies;
         while !rest.is_empty() {
-            let (head, behind) = rest.split_at(TILE.min(rest.len()));
+            let (head, behind) = rest.split_at(TILE_SIZE.min(rest.len()));
             let mut first = self.tile(head, moment);
             see(&mut first, None, behind.is_empty());
             counter.add(first.len() * (first.len() - 1) / 2);
-            let mut others = behind.chunks(TILE).peekable();
+            let mut others = behind.chunks(TILE_SIZE).peekable();
             while let Some(other) = others.next() {
                 let mut second = self.tile(other, moment);
                 see(&mut first, Some(&mut second), others.peek().is_none());
@@ -138,9 +138,9 @@ impl Pairs<'_> {
     }
 
     fn tile<'b>(&self, bodies: &'b [BodyId], moment: &Moment) -> Tile<'b> {
-        let zero = [0.0; TILE];
+        let zero = [0.0; TILE_SIZE];
         let mut tile =
-            Tile { bodies, at: [zero; 3], strength: zero, movable: [false; TILE], pull: [zero; 3] };
+            Tile { bodies, at: [zero; 3], strength: zero, movable: [false; TILE_SIZE], pull: [zero; 3] };
         for (k, body) in bodies.iter().enumerate() {
             let i = body.index();
             let location = moment.state.location[i];
@@ -152,14 +152,14 @@ impl Pairs<'_> {
     }
 }
 
-/// Copies of up to [`TILE`] bodies, with one array for each coordinate.
+/// Copies of up to [`TILE_SIZE`] bodies, with one array for each coordinate.
 struct Tile<'a> {
     bodies: &'a [BodyId],
-    at: [[f64; TILE]; 3],
-    strength: [f64; TILE],
-    movable: [bool; TILE],
+    at: [[f64; TILE_SIZE]; 3],
+    strength: [f64; TILE_SIZE],
+    movable: [bool; TILE_SIZE],
     /// The sum Σ sⱼ d / (d² + ε²)^(3/2) for each body, over the bodies j visited so far: one array for each axis.
-    pull: [[f64; TILE]; 3],
+    pull: [[f64; TILE_SIZE]; 3],
 }
 
 impl Tile<'_> {
@@ -182,7 +182,7 @@ impl Tile<'_> {
     /// Adds the interactions of all pairs of one body in this tile and one body in `other`.
     fn attract(&mut self, other: &mut Tile<'_>, softening: f64) {
         // For full tiles, the compiler knows the number of lanes. The first tile can be partly filled only if there are two groups.
-        let full = if self.len() == TILE { TILE } else { 0 };
+        let full = if self.len() == TILE_SIZE { TILE_SIZE } else { 0 };
         for j in 0..other.len() {
             let (at, strength) = (other.at.map(|at| at[j]), other.strength[j]);
             let mut back = [[0.0; LANES]; 3];

@@ -145,9 +145,9 @@ impl FreeRotation {
         orientation: DQuat,
         momentum: DVec3,
     ) -> (DQuat, DVec3) {
-        /// The smallest sin² of the angle between the gradients of |M|² and D at which D is restored. It is smaller only close to a
-        /// stable axis, where errors do not grow.
-        const LEAST: f64 = 1e-3;
+        /// The smallest sin² of the angle between the gradients of |M|² and D at which D is restored. It is smaller only close to a stable
+        /// axis, where errors do not grow.
+        const MIN_SINE_SQUARED: f64 = 1e-3;
         if !can_flip(inverse_inertia) {
             // In world axes, the angular momentum stays as it is.
             return (orientation, momentum);
@@ -161,7 +161,7 @@ impl FreeRotation {
             let size = 0.5 * (self.momentum.length_squared() - mm);
             let shape = 0.5 * (self.invariant - mg);
             let area = mm * gg - mg * mg;
-            momentum += if area > LEAST * mm * gg {
+            momentum += if area > MIN_SINE_SQUARED * mm * gg {
                 ((size * gg - shape * mg) * momentum + (shape * mm - size * mg) * gradient) / area
             } else {
                 (size / mm) * momentum
@@ -180,7 +180,7 @@ fn beyond_middle(inverse: DVec3) -> DVec3 {
 }
 
 /// The error of a position or speed is relative to its value, but at least to this fraction of the typical value.
-const SMALL: f64 = 0.1;
+const MIN_SCALE_FRACTION: f64 = 0.1;
 
 /// Lower limits of the values to which the errors of positions and speeds are relative. The error of a value below its limit is divided by
 /// the limit instead of the value. The limits follow from the size of the whole motion.
@@ -209,6 +209,6 @@ impl Scales {
             let falling = loads.force[i].length() * model.inverse_mass()[i] * length;
             square = square.max(state.velocity[i].length_squared()).max(falling);
         }
-        Scales { length: SMALL * length, speed: SMALL * square.sqrt() }
+        Scales { length: MIN_SCALE_FRACTION * length, speed: MIN_SCALE_FRACTION * square.sqrt() }
     }
 }

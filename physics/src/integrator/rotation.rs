@@ -57,7 +57,8 @@ impl Free {
 mod tests {
     use super::*;
 
-    const INVERSE: DVec3 = DVec3::new(1.0, 0.5, 0.25);
+    /// The inverse moments of inertia about the body axes, 1/(kg m²).
+    const INVERSE_INERTIA: DVec3 = DVec3::new(1.0, 0.5, 0.25);
     const L: DVec3 = DVec3::new(0.3, -1.0, 2.0);
 
     fn start() -> DQuat {
@@ -75,16 +76,16 @@ mod tests {
 
     #[test]
     fn a_free_rotation_can_be_undone() {
-        let there = free(start(), L, INVERSE, 0.5);
+        let there = free(start(), L, INVERSE_INERTIA, 0.5);
         assert!(!there.abs_diff_eq(start(), 0.1));
-        let back = free(there, L, INVERSE, -0.5);
+        let back = free(there, L, INVERSE_INERTIA, -0.5);
         assert!(back.abs_diff_eq(start(), 1e-15));
     }
 
     /// The difference quotient of a free rotation over dt = 1e-6 must equal the rate. Its error is ½ q'' dt, where q'' is about 1.
     #[test]
     fn both_ways_to_turn_begin_with_the_same_rate() {
-        for inverse in [INVERSE, DVec3::splat(0.5)] {
+        for inverse in [INVERSE_INERTIA, DVec3::splat(0.5)] {
             let dt = 1e-6;
             let angular_velocity = start() * (inverse * (start().conjugate() * L));
             let moved = (free(start(), L, inverse, dt) - start()) * (1.0 / dt);

@@ -9,7 +9,7 @@ use super::super::{Accounts, Loads, Model, State, System};
 use super::rotation;
 
 /// The number of independent bodies that are advanced together. Their data stay in the first-level cache.
-const BLOCK: usize = 128;
+const BLOCK_SIZE: usize = 128;
 
 /// A stage of a Runge–Kutta method in which each stage depends only on the previous stage.
 #[derive(Clone, Copy)]
@@ -50,7 +50,7 @@ impl Straight {
         }
         self.turn(model, stages, dt, state);
         let by_blocks = model.is_local() && model.sum_part(0..0, 0.0, state, &mut self.loads);
-        let size = if by_blocks { BLOCK } else { count.max(1) };
+        let size = if by_blocks { BLOCK_SIZE } else { count.max(1) };
         for start in (0..count).step_by(size) {
             let block = start..(start + size).min(count);
             self.location.clear();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::State;
 
 /// Two velocities count as equal if their relative difference is at most this.
-const SAME: f64 = 4e-16;
+const VELOCITY_TOLERANCE: f64 = 4e-16;
 
 /// The velocities and angular momenta of all bodies at one stage of a step.
 #[derive(Clone, Default)]
@@ -49,7 +49,8 @@ impl Velocities {
         let take = |known: &[DVec3], new: &mut [DVec3]| {
             let mut are_all = true;
             for (known, new) in known.iter().zip(new) {
-                let is_same = (*known - *new).abs().max_element() <= SAME * known.abs().max_element();
+                let is_same =
+                    (*known - *new).abs().max_element() <= VELOCITY_TOLERANCE * known.abs().max_element();
                 are_all &= is_same;
                 *new = if is_same { *known } else { *new };
             }

@@ -20,12 +20,12 @@ pub(super) const METHOD: Method = Method {
     take_over: None,
 };
 
-/// 1 / (2 − ∛2): the length of the first and of the third second-order step, as a fraction of the whole step. The three lengths add up to
-/// 1.
-const OUTER: f64 = 1.351_207_191_959_657_8;
+/// 1 / (2 − ∛2): the length of the first and of the third second-order step, as a fraction of the whole step. The lengths of the three
+/// steps add up to 1.
+const OUTER_STEP_FRACTION: f64 = 1.351_207_191_959_657_8;
 
 /// The largest number of iterations that find the mean velocity in a kick.
-const TRIALS: usize = 60;
+const MAX_ITERATIONS: usize = 60;
 
 #[derive(Clone, Default)]
 struct Yoshida4 {
@@ -43,7 +43,7 @@ impl Yoshida4 {
         self.before.read(state);
         system.evaluate_forces(t + half, state, &mut self.loads);
         splitting::kick(model, &self.loads, dt, state);
-        let trials = if model.depends_on_motion() { TRIALS } else { 0 };
+        let trials = if model.depends_on_motion() { MAX_ITERATIONS } else { 0 };
         for _ in 0..trials {
             self.after.read(state);
             self.before.write_mean(&self.after, state);
@@ -61,7 +61,7 @@ impl Yoshida4 {
 
 impl Integrator for Yoshida4 {
     fn advance(&mut self, system: &mut System<'_>, t: f64, dt: f64, state: &mut State) {
-        let outer = OUTER * dt;
+        let outer = OUTER_STEP_FRACTION * dt;
         self.leap(system, t, outer, state);
         self.leap(system, t + outer, dt - 2.0 * outer, state);
         self.leap(system, t + dt - outer, outer, state);

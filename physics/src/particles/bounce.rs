@@ -13,24 +13,26 @@ use super::particle_step::{ParticlePath, ParticleStep};
 use super::stepper::Stepper;
 use crate::contact::{Ball, ContactProperties, Surface};
 
-/// A particle touches an obstacle if the gap is at most `TOUCH` times its radius, or `DIGITS` times its largest coordinate, whichever is
-/// larger.
-const TOUCH: f64 = 1e-11;
-const DIGITS: f64 = 2e-15;
-/// A gap up to this fraction of the particle's radius counts as contact at the beginning of a step.
-const SNUG: f64 = 1e-6;
-/// An approach slower than this fraction of the speeds of particle and obstacle is taken for a rounding error.
-const SLIGHT: f64 = 1e-10;
-/// A rebound that would last for less than this fraction of a step is ignored: the particle stays in contact.
-const SHORT: f64 = 0.25;
+/// A particle touches an obstacle if the gap is at most this fraction of its radius, or at most [`COORDINATE_ROUNDING`]
+/// times its largest coordinate.
+const CONTACT_TOLERANCE: f64 = 1e-11;
+/// A gap counts as a rounding error if it is at most this fraction of the particle's largest coordinate.
+const COORDINATE_ROUNDING: f64 = 2e-15;
+/// At the beginning of a step, a gap counts as contact if it is at most this fraction of the particle's radius.
+const INITIAL_CONTACT_TOLERANCE: f64 = 1e-6;
+/// A closing speed counts as a rounding error if it is below this fraction of the speeds of particle and obstacle.
+const SPEED_ROUNDING: f64 = 1e-10;
+/// The shortest time of a rebound, as a fraction of a step. A shorter rebound is ignored: the particle stays in contact.
+const MIN_REBOUND_TIME: f64 = 0.25;
 /// The largest number of impacts and new contacts in one step of a particle.
-const MOST: usize = 12;
-/// The largest number of iterations of conservative advancement towards a contact. After these, the time advances by at least the fraction
-/// `PART` of the step in each iteration.
-const ADVANCES: usize = 60;
-const PART: f64 = 1.0 / 64.0;
+const MAX_IMPACTS_PER_STEP: usize = 12;
+/// The largest number of iterations of conservative advancement towards a contact. After them, each iteration covers at least the
+/// fraction [`MIN_STEP_FRACTION`] of the step.
+const MAX_SAFE_STEPS: usize = 60;
+/// The shortest advance in time where conservative advancement cannot go on by itself, as a fraction of the step.
+const MIN_STEP_FRACTION: f64 = 1.0 / 64.0;
 /// The largest number of iterations for the impulses of simultaneous contacts.
-const ROUNDS: usize = 50;
+const MAX_IMPULSE_ITERATIONS: usize = 50;
 
 /// Moves the particles of one source among obstacles.
 #[derive(Clone)]
@@ -80,12 +82,12 @@ impl Bouncer {
     pub(super) fn step(&mut self, leap: &ParticleStep, scenery: &Scenery) -> (DVec3, DVec3) {
         let whole = leap.span();
         let mut leap = *leap;
-        for _ in 0..MOST {
+        for _ in 0..MAX_IMPACTS_PER_STEP {
             self.look(&leap, whole, scenery);
             if self.seen.is_empty() {
                 return (leap.places[1], leap.velocities[1]);
             }
-            let snug = SNUG * self.ball.radius();
+            let snug = INITIAL_CONTACT_TOLERANCE * self.ball.radius();
             if self.seen.iter().any(|it| it.touches(snug) && it.rate < -it.slow) {
                 leap.velocities[0] = self.strike(leap.velocities[0], snug);
                 self.again(&mut leap);
@@ -136,7 +138,7 @@ impl Bouncer {
         // The margin bounds how far a particle in contact can deviate from its path without obstacles.
         let radius = ball.radius();
         let margin = leap.span() * (leap.span() * leap.acceleration().length() + scenery.fastest());
-        scenery.near(leap.bounds(), (1.0 + SNUG) * radius + margin, leap.times, targets);
+        scenery.near(leap.bounds(), (1.0 + INITIAL_CONTACT_TOLERANCE) * radius + margin, leap.times, targets);
         let ([place, _], [velocity, _]) = (leap.places, leap.velocities);
         let acceleration = leap.acceleration();
         for target in &*targets {
@@ -149,8 +151,8 @@ impl Bouncer {
             let against = acceleration - scenery.acceleration(target, place, leap.times[0]);
             let press = -near.normal.dot(against);
             let slight =
-                SLIGHT * (velocity.length() + near.velocity.length() + whole * acceleration.length());
-            let slow = (0.5 * SHORT * whole * press).max(slight);
+                SPEED_ROUNDING * (velocity.length() + near.velocity.length() + whole * acceleration.length());
+            let slow = (0.5 * MIN_REBOUND_TIME * whole * press).max(slight);
             let law = surface.meet(scenery.surface(target));
             let is_pressed = press > 0.0;
             seen.push(Contact { target: *target, near, law, rate, slight, slow, is_pressed });
@@ -162,7 +164,7 @@ impl Bouncer {
         let struck = self.seen.iter().filter(|it| it.touches(snug));
         let mut struck: Vec<(&Contact, f64, DVec3)> = struck.map(|it| (it, 0.0, DVec3::ZERO)).collect();
         let mut velocity = before;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_IMPULSE_ITERATIONS {
             let last = velocity;
             for (it, pushed, rubbed) in &mut struck {
                 let (normal, law) = (it.near.normal, it.law);
@@ -175,7 +177,9 @@ impl Bouncer {
                 velocity += (push - *pushed) * normal + (rub - *rubbed);
                 (*pushed, *rubbed) = (push, rub);
             }
-            if struck.len() == 1 || (velocity - last).length() <= SLIGHT * SLIGHT.sqrt() * before.length() {
+            if struck.len() == 1
+                || (velocity - last).length() <= SPEED_ROUNDING * SPEED_ROUNDING.sqrt() * before.length()
+            {
                 break;
             }
         }
@@ -192,7 +196,8 @@ impl Bouncer {
         scenery: &Scenery,
     ) -> Option<f64> {
         let span = leap.span();
-        let touch = (TOUCH * self.ball.radius()).max(DIGITS * leap.places[0].abs().max_element());
+        let touch = (CONTACT_TOLERANCE * self.ball.radius())
+            .max(COORDINATE_ROUNDING * leap.places[0].abs().max_element());
         let mut near = contact.near;
         let mut time = 0.0;
         for advance in 0.. {
@@ -200,7 +205,7 @@ impl Bouncer {
             let bend = way.bend + near.bend;
             let mut safe = if near.is_hidden && near.gap <= touch {
                 // The particle touches a neighbouring triangle, but may reach this triangle later.
-                PART * span
+                MIN_STEP_FRACTION * span
             } else if near.gap <= touch {
                 let rate = near.normal.dot(velocity - near.velocity);
                 if rate < -contact.slight {
@@ -208,7 +213,7 @@ impl Bouncer {
                 }
                 // The particle touches the part without approaching it. The gap stays open until the curvature of the paths can close it.
                 let safe = if bend > 0.0 { 2.0 * rate.max(0.0) / bend } else { f64::INFINITY };
-                safe.max(PART * span)
+                safe.max(MIN_STEP_FRACTION * span)
             } else {
                 let shrink = near.coming - near.normal.dot(velocity);
                 let root = (shrink * shrink + 2.0 * bend * near.gap).sqrt();
@@ -221,8 +226,8 @@ impl Bouncer {
                     f64::INFINITY
                 }
             };
-            if advance > ADVANCES {
-                safe = safe.max(PART * span);
+            if advance > MAX_SAFE_STEPS {
+                safe = safe.max(MIN_STEP_FRACTION * span);
             }
             time += safe;
             if time >= span || time.is_nan() {

@@ -9,18 +9,19 @@ use super::obstacles::{ObstacleState, Scenery};
 use super::particle_step::ParticleStep;
 use crate::contact::Ball;
 
-/// A particle comes to rest if its speed is below this fraction of the velocity change that forces cause in a step.
-const REST: f64 = 1e-6;
+/// A particle comes to rest if its speed is at most this fraction of the velocity change that forces cause in a step.
+const MAX_RESTING_SPEED: f64 = 1e-6;
 /// Two unit normals count as equal if the length of their difference is at most this.
-const FLAT: f64 = 1e-12;
-/// The largest number of iterations for the impulses of several simultaneous contacts. The iteration ends earlier when it changes the
-/// velocity by at most `ACCURACY`, relative to the velocity change by forces in a step.
-const ROUNDS: usize = 60;
-const ACCURACY: f64 = 1e-13;
+const NORMAL_TOLERANCE: f64 = 1e-12;
+/// The largest number of iterations for the impulses of several simultaneous contacts.
+const MAX_IMPULSE_ITERATIONS: usize = 60;
+/// The iteration for the impulses ends when it changes the velocity by at most this fraction of the velocity change that forces cause in a
+/// step.
+const IMPULSE_TOLERANCE: f64 = 1e-13;
 /// The largest number of corrections that move the particle onto the surfaces at the end of a step.
-const PLACINGS: usize = 6;
+const MAX_POSITION_CORRECTIONS: usize = 6;
 /// A particle counts as lying on a surface if the gap is at most this fraction of its radius.
-const GAP: f64 = 1e-11;
+const CONTACT_TOLERANCE: f64 = 1e-11;
 
 /// The state of a particle at the beginning of a step, in the axes of an obstacle.
 struct Frame {
@@ -83,11 +84,11 @@ fn hold_one(ball: &Ball, frame: &Frame, contact: &Contact, scenery: &Scenery) ->
     let along = (span * frame.acceleration).reject_from_normalized(normal);
     let (way, mut velocity) = slide(begin, along, friction * push, span);
     let mut place = frame.place + way;
-    if way == DVec3::ZERO && contact.near.gap.abs() <= GAP * ball.radius() {
+    if way == DVec3::ZERO && contact.near.gap.abs() <= CONTACT_TOLERANCE * ball.radius() {
         return frame.end(place, velocity);
     }
     let (mut gap, mut end) = scenery.seen_within(ball, &contact.target, place);
-    if gap.abs() < ball.radius() && (end - normal).length() > FLAT {
+    if gap.abs() < ball.radius() && (end - normal).length() > NORMAL_TOLERANCE {
         // On a curved surface, the tangent plane at the middle of the step is used. The curvature presses the particle onto the surface,
         // or throws it off.
         let middle = (normal + end).normalize_or(normal);
@@ -154,7 +155,7 @@ fn hold_many(
     };
     let mut given: Vec<(DVec3, DVec3, f64, DVec3)> =
         held.iter().map(|it| (frame.local(it.near.normal), other(it), 0.0, DVec3::ZERO)).collect();
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_IMPULSE_ITERATIONS {
         let last = velocity;
         for (it, (normal, theirs, pushed, rubbed)) in held.iter().zip(&mut given) {
             let relative = velocity - *theirs;
@@ -164,11 +165,11 @@ fn hold_many(
             velocity += (push - *pushed) * *normal + (rub - *rubbed);
             (*pushed, *rubbed) = (push, rub);
         }
-        if (velocity - last).length() <= ACCURACY * acting {
+        if (velocity - last).length() <= IMPULSE_TOLERANCE * acting {
             break;
         }
     }
-    let is_slow = |velocity: DVec3| velocity.length() <= REST * acting;
+    let is_slow = |velocity: DVec3| velocity.length() <= MAX_RESTING_SPEED * acting;
     if is_slow(frame.velocity) && is_slow(velocity) {
         return frame.end(frame.place, DVec3::ZERO);
     }
@@ -177,8 +178,8 @@ fn hold_many(
     }
     let place = frame.place + 0.5 * span * (frame.velocity + velocity);
     let (mut place, velocity) = frame.end(place, velocity);
-    let least = GAP * ball.radius();
-    for _ in 0..PLACINGS {
+    let least = CONTACT_TOLERANCE * ball.radius();
+    for _ in 0..MAX_POSITION_CORRECTIONS {
         let mut is_right = true;
         for (it, (_, _, pushed, _)) in held.iter().zip(&given) {
             let near = scenery.seen(ball, &it.target, place, leap.times[1]);

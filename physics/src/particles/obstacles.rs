@@ -9,7 +9,7 @@ use crate::contact::{Ball, Pose, Solid, Surface, Tree};
 use crate::{BodyId, BodySnapshot, Motion, Shape};
 
 /// The largest number of parts that are searched one by one. More parts are stored in a tree of boxes.
-const FEW: usize = 24;
+const MAX_PARTS_WITHOUT_TREE: usize = 24;
 
 /// A body or the ground, as an obstacle that stops particles.
 #[derive(Clone, Debug)]
@@ -139,7 +139,8 @@ impl Scenery {
             there.speed() + if reach.is_finite() { there.turning * reach } else { 0.0 }
         };
         let fastest = placed.iter().map(speed).fold(0.0, f64::max);
-        let tree = (parts.len() > FEW).then(|| Tree::new(parts.iter().map(|(_, bounds)| *bounds)));
+        let tree = (parts.len() > MAX_PARTS_WITHOUT_TREE)
+            .then(|| Tree::new(parts.iter().map(|(_, bounds)| *bounds)));
         Scenery { obstacles: obstacles.clone(), placed, endless, parts, tree, fastest }
     }
 

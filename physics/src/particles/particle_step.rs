@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-/// Differences below this fraction of the coordinates are taken for rounding errors.
-const ROUNDING: f64 = 2e-15;
+/// Differences count as rounding errors if they are below this fraction of the coordinates.
+const COORDINATE_ROUNDING: f64 = 2e-15;
 
 /// A step of a particle, or a part of a step: the times, positions and velocities at its beginning and its end.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ impl ParticleStep {
     pub(super) fn way(&self) -> ParticlePath {
         let (h, a) = (self.span(), self.acceleration());
         let ([x, y], [v, w]) = (self.places, self.velocities);
-        let rounding = ROUNDING * x.abs().max(y.abs()).max_element();
+        let rounding = COORDINATE_ROUNDING * x.abs().max(y.abs()).max_element();
         let is_way = |way: DVec3| (y - x - way).abs().max_element() <= rounding;
         let rest = y - x - 0.5 * h * (v + w);
         if is_way(0.5 * h * (v + w)) {

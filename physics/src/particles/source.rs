@@ -49,7 +49,7 @@ pub struct ParticleSource {
 }
 
 /// The number of independent streams of random numbers that are reserved for each particle.
-const BRANCHES: u64 = 4;
+const STREAMS_PER_PARTICLE: u64 = 4;
 
 impl ParticleSource {
     /// Returns the lifetime of a particle that is born at time `t` (s), s.
@@ -77,7 +77,7 @@ impl ParticleSource {
     }
 
     fn substream(&self, number: u64, which: u64) -> Stream {
-        self.random.substream(number.wrapping_mul(BRANCHES).wrapping_add(which))
+        self.random.substream(number.wrapping_mul(STREAMS_PER_PARTICLE).wrapping_add(which))
     }
 }
 

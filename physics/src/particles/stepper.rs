@@ -45,13 +45,13 @@ pub(super) struct Grid {
 }
 
 /// The relative tolerance of step lengths: the last step may be longer than the others by this fraction.
-const ROUNDING: f64 = 1e-6;
+const STEP_TOLERANCE: f64 = 1e-6;
 
 impl Grid {
     /// Returns the time at the end of step `number`, s. Number 0 stands for the beginning of the interval.
     fn time(&self, number: u32) -> f64 {
         let time = self.begin + f64::from(number) * self.step;
-        if time >= self.end - ROUNDING * self.step { self.end } else { time }
+        if time >= self.end - STEP_TOLERANCE * self.step { self.end } else { time }
     }
 
     /// Returns the number of the first step that ends after time `t`, s.

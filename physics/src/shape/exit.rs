@@ -6,10 +6,10 @@ use super::{Mesh, Shape, cone_base};
 
 /// The largest number of steps along a ray towards a surface. Only rays that graze the surface need more than about twenty steps.
 const MAX_STEPS: usize = 300;
-/// A point counts as lying on a surface if its distance is below this fraction of the size of the shape.
-const NEAR: f64 = 1e-12;
+/// A point counts as lying on a surface if its distance is at most this fraction of the size of the shape.
+const SURFACE_TOLERANCE: f64 = 1e-12;
 /// The radius of the shaft of each arm of [`Shape::Axes`], as a fraction of the arm's length.
-const SHAFT: f64 = 0.03;
+const SHAFT_RADIUS: f64 = 0.03;
 
 impl Shape {
     /// Returns the distance along a ray from its origin to its last point in the shape, m. The ray begins at `origin` (m) and has the unit
@@ -50,7 +50,7 @@ impl Shape {
         let mut along = origin.length() + size;
         for _ in 0..MAX_STEPS {
             let off = self.distance(origin + direction * along)?;
-            if off <= NEAR * size {
+            if off <= SURFACE_TOLERANCE * size {
                 return Some(along);
             }
             along -= off;
@@ -88,7 +88,7 @@ impl Shape {
             }
             Shape::Axes { length } => {
                 let arm = |axis: DVec3| (point - axis * point.dot(axis).clamp(0.0, length)).length();
-                arm(DVec3::X).min(arm(DVec3::Y)).min(arm(DVec3::Z)) - SHAFT * length
+                arm(DVec3::X).min(arm(DVec3::Y)).min(arm(DVec3::Z)) - SHAFT_RADIUS * length
             }
             _ => return None,
         })

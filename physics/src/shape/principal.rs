@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// Off-diagonal elements below this fraction of the trace are taken for rounding errors.
-const ROUNDING: f64 = 1e-15;
+/// Off-diagonal elements count as rounding errors if they are below this fraction of the trace.
+const RELATIVE_ROUNDING: f64 = 1e-15;
 /// The largest number of sweeps over the off-diagonal elements. Far fewer suffice, because each sweep squares their relative size.
-const MOST_SWEEPS: usize = 30;
+const MAX_SWEEPS: usize = 30;
 
 /// Returns the eigenvalues of a symmetric matrix, and the rotation from its eigenvectors, in the same order, to the coordinate axes. For a
 /// matrix that is diagonal up to rounding, returns its diagonal and the identity.
@@ -14,9 +14,9 @@ const MOST_SWEEPS: usize = 30;
 /// two angles. The method uses only square roots, so it gives the same bits on all platforms.
 pub(super) fn principal(tensor: DMat3) -> (DVec3, DQuat) {
     let mut matrix = tensor.to_cols_array_2d();
-    let least = ROUNDING * (matrix[0][0] + matrix[1][1] + matrix[2][2]);
+    let least = RELATIVE_ROUNDING * (matrix[0][0] + matrix[1][1] + matrix[2][2]);
     let (mut axes, mut turned) = (DMat3::IDENTITY, false);
-    for _ in 0..MOST_SWEEPS {
+    for _ in 0..MAX_SWEEPS {
         let mut done = true;
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let beside = matrix[p][q];

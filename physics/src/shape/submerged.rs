@@ -79,7 +79,7 @@ fn ball(radius: f64, up: DVec3, height: f64) -> Submerged {
 
 /// The corners of each face of a box, counter-clockwise as seen from outside. In the index of a corner, bit 0 is 1 for positive x, bit 1
 /// for positive y, bit 2 for positive z.
-const FACES: [[usize; 4]; 6] =
+const BOX_FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 fn cuboid(size: DVec3, up: DVec3, height: f64) -> Submerged {
@@ -90,7 +90,7 @@ fn cuboid(size: DVec3, up: DVec3, height: f64) -> Submerged {
         return Submerged { volume: size.x * size.y * size.z, moment: DVec3::ZERO };
     }
     let mut cut = Cut::new(up, height);
-    for [a, b, c, d] in FACES.map(|face| face.map(corner)) {
+    for [a, b, c, d] in BOX_FACES.map(|face| face.map(corner)) {
         cut.add([a, b, c]);
         cut.add([a, c, d]);
     }
@@ -180,7 +180,8 @@ mod tests {
         ]
     }
 
-    const UPS: [DVec3; 6] = [
+    /// Unit vectors that point up in the frame of the shape.
+    const UP_DIRECTIONS: [DVec3; 6] = [
         DVec3::Y,
         DVec3::NEG_Y,
         DVec3::X,
@@ -193,7 +194,7 @@ mod tests {
     fn all_below_is_the_whole_and_all_above_is_nothing() {
         for shape in shapes() {
             let whole = shape.volume().unwrap();
-            for up in UPS {
+            for up in UP_DIRECTIONS {
                 let below = shape.submerged(up, 9.0).unwrap();
                 assert!((below.volume / whole - 1.0).abs() < 1e-11, "{shape:?} {up}: {below:?} {whole}");
                 assert!(below.moment.length() < 1e-11, "{shape:?} {up}: {below:?}");
@@ -207,7 +208,7 @@ mod tests {
     #[test]
     fn both_sides_of_a_plane_make_the_whole() {
         for shape in shapes() {
-            for up in UPS {
+            for up in UP_DIRECTIONS {
                 for height in [-0.41, -0.1, 0.0, 0.23, 0.52] {
                     let [one, other] = [(up, height), (-up, -height)]
                         .map(|(up, height)| shape.submerged(up, height).unwrap());
@@ -226,7 +227,7 @@ mod tests {
     fn the_moment_grows_with_the_volume() {
         const H: f64 = 1e-4;
         for shape in shapes() {
-            for up in UPS.into_iter().skip(3).take(2) {
+            for up in UP_DIRECTIONS.into_iter().skip(3).take(2) {
                 for height in [-0.31, 0.07, 0.29] {
                     let at = |height| shape.submerged(up, height).unwrap();
                     let (less, more) = (at(height - H), at(height + H));

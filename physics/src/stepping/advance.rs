@@ -13,13 +13,15 @@ use super::mean_velocity::Stepped;
 use super::{TimeStepping, bodies, kept_contacts, rotation, set_step};
 
 /// The largest overlap of two bodies that is allowed at the start, as a fraction of the thickness of the thinnest moving body.
-const DEEPEST: f64 = 0.1;
-/// If fewer bodies than this appear at once, their overlaps are found in the first step.
-const CROWD: usize = 64;
+const MAX_INITIAL_OVERLAP: f64 = 0.1;
+/// If at least this many bodies appear at once, their overlaps are checked before the step. The overlaps of fewer bodies are found in their
+/// first step.
+const MIN_NEWCOMERS_TO_CHECK: usize = 64;
 /// Within a step, the physics engine may shorten a rope by this multiple of the length that the rope's rotation adds to it.
-const STRETCH: f64 = 2.0;
-/// A fast body on a joint counts as stopped at a surface if its way is shorter than its velocity times the step by more than this part.
-const ARC: f64 = 0.2;
+const ROPE_SHORTENING_FACTOR: f64 = 2.0;
+/// The allowed difference between the path of a fast body on a joint and its velocity times the step, as a fraction of the latter. If the
+/// path is shorter by more, the body counts as stopped at a surface.
+const ARC_TOLERANCE: f64 = 0.2;
 
 impl TimeStepping {
     /// Advances to time `t` in steps that end at each birth and death. Calls `see` with a snapshot for each of `moments`.
@@ -106,7 +108,7 @@ impl TimeStepping {
         self.push(end, dt);
         let Self { books, engine, rolling, mixing, joints, slow, rebounds, .. } = self;
         joints.set_speeds(engine, &self.state, |body| rolling.spin(body));
-        set_step(&mut engine.integration_parameters, dt, STRETCH * stretch / dt);
+        set_step(&mut engine.integration_parameters, dt, ROPE_SHORTENING_FACTOR * stretch / dt);
         let bounce = Bounce { rebounds, dt, slow: *slow };
         engine.step_with_events(&Hooks { mixing, rolling, bounce }, &books.impacts.events);
         self.steps += 1;
@@ -125,7 +127,7 @@ impl TimeStepping {
     /// Returns an error if a body overlaps another deeply when it appears, at the start of the run or later. Such bodies would shoot apart.
     /// Fails if very many bodies have appeared in one place. The physics engine would take memory in proportion to their pairs.
     fn check_crowd(&mut self, time: f64) -> Result<(), Breakdown> {
-        if self.newcomers.len() < CROWD {
+        if self.newcomers.len() < MIN_NEWCOMERS_TO_CHECK {
             return Ok(());
         }
         let (contacts, bodies) = (&self.mixing.contacts, (&self.model, &self.state));
@@ -135,7 +137,7 @@ impl TimeStepping {
 
     /// Returns the largest overlap that is allowed when bodies appear, m.
     fn deepest_allowed(&self) -> f64 {
-        DEEPEST * self.engine.integration_parameters.length_unit
+        MAX_INITIAL_OVERLAP * self.engine.integration_parameters.length_unit
     }
 
     fn overlapping(&mut self, (bodies, depth): ([usize; 2], f64), time: f64) -> Result<(), Breakdown> {
@@ -201,7 +203,12 @@ impl TimeStepping {
                 kept_contacts.turn(engine, i, orientation);
             }
             if rolling.is_round(i) {
-                kept_contacts.shift(engine, i, state.location[i], kept_contacts::WAY * half_thickness[i]);
+                kept_contacts.shift(
+                    engine,
+                    i,
+                    state.location[i],
+                    kept_contacts::MAX_KEPT_PATH * half_thickness[i],
+                );
             }
             if !input.is_same(&wanted) {
                 let Some(body) = engine.bodies.get_mut(handles[i]) else { continue };
@@ -251,7 +258,8 @@ impl TimeStepping {
             let Some(body) = body else { return false };
             let way = dt * body.linvel();
             // A body on a joint describes an arc, so it advances less along its velocity.
-            let tolerance = if mean_velocity.is_held(i) { slop.max(ARC * way.length()) } else { slop };
+            let tolerance =
+                if mean_velocity.is_held(i) { slop.max(ARC_TOLERANCE * way.length()) } else { slop };
             (way - (body.translation() - state.location[i])).dot(way) > tolerance * way.length()
         };
         let stopped: Vec<bool> = (0..handles.len()).map(is_stopped).collect();

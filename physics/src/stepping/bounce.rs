@@ -20,7 +20,7 @@ use super::contact_body::ContactBody;
 use super::rebound::Rebounds;
 
 /// The number of sweeps over the points of a contact that find their impulses.
-const SWEEPS: usize = 100;
+const IMPULSE_SWEEPS: usize = 100;
 
 /// Corrects contacts in which an impact with restitution begins.
 pub(super) struct Bounce<'a> {
@@ -33,7 +33,7 @@ pub(super) struct Bounce<'a> {
 
 /// The engine stops the points of a contact early: those that would meet the other body in this step, and those that would meet it in the next
 /// step. So a point meets the other body if this multiple of its path takes it there. The factor also covers rounding errors.
-const REACH: f64 = 2.001;
+const PATH_REACH_FACTOR: f64 = 2.001;
 
 impl Bounce<'_> {
     /// Corrects a contact of two bodies if an impact with restitution begins there.
@@ -62,7 +62,7 @@ impl Bounce<'_> {
         }
         let meets = |point: &SolverContact| {
             let approach = approach(point);
-            approach > self.slow && point.dist < REACH * approach * self.dt
+            approach > self.slow && point.dist < PATH_REACH_FACTOR * approach * self.dt
         };
         // If no point meets the other body in this step, the points that meet it in the next step are left out for now.
         let waits = |point: &SolverContact| meets(point) && leaves(point);
@@ -106,7 +106,7 @@ impl Bounce<'_> {
 /// linear complementarity problems in physics-based animation*, SIGGRAPH 2013.
 pub(super) fn impulses(approach: &[f64], response: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let mut impulses = vec![0.0; approach.len()];
-    for _ in 0..SWEEPS {
+    for _ in 0..IMPULSE_SWEEPS {
         for i in 0..approach.len() {
             let stopped: f64 = impulses.iter().enumerate().map(|(j, impulse)| impulse * response(i, j)).sum();
             let own = response(i, i);

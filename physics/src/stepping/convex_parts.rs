@@ -7,16 +7,16 @@
 use glam::DVec3;
 use rapier3d_f64::prelude::SharedShape;
 
-/// Lengths below this fraction of the solid's size are rounding errors.
-const ROUNDING: f64 = 1e-9;
+/// Lengths count as rounding errors if they are below this fraction of the solid's size.
+const LENGTH_ROUNDING: f64 = 1e-9;
 /// A solid with more triangles than this is not cut, because the time grows with the square of their number.
-const MOST_TRIANGLES: usize = 2000;
+const MAX_TRIANGLES: usize = 2000;
 /// A solid that would fall into more parts than this is not cut.
-const MOST_PARTS: usize = 128;
-/// Two parts are convex together if the convex hull of both has more volume than both by at most this fraction.
-const CONVEX: f64 = 1e-7;
-/// The parts are right if the sum of their volumes differs from the volume of the solid by at most this fraction.
-const RIGHT: f64 = 1e-6;
+const MAX_PARTS: usize = 128;
+/// Two parts together count as convex if the volume of their common convex hull exceeds the sum of their volumes by at most this fraction.
+const CONVEXITY_TOLERANCE: f64 = 1e-7;
+/// The parts are correct if the sum of their volumes differs from the volume of the solid by at most this fraction.
+const VOLUME_TOLERANCE: f64 = 1e-6;
 
 /// The corners of a convex part.
 type Corners = Vec<DVec3>;
@@ -47,20 +47,20 @@ struct Facet {
 /// Returns the corners of convex parts that together are the solid with this closed surface of triangles. `None` if there would be too
 /// many, or if the surface is not exact enough to be cut. `volume` is the volume of the solid, m³.
 pub(super) fn convex_parts(vertices: &[DVec3], triangles: &[[u32; 3]], volume: f64) -> Option<Vec<Corners>> {
-    if triangles.len() > MOST_TRIANGLES {
+    if triangles.len() > MAX_TRIANGLES {
         return None;
     }
     let (low, high) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), vertex| {
         (low.min(*vertex), high.max(*vertex))
     });
-    let rounding = ROUNDING * (high - low).length();
+    let rounding = LENGTH_ROUNDING * (high - low).length();
     let facets: Vec<Facet> = triangles.iter().filter_map(|triangle| facet(vertices, triangle)).collect();
     let mut cutter = Cutter { rounding, parts: Vec::new() };
     let margin = DVec3::splat(0.1 * (high - low).length());
     cutter.cut(&block(low - margin, high + margin), facets)?;
     let parts = unite(cutter.parts);
     let sum: f64 = parts.iter().map(|part| hull_volume(part)).sum();
-    ((sum - volume).abs() <= RIGHT * volume).then_some(parts)
+    ((sum - volume).abs() <= VOLUME_TOLERANCE * volume).then_some(parts)
 }
 
 /// Makes the facet of a triangle; `None` if its area is zero.
@@ -102,7 +102,7 @@ impl Cutter {
             if corners.len() > 3 {
                 self.parts.push(corners);
             }
-            return (self.parts.len() <= 2 * MOST_PARTS).then_some(());
+            return (self.parts.len() <= 2 * MAX_PARTS).then_some(());
         };
         let (mut front, mut back) = (Vec::new(), Vec::new());
         for facet in facets {
@@ -203,7 +203,7 @@ impl Cutter {
 
 /// Unites parts that are convex together, until there are none left.
 fn unite(parts: Vec<Corners>) -> Vec<Corners> {
-    if parts.len() > MOST_PARTS {
+    if parts.len() > MAX_PARTS {
         return parts;
     }
     let with_volume = |part: Corners| {
@@ -216,7 +216,7 @@ fn unite(parts: Vec<Corners>) -> Vec<Corners> {
         let together = |two: usize| {
             let both: Corners = parts[one].0.iter().chain(&parts[two].0).copied().collect();
             let (sum, volume) = (parts[one].1 + parts[two].1, hull_volume(&both));
-            (volume <= sum * (1.0 + CONVEX)).then_some((two, both, volume))
+            (volume <= sum * (1.0 + CONVEXITY_TOLERANCE)).then_some((two, both, volume))
         };
         match (one + 1..parts.len()).find_map(together) {
             Some((two, both, volume)) => {

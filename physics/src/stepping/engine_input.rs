@@ -3,8 +3,8 @@
 use glam::DVec3;
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBody, RigidBodyHandle};
 
-/// Two angular velocities count as equal if their relative difference is below this tolerance.
-const SAME: f64 = 1e-14;
+/// Two angular velocities count as equal if their relative difference is at most this.
+const ANGULAR_VELOCITY_TOLERANCE: f64 = 1e-14;
 
 /// The values of a body that are set in the physics engine.
 ///
@@ -37,7 +37,8 @@ impl EngineInput {
         let difference = (self.turning - wanted.turning).length_squared();
         self.force == wanted.force
             && self.is_fast == wanted.is_fast
-            && difference <= SAME * SAME * wanted.turning.length_squared()
+            && difference
+                <= ANGULAR_VELOCITY_TOLERANCE * ANGULAR_VELOCITY_TOLERANCE * wanted.turning.length_squared()
     }
 
     /// Sets the values of a body.

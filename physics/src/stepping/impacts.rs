@@ -15,7 +15,7 @@ use super::rebound::{Onset, Rebounds};
 use super::touch::Touch;
 
 /// A new contact counts as an impact only if the bodies approach faster than this many thicknesses of the thinnest moving body per second.
-const SLOW: f64 = 0.03;
+const MIN_IMPACT_SPEED: f64 = 0.03;
 
 /// The impacts of a run, and the pairs of bodies that may soon collide.
 pub(super) struct Impacts {
@@ -101,7 +101,12 @@ fn number(collider: ColliderHandle) -> usize {
 impl Impacts {
     /// `length` is the thickness of the thinnest moving body, m.
     pub(super) fn new(length: f64) -> Impacts {
-        Impacts { found: Vec::new(), near: Vec::new(), events: Events::default(), slow: SLOW * length }
+        Impacts {
+            found: Vec::new(),
+            near: Vec::new(),
+            events: Events::default(),
+            slow: MIN_IMPACT_SPEED * length,
+        }
     }
 
     /// Returns whether there are impacts that [`take`](Self::take) has not returned yet.

@@ -15,7 +15,7 @@ use super::super::{
 
 /// The stiffness (N/m) of the motor that keeps the length of a rod, and the damping (N s/m or N m s) of a motor that keeps a speed. The
 /// value is so large that only the length of the step determines how soft the motor is.
-const RIGID: f64 = 1e30;
+const RIGID_MOTOR_GAIN: f64 = 1e30;
 
 /// A joint between two bodies, of a kind that time-stepping supports.
 #[derive(Clone, Debug)]
@@ -247,7 +247,7 @@ impl Joints {
                 continue;
             }
             if let Some(joint) = engine.impulse_joints.get_mut(self.handles[k], false) {
-                joint.data.set_motor_velocity(axis, rest, RIGID);
+                joint.data.set_motor_velocity(axis, rest, RIGID_MOTOR_GAIN);
             }
         }
     }
@@ -306,7 +306,7 @@ fn joint(kind: &LinkKind, one: &End, two: &End) -> GenericJoint {
             let mut joint = build(JointAxesMask::empty(), frames(DVec3::X, DQuat::IDENTITY));
             joint.coupled_axes = JointAxesMask::LIN_AXES;
             joint.set_motor_model(JointAxis::LinX, MotorModel::ForceBased);
-            joint.set_motor_position(JointAxis::LinX, rod.length, RIGID, 0.0);
+            joint.set_motor_position(JointAxis::LinX, rod.length, RIGID_MOTOR_GAIN, 0.0);
             joint
         }
     }
@@ -319,7 +319,7 @@ fn free(mut joint: GenericJoint, axis: JointAxis, freedom: &Freedom) -> GenericJ
     }
     if let Some(Motor::Speed { speed, limit }) = &freedom.motor {
         joint.set_motor_model(axis, MotorModel::ForceBased);
-        joint.set_motor_velocity(axis, *speed, RIGID);
+        joint.set_motor_velocity(axis, *speed, RIGID_MOTOR_GAIN);
         joint.set_motor_max_force(axis, *limit);
     }
     joint

@@ -8,8 +8,8 @@ use super::super::{Model, State};
 use super::bounce;
 use super::rebound::{Onset, OnsetPoint};
 
-/// A body counts as locked by its joints if an impulse changes its velocity by less than this part of the change without joints.
-const LOCKED: f64 = 1e-9;
+/// A body counts as locked by its joints if an impulse changes its velocity by at most this fraction of the change without joints.
+const MIN_RESPONSE_FRACTION: f64 = 1e-9;
 
 /// Computes how bodies on joints respond to impulses.
 #[derive(Default)]
@@ -85,7 +85,7 @@ impl JointResponse {
                     coupled.unite(pushed.number, meeting.number);
                 }
                 // A body that a joint connects to a given motion may be unable to move. Its response is then only a rounding error.
-                response.push(if (two - one).abs() > LOCKED * free { two - one } else { 0.0 });
+                response.push(if (two - one).abs() > MIN_RESPONSE_FRACTION * free { two - one } else { 0.0 });
             }
         }
         let approach: Vec<f64> = meetings.iter().map(|meeting| meeting.point.approach).collect();

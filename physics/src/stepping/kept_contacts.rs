@@ -8,13 +8,13 @@ use rapier3d_f64::prelude::{ActiveHooks, Collider, ColliderHandle, InteractionGr
 
 use super::super::State;
 
-/// The contacts of a body that rotates slowly are found anew when the body has rotated by this angle, rad. With 0.003 rad, slender towers
-/// fall.
-const ANGLE: f64 = 0.01;
+/// The contacts of a body that rotates slowly are kept until the body has rotated by this angle, rad. They are then found anew. With 0.003
+/// rad, slender towers fall.
+const MAX_KEPT_ROTATION: f64 = 0.01;
 
-/// The contacts of a round body are found anew when the body has moved by this multiple of half its thickness. The normal of a contact between
-/// two round bodies turns as they move around each other. A kept normal would act like friction.
-pub(super) const WAY: f64 = 1e-4;
+/// The contacts of a round body are kept until the body has moved by this multiple of half its thickness. They are then found anew. The
+/// normal of a contact between two round bodies turns as they move around each other. A kept normal would act like friction.
+pub(super) const MAX_KEPT_PATH: f64 = 1e-4;
 
 /// The colliders of all bodies, and the callbacks for their contacts.
 pub(super) struct KeptContacts {
@@ -86,7 +86,8 @@ impl KeptContacts {
     /// Makes the engine find the contacts of a body anew if the body has rotated by a small angle since the last time.
     pub(super) fn turn(&mut self, engine: &mut PhysicsWorld, body: usize, orientation: DQuat) {
         // The product of two unit quaternions is the cosine of half the angle between them.
-        if self.orientation[body].dot(orientation).abs() >= 1.0 - ANGLE * ANGLE / 8.0 {
+        if self.orientation[body].dot(orientation).abs() >= 1.0 - MAX_KEPT_ROTATION * MAX_KEPT_ROTATION / 8.0
+        {
             return;
         }
         self.orientation[body] = orientation;

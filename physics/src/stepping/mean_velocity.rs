@@ -25,19 +25,19 @@ use super::mechanisms::Mechanisms;
 use super::touch::Touch;
 use super::{bodies, rotation};
 
-/// The largest excess length of a rope that still counts as the effect of its rotation, relative to that effect.
-const ROTATION: f64 = 4.0;
-/// The ends of a mechanism's joints drift apart in a step, and the engine moves them towards each other. Each of the two motions is one vector,
-/// with the components of all joints. The motions count as equal if the cosine of the angle between them is at least this, and if `LARGER`
-/// allows it.
-const PARALLEL: f64 = 0.95;
-/// The square of the second motion may be larger than the square of the first one by at most this factor.
-const LARGER: f64 = 2.0;
-/// If a body rotates by a larger angle within a step, rad, its mechanism keeps the velocities of the engine. With mean velocities, such steps
-/// are unstable.
-const FASTEST: f64 = 0.2;
-/// The largest excess length of a rope that has no effect, relative to the length of the rope.
-const TAUT: f64 = 1e-7;
+/// The largest excess length of a rope that still counts as the effect of the rope's rotation, as a multiple of that effect.
+const MAX_ROTATION_STRETCH: f64 = 4.0;
+/// The ends of a mechanism's joints drift apart in a step, and the engine moves them towards each other. Each of the two motions is one
+/// vector, with the components of all joints. The motions count as equal if the cosine of the angle between them is at least this, and if
+/// [`MAX_SQUARED_RATIO`] allows it.
+const PARALLEL_COSINE: f64 = 0.95;
+/// The largest ratio of the square of the second motion to the square of the first motion.
+const MAX_SQUARED_RATIO: f64 = 2.0;
+/// The largest rotation of a body within a step, rad, with which its mechanism gets mean velocities. With a larger rotation, the mechanism
+/// keeps the velocities of the engine, because mean velocities make such steps unstable.
+const MAX_AVERAGED_ROTATION: f64 = 0.2;
+/// The largest excess length of a rope that has no effect, as a fraction of the rope's length.
+const ROPE_LENGTH_TOLERANCE: f64 = 1e-7;
 
 /// A body after a step of the physics engine.
 pub(super) struct Stepped<'a> {
@@ -125,7 +125,8 @@ impl MeanVelocity {
                 if between.length() + by_rotation >= length {
                     longest = longest.max(by_rotation);
                 }
-                between.length() - length > ROTATION * by_rotation + TAUT * length
+                between.length() - length
+                    > MAX_ROTATION_STRETCH * by_rotation + ROPE_LENGTH_TOLERANCE * length
             } else if joint.limit_axes == JointAxesMask::LIN_X {
                 let limits = limits(JointAxis::LinX);
                 let place = between.dot(one.0.rotation * DVec3::X);
@@ -158,7 +159,7 @@ impl MeanVelocity {
         for i in mechanisms.held() {
             let Some(Stepped { body, is_stopped, .. }) = stepped(i) else { continue };
             excluded[mechanisms.number(i)] |= is_stopped
-                || body.angvel().length_squared() * dt * dt > FASTEST * FASTEST
+                || body.angvel().length_squared() * dt * dt > MAX_AVERAGED_ROTATION * MAX_AVERAGED_ROTATION
                 || is_touched(engine, handles, body);
         }
         // For each mechanism, the sums of a·a, a·b and b·b over its joints. a is the velocity with which the ends drift apart, and b is the one with
@@ -191,7 +192,8 @@ impl MeanVelocity {
         for i in mechanisms.held() {
             let number = mechanisms.number(i);
             let [drift, product, back] = motions[number];
-            let are_equal = product >= PARALLEL * (drift * back).sqrt() && back <= LARGER * drift;
+            let are_equal =
+                product >= PARALLEL_COSINE * (drift * back).sqrt() && back <= MAX_SQUARED_RATIO * drift;
             gets_mean[i] = are_equal && !excluded[number];
         }
     }

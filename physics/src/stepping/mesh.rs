@@ -10,10 +10,10 @@ use super::super::shape::{Mesh, Shape};
 use super::convex_parts::convex_parts;
 
 /// A mesh counts as convex if the volume of its convex hull exceeds its own volume by at most this fraction.
-const CONVEX: f64 = 1e-3;
+const CONVEXITY_TOLERANCE: f64 = 1e-3;
 /// Convex parts are smaller than the solid by this fraction. The physics engine finds wrong overlaps of solids that touch exactly, such as
 /// the stones of an arch.
-const GAP: f64 = 1e-6;
+const PART_SHRINKAGE: f64 = 1e-6;
 
 /// The collision shapes that stand for a mesh, each with its pose.
 type Parts = Vec<(Pose, SharedShape)>;
@@ -57,7 +57,7 @@ fn convex(mesh: &Arc<Mesh>, scale: f64, vertices: &[DVec3]) -> Parts {
     let whole = hull(vertices);
     let volume = Shape::volume(&Shape::Mesh { mesh: Arc::clone(mesh), scale }).unwrap_or(0.0);
     match whole {
-        Some(hull) if hull.mass_properties(1.0).mass() <= volume * (1.0 + CONVEX) => {
+        Some(hull) if hull.mass_properties(1.0).mass() <= volume * (1.0 + CONVEXITY_TOLERANCE) => {
             vec![(Pose::IDENTITY, hull)]
         }
         whole => {
@@ -77,6 +77,6 @@ fn convex(mesh: &Arc<Mesh>, scale: f64, vertices: &[DVec3]) -> Parts {
 /// Returns the convex hull of some points, slightly smaller; `None` if they lie in a plane.
 fn hull(points: &[DVec3]) -> Option<SharedShape> {
     let centre = points.iter().sum::<DVec3>() / points.len() as f64;
-    let corners: Vec<DVec3> = points.iter().map(|point| point.lerp(centre, GAP)).collect();
+    let corners: Vec<DVec3> = points.iter().map(|point| point.lerp(centre, PART_SHRINKAGE)).collect();
     SharedShape::convex_hull(&corners)
 }

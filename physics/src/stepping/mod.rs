@@ -56,35 +56,37 @@ use self::sliding::Sliding;
 use self::thin_rods::ThinRods;
 use super::contact::{Contacts, Impact};
 use super::presence::PresenceSchedule;
-use super::softness::STIFFNESS;
+use super::softness::CONTACT_FREQUENCY_RATIO;
 use super::{Breakdown, Dynamics, EnergyLedger, Loads, Model, Snapshot, State, World};
 
 pub use joint::{Link, LinkKind};
 
-/// The numbers of sweeps over all contacts in a step: first with position correction, then without it. Friction is solved only in the
-/// final sweeps. With only two final sweeps, a block creeps down an incline on which friction should hold it.
-const SWEEPS: usize = 2;
-const FINAL_SWEEPS: usize = 4;
-/// The numbers of the same sweeps in scenes with joints. A sweep passes a force on by one joint only, so fewer sweeps let chains stretch,
-/// and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
+/// The number of sweeps over all contacts in a step with position correction.
+const CONTACT_SWEEPS: usize = 2;
+/// The number of final sweeps in a step, without position correction. Only the final sweeps solve friction. With two of them, a block
+/// creeps down an incline on which friction should hold it.
+const FINAL_CONTACT_SWEEPS: usize = 4;
+/// The number of sweeps with position correction in scenes with joints. A sweep passes a force on by one joint only, so fewer sweeps let
+/// chains stretch, and joints between light and heavy bodies: a rope bridge of twenty planks by 0.44 m instead of 0.01 m.
 const JOINT_SWEEPS: usize = 16;
+/// The number of final sweeps in scenes with joints.
 const FINAL_JOINT_SWEEPS: usize = 8;
-/// Groups of bodies with a small mechanism get more of the first sweeps, up to this number. Welded beams bend less then: one of eight parts of
-/// 5 kg with a load of 100 kg, by 0.08 m instead of 0.4 m.
-const MORE_SWEEPS: usize = 48;
-/// The largest product of these sweeps and the joints of a mechanism, which limits their cost.
-const MOST_SOLUTIONS: usize = 1600;
+/// The largest number of additional sweeps with position correction for groups of bodies with a small mechanism. Welded beams bend less
+/// then: one of eight parts of 5 kg with a load of 100 kg, by 0.08 m instead of 0.4 m.
+const MAX_MECHANISM_SWEEPS: usize = 48;
+/// The largest product of these additional sweeps and the joints of a mechanism, which limits their cost.
+const MAX_JOINT_SOLUTIONS: usize = 1600;
 /// The largest speed at which the physics engine separates overlapping bodies and corrects joints, m/s, if the thinnest moving body has a
 /// thickness of 1 m. For other thicknesses, this speed grows with the root of the thickness, as the speed after a fall does.
-const CORRECTION: f64 = 3.0;
+const MAX_CORRECTION_SPEED: f64 = 3.0;
 /// The damping ratio of contacts: their damping divided by critical damping.
-const DAMPING: f64 = 10.0;
-/// A slower body counts as resting, if the thinnest moving body has a thickness of 1 m, m/s. For other thicknesses, the limit grows with
-/// the root of the thickness, as the speed after a fall does.
-const SLOW: f64 = 0.1;
+const CONTACT_DAMPING_RATIO: f64 = 10.0;
+/// The speed below which a body counts as resting, m/s, if the thinnest moving body has a thickness of 1 m. For other thicknesses, this
+/// speed grows with the root of the thickness, as the speed after a fall does.
+const MAX_RESTING_SPEED: f64 = 0.1;
 
 /// Fast bodies stop this far in front of a surface or behind it, as a fraction of the thickness of the thinnest moving body.
-const SLOP: f64 = 0.002;
+const ALLOWED_LINEAR_ERROR: f64 = 0.002;
 
 /// Simulates bodies that move under forces and touch each other, in steps of equal length. All contacts of a step are solved together.
 pub struct TimeStepping {
@@ -153,10 +155,10 @@ impl TimeStepping {
         let mechanisms = Mechanisms::new(&model, &joints);
         for (body, count) in mechanisms.joint_counts(&joints) {
             if let Some(body) = engine.bodies.get_mut(handles[body]) {
-                body.set_additional_pgs_iterations(MORE_SWEEPS.min(MOST_SOLUTIONS / count));
+                body.set_additional_pgs_iterations(MAX_MECHANISM_SWEEPS.min(MAX_JOINT_SOLUTIONS / count));
             }
         }
-        let slow = SLOW * length.sqrt();
+        let slow = MAX_RESTING_SPEED * length.sqrt();
         TimeStepping {
             time: parts.time,
             step: parts.step,
@@ -203,14 +205,14 @@ impl TimeStepping {
 /// Returns the physics engine's parameters. `length` is the thickness of the thinnest moving body, m.
 fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
     let [sweeps, final_sweeps] =
-        if has_joints { [JOINT_SWEEPS, FINAL_JOINT_SWEEPS] } else { [SWEEPS, FINAL_SWEEPS] };
+        if has_joints { [JOINT_SWEEPS, FINAL_JOINT_SWEEPS] } else { [CONTACT_SWEEPS, FINAL_CONTACT_SWEEPS] };
     IntegrationParameters {
         length_unit: length,
         // Each step is a single step of the physics engine, so that forces are evaluated in each step, and all impulses can be read.
         num_solver_iterations: 1,
         num_internal_pgs_iterations: sweeps,
         num_internal_stabilization_iterations: final_sweeps,
-        normalized_allowed_linear_error: SLOP,
+        normalized_allowed_linear_error: ALLOWED_LINEAR_ERROR,
         // The physics engine must not limit the speeds of bodies.
         normalized_max_linear_velocity: f64::MAX,
         warmstart_joints: true,
@@ -221,12 +223,16 @@ fn parameters(length: f64, has_joints: bool) -> IntegrationParameters {
 /// Sets the length of the physics engine's step, s, and the parameters that depend on the step: the stiffness of contacts, and the largest
 /// speed of corrections. Joints need corrections at the speed `correction`, m/s.
 fn set_step(parameters: &mut IntegrationParameters, dt: f64, correction: f64) {
-    let soft = SpringCoefficients { natural_frequency: STIFFNESS / dt, damping_ratio: DAMPING };
+    let soft = SpringCoefficients {
+        natural_frequency: CONTACT_FREQUENCY_RATIO / dt,
+        damping_ratio: CONTACT_DAMPING_RATIO,
+    };
     parameters.dt = dt;
     parameters.contact_softness = soft;
     parameters.static_contact_softness = soft;
     let length = parameters.length_unit;
-    parameters.normalized_max_corrective_velocity = (CORRECTION / length.sqrt()).max(correction / length);
+    parameters.normalized_max_corrective_velocity =
+        (MAX_CORRECTION_SPEED / length.sqrt()).max(correction / length);
 }
 
 impl Dynamics for TimeStepping {

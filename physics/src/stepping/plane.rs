@@ -7,16 +7,16 @@ use super::super::shape::Shape;
 use super::shape::Solid;
 
 /// The edge length of the cube that replaces a plane, in multiples of the thickness of the thinnest moving body.
-const EDGE: f64 = 1e6;
+const PLANE_CUBE_EDGE: f64 = 1e6;
 /// A plane counts as aligned with a world axis if a component of its unit normal differs from ±1 by no more than this.
-const ALIGNED: f64 = 1e-12;
+const AXIS_ALIGNMENT_TOLERANCE: f64 = 1e-12;
 
 /// The collision group of spheres and boxes, whose contacts with a block have a closed form.
-const SIMPLE: Group = Group::GROUP_1;
+const SIMPLE_GROUP: Group = Group::GROUP_1;
 /// The collision group of all shapes other than spheres, boxes and planes.
-const OTHER: Group = Group::GROUP_2;
+const OTHER_GROUP: Group = Group::GROUP_2;
 /// The collision group of planes. Planes do not touch each other.
-const PLANE: Group = Group::GROUP_3;
+const PLANE_GROUP: Group = Group::GROUP_3;
 
 /// Returns the solids of a plane, each with its collision groups. `normal` (body axes) and `orientation` give the direction of the plane.
 /// `meets_others` is true if any moving body is neither sphere nor box.
@@ -33,18 +33,18 @@ pub(super) fn solids(
 ) -> Vec<(Solid, InteractionGroups)> {
     let half_space = Solid::angular(Pose::IDENTITY, SharedShape::halfspace(normal));
     let faces = orientation * normal;
-    let is_aligned = faces.abs().max_element() >= 1.0 - ALIGNED;
+    let is_aligned = faces.abs().max_element() >= 1.0 - AXIS_ALIGNMENT_TOLERANCE;
     if !is_aligned {
-        return vec![(half_space, groups(PLANE, SIMPLE | OTHER))];
+        return vec![(half_space, groups(PLANE_GROUP, SIMPLE_GROUP | OTHER_GROUP))];
     }
-    let half = 0.5 * EDGE * length;
+    let half = 0.5 * PLANE_CUBE_EDGE * length;
     // This rotation makes the edges of the block parallel to the world axes.
     let turn = orientation.conjugate();
     let pose = Pose::from_parts(-half * normal, turn);
     let block = Solid::angular(pose, SharedShape::cuboid(half, half, half));
-    let mut all = vec![(block, groups(PLANE, SIMPLE))];
+    let mut all = vec![(block, groups(PLANE_GROUP, SIMPLE_GROUP))];
     if meets_others {
-        all.push((half_space, groups(PLANE, OTHER)));
+        all.push((half_space, groups(PLANE_GROUP, OTHER_GROUP)));
     }
     all
 }
@@ -56,8 +56,8 @@ pub(super) fn is_simple(shape: &Shape) -> bool {
 
 /// Returns the collision groups of a shape other than a plane: its own group, and the groups that it touches.
 pub(super) fn groups_of(shape: &Shape) -> InteractionGroups {
-    let own = if is_simple(shape) { SIMPLE } else { OTHER };
-    groups(own, SIMPLE | OTHER | PLANE)
+    let own = if is_simple(shape) { SIMPLE_GROUP } else { OTHER_GROUP };
+    groups(own, SIMPLE_GROUP | OTHER_GROUP | PLANE_GROUP)
 }
 
 fn groups(own: Group, others: Group) -> InteractionGroups {

@@ -18,13 +18,14 @@ use super::rotation::advanced;
 use super::shape::Symmetry;
 use super::touch::Touch;
 
-/// A smaller rotation by the spin within a step, rad, is left to the physics engine.
-const ANGLE: f64 = 0.005;
+/// The smallest rotation by the spin within a step, rad, that is computed here. A smaller one is left to the physics engine.
+const MIN_SPIN_ROTATION: f64 = 0.005;
 /// The surface of a body has different velocities at the points of a contact if the cosine of the angle between the contact's normal and
 /// the axis is larger than this.
-const INCLINED: f64 = 0.1;
-/// The tolerance for the position of an axis, relative to the thickness of the thinnest moving body.
-const ALIGNED: f64 = 1e-6;
+const INCLINED_COSINE: f64 = 0.1;
+/// The tolerance for the position of a common axis, as a fraction of the thickness of the thinnest moving body, and for the sine of the
+/// angle between two axes.
+const COMMON_AXIS_TOLERANCE: f64 = 1e-6;
 
 /// A body whose surface is symmetric under rotations about its centre of mass, or about an axis through it.
 struct RoundBody {
@@ -62,7 +63,7 @@ impl Rolling {
         let round = symmetries.iter().zip(hinges).enumerate().map(|(i, (colliders, hinges))| {
             let parts = colliders.iter().flat_map(|(_, parts)| parts.iter().copied());
             let hinges = hinges?.into_iter().map(|(centre, axis)| Symmetry::Axis { centre, axis });
-            let axis = common_axis(&parts.chain(hinges).collect::<Vec<_>>(), ALIGNED * length)?;
+            let axis = common_axis(&parts.chain(hinges).collect::<Vec<_>>(), COMMON_AXIS_TOLERANCE * length)?;
             Some(RoundBody {
                 axis,
                 leading: DVec3::ZERO,
@@ -104,7 +105,7 @@ impl Rolling {
         let Some(round) = &mut self.round[body] else { return DVec3::ZERO };
         let axis = round.axis.map(|axis| orientation * axis);
         let [spin, leading] = [turning, leading].map(|all| axis.map_or(all, |axis| all.dot(axis) * axis));
-        let is_fast = spin.length_squared() * dt * dt > ANGLE * ANGLE;
+        let is_fast = spin.length_squared() * dt * dt > MIN_SPIN_ROTATION * MIN_SPIN_ROTATION;
         let is_spun = is_fast && !axis.is_some_and(|axis| is_twisted(engine, colliders, axis));
         (self.spin[body], round.leading) = if is_spun { (spin, leading) } else { (DVec3::ZERO, DVec3::ZERO) };
         round.leading
@@ -181,7 +182,7 @@ fn common_axis(parts: &[Symmetry], tolerance: f64) -> Option<Option<DVec3>> {
         Symmetry::None => false,
         Symmetry::Point { centre } => is_on_axis(centre),
         Symmetry::Axis { centre, axis: own } => {
-            is_on_axis(centre) && common.is_some_and(|axis| axis.cross(own).length() <= ALIGNED)
+            is_on_axis(centre) && common.is_some_and(|axis| axis.cross(own).length() <= COMMON_AXIS_TOLERANCE)
         }
     };
     (!parts.is_empty() && parts.iter().all(fits)).then_some(common)
@@ -191,7 +192,7 @@ fn common_axis(parts: &[Symmetry], tolerance: f64) -> Option<Option<DVec3>> {
 /// cone that lies on its side. The engine's friction knows only one velocity for all points of a contact.
 fn is_twisted(engine: &PhysicsWorld, colliders: &[ColliderHandle], axis: DVec3) -> bool {
     let pairs = colliders.iter().flat_map(|collider| engine.narrow_phase.contact_pairs_with(*collider));
-    let is_inclined = |touch: &Touch<'_>| touch.normal().dot(axis).abs() > INCLINED;
+    let is_inclined = |touch: &Touch<'_>| touch.normal().dot(axis).abs() > INCLINED_COSINE;
     pairs.flat_map(Touch::of_pair).any(|touch| is_inclined(&touch) && touch.points().nth(1).is_some())
 }
 

@@ -6,7 +6,7 @@ use super::super::integrator::turn_freely;
 use super::super::model::is_isotropic;
 
 /// The largest rotation of a body within a step, rad. Faster rotations are cut off at this angle.
-const LARGEST: f64 = 3.0;
+const MAX_ROTATION_PER_STEP: f64 = 3.0;
 
 /// Returns the angular velocity (world axes, rad/s) with which the physics engine rotates a body from orientation `from` to `to` within
 /// `dt`, s.
@@ -18,7 +18,7 @@ pub(super) fn leading(from: DQuat, to: DQuat, dt: f64) -> DVec3 {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let sine = DVec3::new(turn.x, turn.y, turn.z);
     // The tangent is tan(½ φ) = sin(½ φ)/cos(½ φ). A lower bound of the cosine limits the angle.
-    let cosine = turn.w.max(libm::cos(0.5 * LARGEST));
+    let cosine = turn.w.max(libm::cos(0.5 * MAX_ROTATION_PER_STEP));
     2.0 / dt / cosine * sine
 }
 
@@ -48,17 +48,18 @@ pub(super) fn steady(turning: DVec3, dt: f64) -> DVec3 {
     tangent_ratio(0.25 * dt * dt * turning.length_squared()) * turning
 }
 
-/// Returns tan(h)/h for an angle h ≥ 0, rad, from its square. Larger angles than `LARGEST`/2 are cut off.
+/// Returns tan(h)/h for an angle h ≥ 0, rad, from its square. Larger angles than `MAX_ROTATION_PER_STEP`/2 are cut off.
 fn tangent_ratio(squared: f64) -> f64 {
     /// The first coefficients of the series of tan(h)/h in powers of h². Source: Abramowitz & Stegun, 4.3.67.
-    const SERIES: [f64; 6] = [1.0, 1.0 / 3.0, 2.0 / 15.0, 17.0 / 315.0, 62.0 / 2835.0, 1382.0 / 155_925.0];
+    const TANGENT_SERIES: [f64; 6] =
+        [1.0, 1.0 / 3.0, 2.0 / 15.0, 17.0 / 315.0, 62.0 / 2835.0, 1382.0 / 155_925.0];
     // Up to this angle, the first term that is left out is below 1e-18.
-    const SMALL: f64 = 0.05;
-    if squared < SMALL * SMALL {
-        return SERIES.iter().rev().fold(0.0, |sum, coefficient| sum * squared + coefficient);
+    const MAX_SERIES_ANGLE: f64 = 0.05;
+    if squared < MAX_SERIES_ANGLE * MAX_SERIES_ANGLE {
+        return TANGENT_SERIES.iter().rev().fold(0.0, |sum, coefficient| sum * squared + coefficient);
     }
     let angle = libm::sqrt(squared);
-    libm::tan(angle.min(0.5 * LARGEST)) / angle
+    libm::tan(angle.min(0.5 * MAX_ROTATION_PER_STEP)) / angle
 }
 
 #[cfg(test)]

@@ -10,10 +10,10 @@ use super::mesh::MeshSolids;
 
 /// The number of sides of the pyramid frustum that replaces a conical frustum. Its corners lie outside the circle, and the middles of its
 /// sides inside, both by a quarter of a percent of the radius.
-const SIDES: u32 = 32;
+const FRUSTUM_SIDES: u32 = 32;
 /// The deviation between a torus and the ring of capsules that replaces it, as a fraction of the tube's radius. A torus with a very thin
 /// tube deviates more.
-const TORUS: f64 = 0.01;
+const TORUS_DEVIATION: f64 = 0.01;
 
 /// A collision shape of the physics engine, with its pose in the frame of its body.
 pub(super) struct Solid {
@@ -127,13 +127,13 @@ fn collect(shape: &Shape, (moves, meshes): (bool, &mut MeshSolids), pose: Pose, 
 fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = SharedShape> {
     let base = cone_base(radius, top_radius, height);
     // The circle lies midway between the circumscribed and the inscribed circle of the polygon.
-    let outer = 2.0 / (1.0 + libm::cos(PI / f64::from(SIDES)));
+    let outer = 2.0 / (1.0 + libm::cos(PI / f64::from(FRUSTUM_SIDES)));
     let corner = move |i: u32, radius: f64, y: f64| {
-        let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(SIDES));
+        let (sin, cos) = libm::sincos(TAU * f64::from(i) / f64::from(FRUSTUM_SIDES));
         DVec3::new(outer * radius * cos, y, outer * radius * sin)
     };
     let ends = [(radius, base), (top_radius, base + height)];
-    (0..SIDES).filter_map(move |i| {
+    (0..FRUSTUM_SIDES).filter_map(move |i| {
         let corners = ends.map(|(radius, y)| [corner(i, radius, y), corner(i + 1, radius, y), y * DVec3::Y]);
         SharedShape::convex_hull(corners.as_flattened())
     })
@@ -142,7 +142,7 @@ fn frustum(radius: f64, top_radius: f64, height: f64) -> impl Iterator<Item = Sh
 /// Returns capsules along the circle that replace a torus.
 fn torus(radius: f64, tube_radius: f64) -> impl Iterator<Item = SharedShape> {
     // A chord deviates from its arc by radius · (1 − cos(π/n)). A chord that is shifted outwards by half of this deviates by half as much.
-    let deviation = (2.0 * TORUS * tube_radius / radius).min(0.1);
+    let deviation = (2.0 * TORUS_DEVIATION * tube_radius / radius).min(0.1);
     let sides = (PI / libm::acos(1.0 - deviation)).ceil().clamp(12.0, 96.0);
     let ring = radius * 2.0 / (1.0 + libm::cos(PI / sides));
     let corner = move |i: f64| {

@@ -8,10 +8,10 @@ use glam::{DQuat, DVec3};
 use super::mechanisms::Mechanisms;
 
 /// A body counts as a thin rod if its moment of inertia about a hinge is larger than this multiple of its smallest moment.
-const THIN: f64 = 4.0;
-/// A body rotates in the plane of its hinge if its angular velocity across the hinge's axis is smaller than this part of its whole angular
+const MIN_INERTIA_RATIO: f64 = 4.0;
+/// A body rotates in the plane of its hinge if its angular velocity across the hinge's axis is at most this fraction of its whole angular
 /// velocity.
-const PLANE: f64 = 1e-4;
+const PLANAR_ROTATION_TOLERANCE: f64 = 1e-4;
 
 /// The thin rods of a scene.
 pub(super) struct ThinRods(Vec<Option<Rod>>);
@@ -28,7 +28,8 @@ impl ThinRods {
     /// principal moments of inertia, kg m².
     pub(super) fn new(axes: &[Option<DVec3>], inertia: &[DVec3], mechanisms: &Mechanisms) -> ThinRods {
         let rod = |((axis, inertia), is_free): ((&Option<DVec3>, &DVec3), bool)| {
-            let axis = axis.filter(|axis| axis.dot(*inertia * *axis) > THIN * inertia.min_element())?;
+            let axis =
+                axis.filter(|axis| axis.dot(*inertia * *axis) > MIN_INERTIA_RATIO * inertia.min_element())?;
             Some(Rod { axis, can_tumble: is_free })
         };
         ThinRods(axes.iter().zip(inertia).zip(mechanisms.free()).map(rod).collect())
@@ -39,6 +40,7 @@ impl ThinRods {
     pub(super) fn is_steady(&self, body: usize, orientation: DQuat, turning: DVec3) -> bool {
         let Some(rod) = &self.0[body] else { return false };
         let across = turning.reject_from_normalized(orientation * rod.axis).length_squared();
-        !rod.can_tumble || across <= PLANE * PLANE * turning.length_squared()
+        !rod.can_tumble
+            || across <= PLANAR_ROTATION_TOLERANCE * PLANAR_ROTATION_TOLERANCE * turning.length_squared()
     }
 }

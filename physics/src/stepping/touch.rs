@@ -8,7 +8,7 @@ use rapier3d_f64::prelude::{
 use super::super::motion::Twist;
 
 /// The largest number of points of one contact for which the physics engine computes impulses.
-const MOST_POINTS: usize = 4;
+const MAX_CONTACT_POINTS: usize = 4;
 
 /// A contact of two bodies: one or more points with a common normal.
 #[derive(Clone, Copy)]
@@ -73,7 +73,7 @@ impl<'a> Touch<'a> {
     /// Returns the physics engine's data on each point of the contact.
     fn data(&self) -> impl Iterator<Item = &'a ContactData> + use<'a> {
         let points = &self.manifold.points;
-        let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
+        let contacts = self.manifold.data.solver_contacts.iter().take(MAX_CONTACT_POINTS);
         contacts.filter_map(move |contact| {
             // The solver's contact stores the index of its point. To read that index takes time, so a contact with a single point does
             // without.
@@ -90,7 +90,7 @@ impl<'a> Touch<'a> {
         let depth = |contact: &SolverContact| {
             (place(0, contact.anchor1) - place(1, contact.anchor2)).dot(self.normal())
         };
-        let contacts = self.manifold.data.solver_contacts.iter().take(MOST_POINTS);
+        let contacts = self.manifold.data.solver_contacts.iter().take(MAX_CONTACT_POINTS);
         contacts.map(depth).fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -152,12 +152,13 @@ pub(super) fn visit<'a>(
     mut meet: impl FnMut(&Touch<'a>),
     mut look: impl FnMut(&'a ContactPair, &Touch<'a>, &Push),
 ) {
-    const AT_ONCE: usize = 64;
+    /// The number of contacts in a block.
+    const BLOCK_SIZE: usize = 64;
     let all: Vec<(&ContactPair, &ContactManifold)> =
         pairs.flat_map(|pair| manifolds(pair).iter().map(move |manifold| (pair, manifold))).collect();
-    let mut found = Vec::with_capacity(AT_ONCE);
-    for block in all.chunks(AT_ONCE) {
-        let mut touching = [false; AT_ONCE];
+    let mut found = Vec::with_capacity(BLOCK_SIZE);
+    for block in all.chunks(BLOCK_SIZE) {
+        let mut touching = [false; BLOCK_SIZE];
         for (touching, (_, manifold)) in touching.iter_mut().zip(block) {
             *touching = !manifold.data.solver_contacts.is_empty();
         }
@@ -165,7 +166,7 @@ pub(super) fn visit<'a>(
         for ((pair, manifold), _) in block.iter().zip(touching).filter(|(_, touching)| *touching) {
             found.extend(Touch::new(manifold).map(|touch| (*pair, touch)));
         }
-        let mut pushing = [false; AT_ONCE];
+        let mut pushing = [false; BLOCK_SIZE];
         for (pushing, (_, touch)) in pushing.iter_mut().zip(&found) {
             *pushing = touch.manifold.points.iter().any(|point| point.data.impulse != 0.0);
         }

@@ -13,7 +13,7 @@ const STEP_TOLERANCE: f64 = 1e-9;
 const SHORTEST_REMAINDER: f64 = 1e-11;
 
 /// The largest number of sudden changes of given velocities in a step that end a piece of it.
-const MOST_JUMPS: u32 = 100;
+const MAX_JUMPS: u32 = 100;
 
 /// Returns the smallest number of equal steps that divide an interval (s), if no step may exceed `longest` (s). At least 1, at most
 /// `u32::MAX`.
@@ -76,7 +76,7 @@ impl World {
             if !left.is_empty() {
                 self.before.clone_from(&self.state);
             }
-            let jump = if self.is_sudden && jumps < MOST_JUMPS { self.next_jump(now, length) } else { None };
+            let jump = if self.is_sudden && jumps < MAX_JUMPS { self.next_jump(now, length) } else { None };
             let (mut duration, mut event) = (0.0, None);
             let moves = jump.is_none_or(|jump| jump.before > 0.0);
             if moves {

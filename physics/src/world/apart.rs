@@ -10,14 +10,14 @@ use crate::contact::{Collider, Parting};
 use crate::{Snapshot, State};
 
 /// All bodies are advanced together if there are fewer groups than this.
-const GROUPS: usize = 4;
+const MIN_GROUPS: usize = 4;
 
 /// The largest number of attempts at a step. Each new attempt has larger groups, because bodies of different groups have met in the last
 /// attempt.
-const ATTEMPTS: u32 = 8;
+const MAX_ATTEMPTS: u32 = 8;
 
 /// After a step with too few groups, all bodies are advanced together for this many steps before the world looks for groups again.
-const TOGETHER: u32 = 8;
+const STEPS_TOGETHER: u32 = 8;
 
 impl World {
     /// Tries to make a step in separate groups. Returns false, and leaves the state unchanged, if there are too few groups.
@@ -30,7 +30,7 @@ impl World {
     ) -> bool {
         self.together = self.together.saturating_sub(1);
         let has_enough =
-            || (0..self.model.len()).filter(|&i| self.model.can_move(i)).nth(GROUPS - 1).is_some();
+            || (0..self.model.len()).filter(|&i| self.model.can_move(i)).nth(MIN_GROUPS - 1).is_some();
         if self.together > 0 || self.collider.is_none() || !self.model.is_local() || !has_enough() {
             return false;
         }
@@ -42,12 +42,12 @@ impl World {
         let flown = self.state.clone();
         // Pairs of bodies from different groups that have met. In the next attempt, both bodies of a pair are in the same group.
         let mut met = Vec::new();
-        for attempt in 0..ATTEMPTS {
+        for attempt in 0..MAX_ATTEMPTS {
             let Some(collider) = &mut self.collider else { break };
             let ends = (&start, &flown);
             let parting = collider.part(&self.model, ends, dt, whole.contacts(), self.rest.held(), &met);
             let is_busy = parting.groups.iter().any(|group| group.is_busy);
-            if is_busy && parting.groups.len() < GROUPS {
+            if is_busy && parting.groups.len() < MIN_GROUPS {
                 break;
             }
             if attempt == 0 && !moments.is_empty() {
@@ -69,7 +69,7 @@ impl World {
         self.state = start;
         self.solver = whole;
         self.integrator.discontinuity();
-        self.together = TOGETHER;
+        self.together = STEPS_TOGETHER;
         false
     }
 

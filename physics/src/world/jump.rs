@@ -16,8 +16,9 @@ const SLIGHT_CHANGE: f64 = 1e-8;
 /// The time of a sudden change is found to this fraction of the step.
 const TIME_ERROR: f64 = 1e-12;
 
-/// Changes are searched beyond the end of a step by this fraction of it: the next step may begin later by rounding errors.
-const BEYOND: f64 = 1e-9;
+/// The margin by which changes are searched beyond the end of a step, as a fraction of the step. The next step may begin later by rounding
+/// errors.
+const SEARCH_MARGIN: f64 = 1e-9;
 
 /// A sudden change of the velocity of a body with a given motion.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +83,7 @@ fn jump(motion: &dyn Motion, (t, dt): (f64, f64), reach: f64, slight: f64) -> Op
         let speed: f64 = [a, b].iter().flat_map(|moment| moment.1).map(glam::DVec3::length).sum();
         left(0).length() + left(1).length() - SUDDEN_CHANGE * speed - slight
     };
-    let (mut early, mut late) = (at(0.0), at(dt * (1.0 + BEYOND)));
+    let (mut early, mut late) = (at(0.0), at(dt * (1.0 + SEARCH_MARGIN)));
     if excess(&early, &late) <= 0.0 {
         return None;
     }

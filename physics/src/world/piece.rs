@@ -7,10 +7,10 @@ use super::event::Event;
 use crate::{BodyId, Breakdown, System};
 
 /// The largest number of trials to find the time of an event to the last bit. The interval is halved often enough that they suffice.
-const TRIALS: usize = 120;
+const MAX_EVENT_TRIALS: usize = 120;
 
-/// The margin of an event in the middle of its tolerance.
-const MIDDLE: f64 = -0.5;
+/// The margin of an event in the middle of its tolerance, as a multiple of the tolerance.
+const MIDDLE_MARGIN: f64 = -0.5;
 
 /// The search for the middle ends when the margin is this near to it.
 const NEAR_MIDDLE: f64 = 1e-3;
@@ -18,11 +18,11 @@ const NEAR_MIDDLE: f64 = 1e-3;
 /// The largest number of steps of the search for the middle.
 const MIDDLE_TRIALS: usize = 3;
 
-/// Times count as equal if they differ by less than this fraction of the step.
-const INSTANT: f64 = 1e-13;
+/// Times count as equal if they differ by at most this fraction of the step.
+const TIME_TOLERANCE: f64 = 1e-13;
 
 /// The largest number of iterations to find the time at which two bodies touch. Each iteration squares the relative error of this time.
-const TOUCHES: usize = 12;
+const MAX_TOUCH_ITERATIONS: usize = 12;
 
 /// Moreau's scheme moves bodies apart that overlap by at most this fraction of the smaller one's size when they appear.
 const MOVED_APART: f64 = 0.1;
@@ -61,7 +61,7 @@ impl World {
         // At `early` the bodies still separate; at `late` they approach. The rate of the gap tells which is the case. The gap itself
         // cannot, because a rebound can be lower than the rounding error of the gap.
         let (mut early, mut late, mut length) = (0.0, first, first);
-        for _ in 0..TOUCHES {
+        for _ in 0..MAX_TOUCH_ITERATIONS {
             self.try_step(t, length);
             let Some((gap, rate)) = self.gap(bodies) else { break };
             let next = if rate < 0.0 {
@@ -246,7 +246,7 @@ impl World {
         let mut weights = [1.0; 2];
         let mut later: Option<(f64, f64)> = None;
         let mut tried = f64::NAN;
-        for trial in 0..TRIALS {
+        for trial in 0..MAX_EVENT_TRIALS {
             // The search ends when the margin is within the tolerance.
             if late_margin >= -1.0 {
                 break;
@@ -260,14 +260,18 @@ impl World {
             let beyond = later.filter(|_| trial % 3 == 0).map(|(length, margin)| {
                 let slope = (margin - late_margin) / (length - late);
                 let root = late - (late_margin + 0.5) / slope;
-                if early == 0.0 && (root.is_nan() || root <= 0.0) { 0.5 * INSTANT * end.0 } else { root }
+                if early == 0.0 && (root.is_nan() || root <= 0.0) {
+                    0.5 * TIME_TOLERANCE * end.0
+                } else {
+                    root
+                }
             });
             let length = match beyond {
                 Some(beyond) if beyond > early && beyond < late => beyond,
                 _ if is_slow || !(secant > early && secant < late) => middle,
                 _ => secant,
             };
-            if length <= early || length >= late || late - early <= INSTANT * end.0 {
+            if length <= early || length >= late || late - early <= TIME_TOLERANCE * end.0 {
                 break;
             }
             let (margin, at) = self.try_piece(t, length);
@@ -291,12 +295,13 @@ impl World {
             other = Some((early, early_margin));
         }
         for _ in 0..MIDDLE_TRIALS {
-            let Some((length, margin)) = other.filter(|_| late_margin >= -1.0 && late > INSTANT * end.0)
+            let Some((length, margin)) =
+                other.filter(|_| late_margin >= -1.0 && late > TIME_TOLERANCE * end.0)
             else {
                 break;
             };
-            let next = late + (MIDDLE - late_margin) * (late - length) / (late_margin - margin);
-            if (late_margin - MIDDLE).abs() < NEAR_MIDDLE || !(next > early && next < end.0) {
+            let next = late + (MIDDLE_MARGIN - late_margin) * (late - length) / (late_margin - margin);
+            if (late_margin - MIDDLE_MARGIN).abs() < NEAR_MIDDLE || !(next > early && next < end.0) {
                 break;
             }
             let (margin, at) = self.try_piece(t, next);
@@ -308,7 +313,7 @@ impl World {
             (late, late_margin, row) = (next, margin, at);
         }
         // An event at the start of the step ends a piece of length 0.
-        let length = if late <= INSTANT * end.0 { 0.0 } else { late };
+        let length = if late <= TIME_TOLERANCE * end.0 { 0.0 } else { late };
         if tried != length {
             self.try_piece(t, length);
         }

@@ -14,21 +14,21 @@ use crate::contact::{Collider, LastingContact, kinetic};
 use crate::{ContactSnapshot, Loads, System};
 
 /// The number of consecutive steps at rest after which bodies are held in place.
-const CALM: u32 = 8;
+const STEPS_BEFORE_HOLDING: u32 = 8;
 
 /// A body is at rest if its speed is below this fraction of the largest closing speed so far, or of the typical change of velocity by
 /// forces within a step, whichever is larger.
-const STILL: f64 = 1e-8;
+const MAX_RESTING_SPEED: f64 = 1e-8;
 
-/// A body that Moreau's scheme has advanced counts as at rest up to a speed that is higher by this factor.
-const CREEP: f64 = 100.0;
+/// For a body that Moreau's scheme has advanced, [`MAX_RESTING_SPEED`] is higher by this factor.
+const MOREAU_SPEED_FACTOR: f64 = 100.0;
 
-/// Bodies are held only if the forces on each balance to within this fraction of the forces of its contacts, and if these forces together
-/// lie no further than that outside their cones of friction.
-const BALANCED: f64 = 0.01;
+/// Bodies are held only if the forces on each balance to within this fraction of the forces of its contacts. The forces together may lie
+/// outside their cones of friction by the same fraction.
+const BALANCE_TOLERANCE: f64 = 0.01;
 
-/// Loads count as unchanged if their relative change is below this.
-const SAME: f64 = 1e-9;
+/// Loads count as unchanged if their relative change is at most this.
+const LOAD_TOLERANCE: f64 = 1e-9;
 
 /// The groups of bodies held at rest, and how long each body has rested.
 #[derive(Clone, Default)]
@@ -63,7 +63,11 @@ impl Rest {
     /// Returns true if all of these bodies can be held at the end of this step, provided that they are still at rest.
     pub(super) fn are_due(&self, bodies: &BTreeSet<usize>) -> bool {
         let calm = |body: &usize| self.calm.get(*body).copied().unwrap_or(0);
-        bodies.iter().map(calm).min().is_some_and(|least| least % CALM == CALM - 1)
+        bodies
+            .iter()
+            .map(calm)
+            .min()
+            .is_some_and(|least| least % STEPS_BEFORE_HOLDING == STEPS_BEFORE_HOLDING - 1)
     }
 
     /// Returns true if a body was at rest at the end of the last step.
@@ -82,7 +86,7 @@ impl World {
     pub(super) fn hold_still(&mut self, t: f64, dt: f64) {
         let Some(collider) = self.collider.as_ref() else { return };
         let swing = self.solver.usual_change(dt);
-        let slow = STILL * collider.fastest().max(self.solver.usual_change(self.step));
+        let slow = MAX_RESTING_SPEED * collider.fastest().max(self.solver.usual_change(self.step));
         self.rest.calm.resize(self.model.len(), 0);
         let is_stepped = self.is_stepped();
         for (i, calm) in self.rest.calm.iter_mut().enumerate() {
@@ -93,12 +97,13 @@ impl World {
                 let turn = angle(self.before.orientation[i], self.state.orientation[i]);
                 speed = (way.length() + turn * collider.reach(i)) / dt;
             }
-            let slow = if is_stepped || collider.was_in_crowd(i) { CREEP * slow } else { slow };
+            let slow = if is_stepped || collider.was_in_crowd(i) { MOREAU_SPEED_FACTOR * slow } else { slow };
             *calm = if speed <= slow { *calm + 1 } else { 0 };
         }
         // If a group cannot be held yet, the next attempt is some steps later.
-        let is_due =
-            |(i, calm): (usize, &u32)| *calm > 0 && *calm % CALM == 0 && self.model.inverse_mass()[i] != 0.0;
+        let is_due = |(i, calm): (usize, &u32)| {
+            *calm > 0 && *calm % STEPS_BEFORE_HOLDING == 0 && self.model.inverse_mass()[i] != 0.0
+        };
         let is_due = self.rest.calm.iter().enumerate().any(is_due);
         if is_due && is_stepped {
             let places = collider.last_places(&self.model, &self.state);
@@ -212,8 +217,8 @@ impl World {
             rolls |= law.rolling_friction > 0.0;
         }
         // The torques of rolling friction do not show in snapshots.
-        let turns = !rolls && torque.length() > BALANCED * moments;
-        force.length() <= BALANCED * carried && outside <= BALANCED * carried && !turns
+        let turns = !rolls && torque.length() > BALANCE_TOLERANCE * moments;
+        force.length() <= BALANCE_TOLERANCE * carried && outside <= BALANCE_TOLERANCE * carried && !turns
     }
 
     /// Gives contacts to the solver, in addition to those that it has.
@@ -227,7 +232,7 @@ impl World {
     /// Returns the groups of bodies that are connected by contacts and have all rested long enough. Bodies with joints are excluded.
     fn calm_islands(&self) -> Vec<BTreeSet<usize>> {
         let can_move = |body: &usize| self.model.inverse_mass()[*body] != 0.0;
-        let is_calm = |body: &usize| self.rest.calm[*body] >= CALM;
+        let is_calm = |body: &usize| self.rest.calm[*body] >= STEPS_BEFORE_HOLDING;
         let mut islands: Vec<(BTreeSet<usize>, bool)> = Vec::new();
         for contact in self.solver.contacts() {
             let bodies: BTreeSet<usize> = contact.bodies.into_iter().filter(can_move).collect();
@@ -260,7 +265,7 @@ impl World {
         }
         let mut loads = Loads::default();
         self.model.sum(t, &self.state, &mut loads);
-        let differs = |a: DVec3, b: DVec3| (a - b).length() > SAME * a.length();
+        let differs = |a: DVec3, b: DVec3| (a - b).length() > LOAD_TOLERANCE * a.length();
         let is_disturbed = |island: &Island| {
             let mut all = island.bodies.iter().zip(&island.loads);
             all.any(|(&i, load)| differs(load.0, loads.force[i]) || differs(load.1, loads.torque[i]))

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::super::super::contact::pose;
 use super::super::super::{Model, State};
-use super::super::separate::{APART, SHALLOW};
+use super::super::separate::{IGNORED_OVERLAP, SEPARATION_SWEEP_TOLERANCE};
 use super::super::sweep::Stopping;
 use super::island::Rows;
 use super::{Island, Pile};
@@ -12,7 +12,7 @@ use super::{Island, Pile};
 impl Pile {
     /// Measures the overlaps of bodies at a state. Returns true if any of them is too deep to be ignored.
     pub(crate) fn are_within(&mut self, model: &Model, state: &State) -> bool {
-        let shallow = if self.points.is_empty() { 0.0 } else { SHALLOW * self.least_size() };
+        let shallow = if self.points.is_empty() { 0.0 } else { IGNORED_OVERLAP * self.least_size() };
         let mut is_within = false;
         for point in &mut self.points {
             let place = &self.contacts[point.contact].place;
@@ -35,7 +35,7 @@ impl Pile {
         let islands = std::mem::take(&mut self.islands);
         for island in &islands {
             if self.points[island.points.clone()].iter().any(|point| point.gap < 0.0) {
-                self.part(island, APART * deepest, state);
+                self.part(island, SEPARATION_SWEEP_TOLERANCE * deepest, state);
             }
         }
         self.islands = islands;

@@ -4,12 +4,13 @@ use glam::{DVec2, DVec3};
 
 use super::super::super::contact::{LastingContact, pose};
 use super::super::super::{ContactSnapshot, Loads, Model, State};
-use super::super::sweep::{Purpose, SETTLED, STRUCK};
+use super::super::sweep::{FORCE_SWEEP_TOLERANCE, IMPACT_SWEEP_TOLERANCE, Purpose};
 use super::island::Limits;
 use super::{Contact, Island, Pile};
 
-/// The number of times that the forces between resting bodies are found. Each time, the sweeps start from the forces found the time before.
-const ROUNDS: usize = 10;
+/// The number of times that sweeps solve for the forces between resting bodies. Each time, the sweeps start from the forces found the time
+/// before.
+const FORCE_PASSES: usize = 10;
 
 impl Pile {
     /// Sets the rates that contacts aim at: the gap of none may close before the end of a substep of `part` seconds. Gaps below `closed`
@@ -79,7 +80,7 @@ impl Pile {
             self.fastest = fastest;
         }
         // Rates need no accuracy far below their change by forces in a substep.
-        let part = if purpose == Purpose::Impact { STRUCK } else { SETTLED };
+        let part = if purpose == Purpose::Impact { IMPACT_SWEEP_TOLERANCE } else { FORCE_SWEEP_TOLERANCE };
         let largest = fastest.max(self.fastest);
         Limits { largest, tolerance: part * largest }
     }
@@ -184,7 +185,7 @@ impl Pile {
         let shown = places.clone();
         pile.take_contacts(places, false, (model, &given));
         pile.measure(model, &given);
-        for _ in 0..ROUNDS {
+        for _ in 0..FORCE_PASSES {
             for point in &mut pile.points {
                 point.goal = DVec3::ZERO;
             }

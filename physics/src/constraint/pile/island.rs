@@ -4,13 +4,13 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::super::anderson::Anderson;
 use super::super::newton::{self, Bound, Inert, Line, Term};
-use super::super::refine::{BETTER, LEFT};
-use super::super::sweep::{Purpose, SWEEPS, Stopping, adds_energy};
+use super::super::refine::{MAX_NEWTON_REMAINDER, MAX_SWEEP_RESIDUAL};
+use super::super::sweep::{MAX_SWEEPS, Purpose, Stopping, adds_energy};
 use super::point::{Point, Roll};
 use super::{Island, Pile};
 
-/// An island with more points than this has many.
-const MANY: usize = 60;
+/// The largest number of contact points in a small island.
+const SMALL_ISLAND_POINTS: usize = 60;
 
 /// Where many bodies flow, sweeps for forces end at a tolerance that is coarser by this factor: 1e-5 of the largest rate. Impacts have this
 /// tolerance in every island.
@@ -90,9 +90,9 @@ impl Pile {
             Purpose::Impact => self.start(island, |_| (DVec3::ZERO, DVec2::ZERO)),
         }
         let (rounds, most, enough) = match motion {
-            Motion::ManyRest => (ROUNDS_AT_REST, SWEEPS / ROUNDS_AT_REST, limits.tolerance),
-            Motion::OfFew => (1, SWEEPS, LEFT * limits.largest),
-            Motion::ManyFlow => (1, SWEEPS, f64::INFINITY),
+            Motion::ManyRest => (ROUNDS_AT_REST, MAX_SWEEPS / ROUNDS_AT_REST, limits.tolerance),
+            Motion::OfFew => (1, MAX_SWEEPS, MAX_SWEEP_RESIDUAL * limits.largest),
+            Motion::ManyFlow => (1, MAX_SWEEPS, f64::INFINITY),
         };
         for _ in 0..rounds {
             let stopping = Stopping::fast(limits.tolerance).at_most(most);
@@ -110,7 +110,7 @@ impl Pile {
             changed = changed.max((point.free_rate(&self.bodies) - point.rate_before).length());
         }
         match purpose {
-            _ if island.points.len() <= MANY => Motion::OfFew,
+            _ if island.points.len() <= SMALL_ISLAND_POINTS => Motion::OfFew,
             Purpose::Forces(_) if fastest <= changed => Motion::ManyRest,
             _ => Motion::ManyFlow,
         }
@@ -230,7 +230,7 @@ impl Pile {
             return true;
         }
         let left = equations.solve(limits.tolerance);
-        let has_helped = left < BETTER * residual;
+        let has_helped = left < MAX_NEWTON_REMAINDER * residual;
         self.pause.note(has_helped);
         if has_helped {
             let (of_points, of_rolls) = equations.impulses.split_at(3 * island.points.len());

@@ -10,7 +10,7 @@ use super::super::collider::Collider;
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::path::pose;
 use super::Crowd;
-use super::substep_motion::{DEEP, LEAN, REPAIRS, separate_pile};
+use super::substep_motion::{JAMMED_OVERLAP, MAX_CROWD_GAP, MAX_SEPARATION_ATTEMPTS, separate_pile};
 
 impl Collider {
     /// Makes all present bodies that forces move the crowd (the bodies that Moreau's scheme advances).
@@ -83,16 +83,16 @@ impl Collider {
 
     /// Ends a step of the pile: separates bodies that overlap too deeply.
     pub(crate) fn end_pile(&mut self, model: &Model, time: f64, state: &mut State) {
-        for _ in 0..REPAIRS {
+        for _ in 0..MAX_SEPARATION_ATTEMPTS {
             let is_deep = |place: &LastingContact| {
-                place.gap(place.bodies.map(|body| pose(body, model, state))) < -DEEP * place.size
+                place.gap(place.bodies.map(|body| pose(body, model, state))) < -JAMMED_OVERLAP * place.size
             };
             if !self.crowd.pile.contacts().any(is_deep) {
                 break;
             }
             // What is moved apart must not be moved into its neighbors. Bodies that stay jammed overlap by what those around them allow,
             // which the report of the run says.
-            let (all, _) = self.touching_in_crowd(model, state, LEAN);
+            let (all, _) = self.touching_in_crowd(model, state, MAX_CROWD_GAP);
             self.crowd.pile.take_contacts(all, false, (model, state));
             separate_pile(&mut self.crowd.pile, model, time, state);
         }
@@ -136,7 +136,8 @@ impl Collider {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
             let [p, q] = pair.bodies.map(|body| pose(body, model, state));
             let speed = state.velocity[other].length() + self.spin(other, model, state);
-            let within = 2.0 * speed * dt + super::substep_motion::GRASP * self.size(pair.bodies);
+            let within =
+                2.0 * speed * dt + super::substep_motion::PUSHING_CONTACT_TOLERANCE * self.size(pair.bodies);
             if nearest(x, &p, y, &q, f64::INFINITY).is_some_and(|near| near.gap <= within) {
                 hit.push(held);
             }

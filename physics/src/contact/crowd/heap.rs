@@ -7,9 +7,9 @@ use super::super::super::{Model, State};
 use super::super::collider::Collider;
 use super::super::lasting_contact::LastingContact;
 
-/// Touching bodies form a heap if they have more than this number of touching pairs. To decide repeatedly which of many contacts push and
-/// slide would take too long.
-const PAIRS: usize = 6;
+/// The largest number of touching pairs of bodies that are not yet a heap. In a heap, it would take too long to decide repeatedly which of
+/// many contacts push and slide.
+const MAX_PAIRS_WITHOUT_HEAP: usize = 6;
 
 impl Collider {
     /// Returns the heap that contains some of these bodies, and remembers its members. `places` are the contacts. Empty if there is no
@@ -56,7 +56,7 @@ pub(super) fn is_heap<'a>(places: impl IntoIterator<Item = &'a Arc<LastingContac
             last = Some(place.bodies);
         }
     }
-    pairs > PAIRS
+    pairs > MAX_PAIRS_WITHOUT_HEAP
 }
 
 /// Returns all movable bodies that contacts connect with the given bodies, in ascending order. Empty if they form no heap.

@@ -6,20 +6,21 @@ use super::super::collider::Collider;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 
-/// For a crowd of at most this many bodies, each hit by another body is found at its exact time. The crowd's motion is then computed again,
-/// at little cost.
-const FEW: usize = 6;
+/// The largest number of bodies in a small crowd. Each hit of a small crowd by another body is found at its exact time. The crowd's motion
+/// is then computed again, at little cost.
+const SMALL_CROWD_BODIES: usize = 6;
 
-/// Bodies join a crowd if they could reach it by moving this many times as far as they move in a step at their present speed, plus the
-/// fraction `NEARER` of their size. The margin is needed because impacts can make bodies faster within a step.
-const FARTHER: f64 = 2.0;
-const NEARER: f64 = 0.02;
+/// Bodies join a crowd if they could reach it by moving this many times as far as they move in a step at their present speed, plus
+/// [`SIZE_MARGIN_FRACTION`] times their size. The margin is needed because impacts can make bodies faster within a step.
+const PATH_MARGIN_FACTOR: f64 = 2.0;
+/// The part of the margin that does not depend on speed, as a fraction of the body's size.
+const SIZE_MARGIN_FRACTION: f64 = 0.02;
 
 impl Collider {
     /// Adds bodies that may hit the crowd (the bodies that Moreau's scheme advances) within `dt` seconds, then bodies that may hit these,
     /// and so on. The motion of a large crowd is then computed once in a step, not after each hit.
     pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
-        if self.crowd.bodies.len() <= FEW {
+        if self.crowd.bodies.len() <= SMALL_CROWD_BODIES {
             return;
         }
         let way = |i: usize| {
@@ -28,7 +29,7 @@ impl Collider {
             };
             let speed =
                 state.velocity[i].length() + model.angular_velocity(i, state).length() * solid.reach();
-            FARTHER * speed * dt + NEARER * solid.size()
+            PATH_MARGIN_FACTOR * speed * dt + SIZE_MARGIN_FRACTION * solid.size()
         };
         let ways: Vec<f64> = (0..self.solids.len()).map(way).collect();
         let mut pairs = match self.pairs.within(&ways) {

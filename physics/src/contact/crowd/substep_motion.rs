@@ -27,34 +27,34 @@ use super::super::touch::{Touch, touches};
 use super::Crowd;
 
 /// The smallest and the largest number of substeps in a step.
-const PARTS: [f64; 2] = [2.0, 64.0];
+const SUBSTEPS_PER_STEP: [f64; 2] = [2.0, 64.0];
 
-/// The longest path of a body in a substep, as a fraction of the body's size. The path may be longer if the limit would require more
-/// substeps than the largest number.
-const FAR: f64 = 0.12;
+/// The longest path of a body in a substep, as a fraction of the body's size. The path may be longer if this limit would require more
+/// substeps than the largest number in [`SUBSTEPS_PER_STEP`].
+const MAX_PATH_PER_SUBSTEP: f64 = 0.12;
 
 /// Points of bodies that push each other stay in contact at the end of the step if their gap is below this fraction of the smaller body's
 /// size.
-pub(super) const GRASP: f64 = 1e-5;
+pub(super) const PUSHING_CONTACT_TOLERANCE: f64 = 1e-5;
 
 /// Bodies are jammed if they overlap at the end of the step by more than this fraction of the smaller body's size.
-pub(super) const DEEP: f64 = 0.01;
+pub(super) const JAMMED_OVERLAP: f64 = 0.01;
 
 /// The largest number of attempts to separate jammed bodies. After them, the run fails.
-pub(super) const REPAIRS: usize = 50;
+pub(super) const MAX_SEPARATION_ATTEMPTS: usize = 50;
 
 /// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
 /// smaller body's size. Lower bounces do not count as free flight.
-pub(super) const LEAN: f64 = 0.01;
+pub(super) const MAX_CROWD_GAP: f64 = 0.01;
 
-/// How often a substep is halved because its impulses add energy. If they still do, the run fails.
-const MOST_HALVINGS: u32 = 6;
+/// The largest number of times that a substep is halved because its impulses add energy. If they still do, the run fails.
+const MAX_HALVINGS: u32 = 6;
 
-/// Times within a substep are equal if they differ by less than this fraction of the substep.
-const SAME: f64 = 1e-12;
+/// Times within a substep count as equal if they differ by less than this fraction of the substep.
+const TIME_TOLERANCE: f64 = 1e-12;
 
-/// Bodies touch if their gap is below this fraction of their size.
-const NEAR: f64 = 1e-9;
+/// Bodies count as touching if their gap is below this fraction of their size.
+const CONTACT_TOLERANCE: f64 = 1e-9;
 
 /// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
 #[derive(Clone, Default)]
@@ -182,9 +182,9 @@ impl Collider {
     ) -> State {
         let passed = ((time - course.start) / course.part).max(0.0);
         let last = course.states.len() - 1;
-        let k = ((passed + SAME) as usize).min(last);
+        let k = ((passed + TIME_TOLERANCE) as usize).min(last);
         let left = time - course.start - k as f64 * course.part;
-        if k == last || left <= SAME * course.part {
+        if k == last || left <= TIME_TOLERANCE * course.part {
             return course.states[k].clone();
         }
         let key = time - course.start;
@@ -248,7 +248,7 @@ impl Collider {
         let (before, impacts) = (now.clone(), crowd.impacts.len());
         let closed = self.crowd_places(model, now, &course.pairs, (part, crowd.is_all));
         let residual = crowd.advance(closed, model, (time, part), now, loads);
-        if residual.is_some_and(|residual| residual.is_excess()) && halvings < MOST_HALVINGS {
+        if residual.is_some_and(|residual| residual.is_excess()) && halvings < MAX_HALVINGS {
             now.clone_from(&before);
             crowd.impacts.truncate(impacts);
             crowd.solver.start_cold();
@@ -309,7 +309,7 @@ impl Collider {
             let [Some(x), Some(y)] = pair.bodies.map(|body| self.solids[body].as_ref()) else { continue };
             let [p, q] = pair.bodies.map(|body| pose(body, model, state));
             let near = nearest(x, &p, y, &q, f64::INFINITY);
-            if near.is_some_and(|near| near.gap <= LEAN * self.size(pair.bodies)) {
+            if near.is_some_and(|near| near.gap <= MAX_CROWD_GAP * self.size(pair.bodies)) {
                 all.extend(pair.bodies);
             }
         }
@@ -325,10 +325,10 @@ impl Collider {
             let (size, reach) =
                 self.solids[i].as_ref().map_or((f64::INFINITY, 0.0), |solid| (solid.size(), solid.reach()));
             let speed = state.velocity[i].length() + model.angular_velocity(i, state).length() * reach;
-            speed * dt / (FAR * size)
+            speed * dt / (MAX_PATH_PER_SUBSTEP * size)
         };
         let counted = self.crowd.bodies.iter().filter(|&&body| is_near[body]);
-        counted.map(way).fold(PARTS[0], f64::max).min(PARTS[1]).ceil()
+        counted.map(way).fold(SUBSTEPS_PER_STEP[0], f64::max).min(SUBSTEPS_PER_STEP[1]).ceil()
     }
 
     /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds. If all bodies are in
@@ -390,14 +390,14 @@ impl Collider {
         state: &mut State,
     ) -> Result<Vec<Arc<LastingContact>>, Breakdown> {
         let mut jammed = None;
-        for _ in 0..REPAIRS {
+        for _ in 0..MAX_SEPARATION_ATTEMPTS {
             let (all, deep) = self.touching_in_crowd(model, state, 0.0);
             if deep.is_none() {
                 return Ok(self.accept_places(all));
             }
             jammed = deep;
             // What is moved apart must not be moved into its neighbors.
-            let (all, _) = self.touching_in_crowd(model, state, LEAN);
+            let (all, _) = self.touching_in_crowd(model, state, MAX_CROWD_GAP);
             let Crowd { pile, solver, is_all, .. } = &mut self.crowd;
             if model.constraints().is_empty() {
                 pile.take_contacts(all, !*is_all, (model, state));
@@ -433,7 +433,7 @@ impl Collider {
             let size = self.size(pair.bodies);
             let within = self.touching_gap(pair.bodies, model, state).max(near * size);
             let places = self.places_within(model, state, &pair, [x, y], within);
-            if places.iter().any(|place| place.touch.meeting.gap < -DEEP * size) {
+            if places.iter().any(|place| place.touch.meeting.gap < -JAMMED_OVERLAP * size) {
                 deep = Some(pair.bodies);
             }
             all.extend(places);
@@ -446,10 +446,10 @@ impl Collider {
     /// Returns the gap up to which two bodies touch, m.
     pub(super) fn touching_gap(&self, bodies: [usize; 2], model: &Model, state: &State) -> f64 {
         if self.crowd.pushing.binary_search(&bodies).is_ok() {
-            return GRASP * self.size(bodies);
+            return PUSHING_CONTACT_TOLERANCE * self.size(bodies);
         }
         let [Some(x), Some(y)] = bodies.map(|body| self.solids[body].as_ref()) else { return 0.0 };
-        Scale::of(bodies, [x, y], (model, state)).tolerance(NEAR)
+        Scale::of(bodies, [x, y], (model, state)).tolerance(CONTACT_TOLERANCE)
     }
 }
 
@@ -504,7 +504,8 @@ impl Crowd {
         solver.forget();
         // Bodies may approach only so fast that their gap does not close before the end of the substep.
         solver.prepare_sweeps(model, t, now);
-        let mut goals: Vec<f64> = solver.gaps(GRASP).iter().map(|gap| -gap / part).collect();
+        let mut goals: Vec<f64> =
+            solver.gaps(PUSHING_CONTACT_TOLERANCE).iter().map(|gap| -gap / part).collect();
         model.sum(t, now, loads);
         let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
         self.impacts.extend(struck.impacts);
@@ -570,7 +571,7 @@ impl Crowd {
     ) -> Option<LawResidual> {
         let (energy, accounts) = (self.kinetic(model, now), now.accounts);
         self.pile.take_contacts(closed, !self.is_all, (model, now));
-        self.pile.aim(part, GRASP);
+        self.pile.aim(part, PUSHING_CONTACT_TOLERANCE);
         model.sum(t, now, loads);
         let strike = Strike { time: t, part, counts_soft: self.is_all };
         let struck = self.pile.strike_all(model, strike, (now, loads));

@@ -6,12 +6,12 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::super::closest_points::ClosestPoints;
-use super::{PARALLEL, Spine, balls, radial};
+use super::{PARALLEL_SINE, Spine, balls, radial};
 
 /// The number of equally spaced angles on the rim. Newton's method starts at the best of them.
-const STARTS: u32 = 24;
-/// The largest number of Newton steps or halvings. This many halvings shrink an interval to rounding errors.
-const STEPS: u32 = 60;
+const START_ANGLES: u32 = 24;
+/// The largest number of Newton steps or halvings. So many halvings shrink an interval to rounding errors.
+const MAX_STEPS: u32 = 60;
 
 /// The circular rim of a flat end of a cylinder or cone.
 #[derive(Clone, Copy, Debug)]
@@ -126,7 +126,7 @@ fn crossing(
 ) -> ClosestPoints {
     let cross = u.cross(v);
     let sine = cross.length();
-    if sine < PARALLEL.sqrt() {
+    if sine < PARALLEL_SINE.sqrt() {
         return balls(p, 0.0, q, radius, out_p);
     }
     let normal = cross / sine * (cross.dot(out_p - out_q)).signum();
@@ -139,9 +139,9 @@ fn crossing(
 ///
 /// The search is Newton's method within an interval. A step that would leave the interval is replaced by a halving.
 fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> f64 {
-    let apart = TAU / f64::from(STARTS);
+    let apart = TAU / f64::from(START_ANGLES);
     let mut best = (f64::INFINITY, 0.0);
-    for step in 0..STARTS {
+    for step in 0..START_ANGLES {
         let angle = apart * f64::from(step);
         let here = value(angle);
         if here < best.0 {
@@ -152,7 +152,7 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
     let (mut low, mut high) = (angle - apart, angle + apart);
     // The coarse search takes the ends of an edge into account, but the derivatives do not. The minimum may therefore lie outside of the
     // interval.
-    for _ in 0..STARTS {
+    for _ in 0..START_ANGLES {
         if derivatives(low)[0] > 0.0 {
             low -= apart;
         } else if derivatives(high)[0] < 0.0 {
@@ -161,7 +161,7 @@ fn lowest(value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 2]) -> 
             break;
         }
     }
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let [first, second] = derivatives(angle);
         if first > 0.0 {
             high = angle;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Moments;
 
-/// The number of positions for which sums are computed side by side, so that the compiler can vectorise the loop.
+/// The number of positions for which sums are computed side by side, so that the compiler can vectorize the loop.
 pub(super) const LANES: usize = 4;
 
 /// One number for each of several positions.

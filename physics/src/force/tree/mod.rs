@@ -11,14 +11,14 @@ use self::kernel::{Potential, Pull};
 use crate::threads;
 
 /// The largest number of bodies in a leaf.
-const LEAF: usize = 8;
+const MAX_LEAF_BODIES: usize = 8;
 /// The largest number of bodies in a group. The bodies of a group traverse the tree together.
-const GROUP: usize = 32;
-/// Nodes with at most this many bodies are built on a single thread.
-const ALONE: usize = 2048;
-/// 2/√3: the factor from the largest distance of a node's bodies from their centre of mass to the size of the node. With this factor, the
-/// size of a uniform cube is its edge.
-const EDGE: f64 = 1.154_700_538_379_251_5;
+const MAX_GROUP_BODIES: usize = 32;
+/// The largest number of bodies in a node that a single thread builds.
+const MAX_SERIAL_BODIES: usize = 2048;
+/// 2/√3: the ratio of the size of a node to the largest distance of its bodies from their center of mass. With this factor, the size of a
+/// uniform cube is its edge.
+const CUBE_EDGE_FACTOR: f64 = 1.154_700_538_379_251_5;
 
 /// A tree of bodies, after J. Barnes and P. Hut, Nature 324 (1986) 446.
 ///
@@ -72,7 +72,7 @@ impl Tree {
             bodies.enumerate().map(|(number, (at, mass))| Body { at, mass, number }).collect();
         let mut nodes = vec![Node::default(); nodes(bodies.len())];
         if !bodies.is_empty() {
-            grow(&mut nodes, &mut bodies, (0, 0), EDGE / angle);
+            grow(&mut nodes, &mut bodies, (0, 0), CUBE_EDGE_FACTOR / angle);
         }
         Tree { bodies, nodes }
     }
@@ -81,7 +81,7 @@ impl Tree {
 /// Returns the number of bodies in the first part of a node with `count` bodies, as close to `best` as possible. Each part gets at least
 /// about an eighth of the bodies, so that the tree stays shallow. All groups and leaves are full, except the last.
 fn split(count: usize, best: usize) -> usize {
-    let unit = if count > GROUP { GROUP } else { LEAF };
+    let unit = if count > MAX_GROUP_BODIES { MAX_GROUP_BODIES } else { MAX_LEAF_BODIES };
     let units = count.div_ceil(unit);
     let least = units.div_ceil(8);
     unit * ((best + unit / 2) / unit).clamp(least, units - least)
@@ -89,10 +89,10 @@ fn split(count: usize, best: usize) -> usize {
 
 /// Returns the number of nodes of a tree of `count` bodies.
 fn nodes(count: usize) -> usize {
-    let leaves = |count: usize| (2 * count.div_ceil(LEAF)).saturating_sub(1);
-    let groups = count.div_ceil(GROUP).max(1);
-    let last = count - (groups - 1) * GROUP;
-    (groups - 1) * (leaves(GROUP) + 1) + leaves(last)
+    let leaves = |count: usize| (2 * count.div_ceil(MAX_LEAF_BODIES)).saturating_sub(1);
+    let groups = count.div_ceil(MAX_GROUP_BODIES).max(1);
+    let last = count - (groups - 1) * MAX_GROUP_BODIES;
+    (groups - 1) * (leaves(MAX_GROUP_BODIES) + 1) + leaves(last)
 }
 
 /// Builds a node and all its parts, recursively. `number` and `first` are the indices of this node and of its first body in the tree.
@@ -103,7 +103,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
     for body in &*bodies {
         (low, high) = (low.min(body.at), high.max(body.at));
     }
-    let moments = if bodies.len() <= LEAF {
+    let moments = if bodies.len() <= MAX_LEAF_BODIES {
         // The splits above leave the bodies of a leaf in arbitrary order, so they are sorted by their input index.
         bodies.sort_unstable_by_key(|body| body.number);
         Moments::of(bodies.iter().map(|body| Moments { mass: body.mass, centre: body.at, second: [0.0; 6] }))
@@ -120,7 +120,7 @@ fn grow(all: &mut [Node], bodies: &mut [Body], (number, first): (usize, usize), 
         let second = (number + 1 + left_nodes.len(), first + at);
         let mut first_part = || grow(left_nodes, left, (number + 1, first), reach);
         let mut second_part = || grow(right_nodes, right, second, reach);
-        if count > ALONE {
+        if count > MAX_SERIAL_BODIES {
             threads::join(first_part, second_part);
         } else {
             first_part();

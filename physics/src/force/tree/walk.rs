@@ -5,13 +5,13 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::kernel::{Kernel, LANES, Lanes, Source};
-use super::{Body, GROUP, Tree};
+use super::{Body, MAX_GROUP_BODIES, Tree};
 use crate::threads;
 
 /// The number of tree nodes, and of ranges of bodies, that a group collects before it adds their contributions.
-const BATCH: usize = 64;
+const BATCH_SIZE: usize = 64;
 /// The number of blocks of [`LANES`] positions that hold a full group.
-const BLOCKS: usize = GROUP / LANES;
+const BLOCKS_PER_GROUP: usize = MAX_GROUP_BODIES / LANES;
 
 impl Tree {
     /// Returns, for each body of this tree, the sum of the contributions of all bodies of `sources`, in input order. Without `sources`,
@@ -50,7 +50,7 @@ impl Tree {
         see: &(impl Fn(Range<usize>, &mut [S]) + Sync),
     ) {
         let node = &self.nodes[number];
-        if sums.len() <= GROUP {
+        if sums.len() <= MAX_GROUP_BODIES {
             see(node.first..node.end, sums);
             return;
         }
@@ -65,8 +65,8 @@ struct Group<'a, K: Kernel> {
     bodies: &'a [Body],
     low: DVec3,
     high: DVec3,
-    at: [[Lanes; 3]; BLOCKS],
-    sums: [[Lanes; 3]; BLOCKS],
+    at: [[Lanes; 3]; BLOCKS_PER_GROUP],
+    sums: [[Lanes; 3]; BLOCKS_PER_GROUP],
     softening: f64,
     kernel: std::marker::PhantomData<K>,
 }
@@ -77,7 +77,7 @@ impl<K: Kernel> Group<'_, K> {
         for body in bodies {
             (low, high) = (low.min(body.at), high.max(body.at));
         }
-        let mut at = [[[0.0; LANES]; 3]; BLOCKS];
+        let mut at = [[[0.0; LANES]; 3]; BLOCKS_PER_GROUP];
         for k in 0..bodies.len().next_multiple_of(LANES) {
             // Lanes beyond the last body repeat that body's position. Their sums are never read.
             let place = bodies[k.min(bodies.len() - 1)].at.to_array();
@@ -85,7 +85,7 @@ impl<K: Kernel> Group<'_, K> {
                 lanes[k % LANES] = place;
             }
         }
-        let sums = [[[0.0; LANES]; 3]; BLOCKS];
+        let sums = [[[0.0; LANES]; 3]; BLOCKS_PER_GROUP];
         let softening = softening * softening;
         Group { bodies, low, high, at, sums, softening, kernel: std::marker::PhantomData }
     }
@@ -96,8 +96,8 @@ impl<K: Kernel> Group<'_, K> {
         if !own.is_empty() {
             self.add_own();
         }
-        let (mut far, mut count) = ([Source::default(); BATCH], 0);
-        let (mut near, mut runs) = ([(0, 0); BATCH], 0);
+        let (mut far, mut count) = ([Source::default(); BATCH_SIZE], 0);
+        let (mut near, mut runs) = ([(0, 0); BATCH_SIZE], 0);
         let mut next = 0;
         while let Some(node) = tree.nodes.get(next) {
             let number = std::mem::replace(&mut next, node.next);
@@ -109,7 +109,7 @@ impl<K: Kernel> Group<'_, K> {
             if gap.length_squared() > node.opening {
                 far[count] = Source::from(&node.moments);
                 count += 1;
-                if count == BATCH {
+                if count == BATCH_SIZE {
                     self.add_far(&far);
                     count = 0;
                 }
@@ -118,7 +118,7 @@ impl<K: Kernel> Group<'_, K> {
             } else if runs > 0 && near[runs - 1].1 == node.first {
                 near[runs - 1].1 = node.end;
             } else {
-                if runs == BATCH {
+                if runs == BATCH_SIZE {
                     self.add_near(tree, &near);
                     runs = 0;
                 }

@@ -4,7 +4,7 @@
 //! program DOP853 by E. Hairer and G. Wanner.
 
 /// The times of the stages, as fractions of a step.
-pub(super) const TIMES: [f64; 12] = [
+pub(super) const STAGE_TIMES: [f64; 12] = [
     0.0,
     0.052_600_151_958_767_73,
     0.078_900_227_938_151_6,
@@ -99,7 +99,7 @@ pub(super) const STAGE_12: [Weight; 9] = [
 ];
 
 /// The weights of the slopes in the result of a step.
-pub(super) const END: [Weight; 8] = [
+pub(super) const RESULT_WEIGHTS: [Weight; 8] = [
     (0, 0.054_293_734_116_568_765),
     (5, 4.450_312_892_752_409),
     (6, 1.891_517_899_314_500_3),

@@ -9,15 +9,16 @@ use super::bodies::{Field, FreeRotation};
 use super::stepper::{Stepper, is_too_short};
 use super::time::Time;
 use coefficients::{
-    END, ERROR_3, ERROR_5, STAGE_2, STAGE_3, STAGE_4, STAGE_5, STAGE_6, STAGE_7, STAGE_8, STAGE_9, STAGE_10,
-    STAGE_11, STAGE_12, TIMES, Weight,
+    ERROR_3, ERROR_5, RESULT_WEIGHTS, STAGE_2, STAGE_3, STAGE_4, STAGE_5, STAGE_6, STAGE_7, STAGE_8, STAGE_9,
+    STAGE_10, STAGE_11, STAGE_12, STAGE_TIMES, Weight,
 };
 
-/// The safety factor: a step is this fraction of the step that the error allows, so that few steps are rejected.
-const SAFETY: f64 = 0.9;
-/// The smallest and the largest ratio of a step to the previous step.
-const SHRINKS: f64 = 1.0 / 3.0;
-const GROWS: f64 = 6.0;
+/// A step has this fraction of the length that the error allows, so that few steps are rejected.
+const SAFETY_FACTOR: f64 = 0.9;
+/// The smallest ratio of the length of a step to that of the previous step.
+const MIN_STEP_RATIO: f64 = 1.0 / 3.0;
+/// The largest ratio of the length of a step to that of the previous step.
+const MAX_STEP_RATIO: f64 = 6.0;
 
 /// The method DOP853, which has twelve stages per step. Source: E. Hairer, S. P. Nørsett & G. Wanner, *Solving Ordinary Differential
 /// Equations I*, 2nd edition (1993), II.10; the choice of steps: II.4.
@@ -60,7 +61,7 @@ impl Dop853 {
         self.find_slope(field, now, h, 9, STAGE_10);
         self.find_slope(field, now, h, 10, STAGE_11);
         self.find_slope(field, now, h, 11, STAGE_12);
-        self.follow(h, END);
+        self.follow(h, RESULT_WEIGHTS);
     }
 
     /// Computes the slope of one stage from the slopes of earlier stages.
@@ -73,7 +74,12 @@ impl Dop853 {
         weights: [Weight; N],
     ) {
         self.follow(h, weights);
-        flat::find_slope(field, now.seconds() + TIMES[number] * h, &self.stage, &mut self.slopes[number]);
+        flat::find_slope(
+            field,
+            now.seconds() + STAGE_TIMES[number] * h,
+            &self.stage,
+            &mut self.slopes[number],
+        );
     }
 
     /// Sets `stage` to the present values plus `h` times the weighted sum of slopes.
@@ -175,15 +181,15 @@ impl Stepper for Dop853 {
 
     fn step(&mut self, field: &mut Field<'_>, now: Time, longest: f64) -> Result<f64, BodyId> {
         let mut h = self.proposal.min(longest);
-        let mut most = GROWS;
+        let mut most = MAX_STEP_RATIO;
         loop {
             self.try_step(field, now, h);
             let (error, body) = self.error(field, h);
             if error <= 1.0 {
                 self.accept(field, now, h);
-                let factor = SAFETY / eighth_root(error);
+                let factor = SAFETY_FACTOR / eighth_root(error);
                 // If a limit has shortened this step, the next step may be as long as the method proposed before.
-                self.proposal = (h * factor.clamp(SHRINKS, most)).max(if most > 1.0 {
+                self.proposal = (h * factor.clamp(MIN_STEP_RATIO, most)).max(if most > 1.0 {
                     h.min(self.proposal)
                 } else {
                     0.0
@@ -191,8 +197,12 @@ impl Stepper for Dop853 {
                 return Ok(h);
             }
             most = 1.0;
-            let factor = if error.is_finite() { (SAFETY / eighth_root(error)).max(SHRINKS) } else { 0.1 };
-            h *= factor.min(SAFETY);
+            let factor = if error.is_finite() {
+                (SAFETY_FACTOR / eighth_root(error)).max(MIN_STEP_RATIO)
+            } else {
+                0.1
+            };
+            h *= factor.min(SAFETY_FACTOR);
             if is_too_short(h, now) {
                 return Err(body);
             }

@@ -13,18 +13,19 @@ use super::time::Time;
 
 /// A step is repeated if the suitable length is below this fraction of its length. The next step is at most as long as this step divided by
 /// this fraction.
-const CHANGES: f64 = 0.25;
+const MIN_STEP_RATIO: f64 = 0.25;
 /// The largest number of iterations for the coefficients of a step.
-const MOST_ROUNDS: usize = 12;
+const MAX_ITERATIONS: usize = 12;
 /// The iteration has converged if the last coefficient changes by less than this fraction of the largest slope.
-const KNOWN: f64 = 1e-16;
-/// Relative changes below this may be rounding errors, so the iteration stops when these changes no longer shrink. Larger changes may grow
+const CONVERGENCE_TOLERANCE: f64 = 1e-16;
+/// A relative change below this may be a rounding error, so the iteration stops when such changes no longer shrink. Larger changes may grow
 /// at first and shrink later.
-const ROUNDING: f64 = 1e-12;
-/// A value that changes by less than this fraction within a step does not limit the step, because the change is a rounding error.
-const NOISE: f64 = 1e-15;
+const RELATIVE_ROUNDING: f64 = 1e-12;
+/// A value does not limit the step if it changes by at most this fraction of its size within the step, because the change is a rounding
+/// error.
+const NEGLIGIBLE_CHANGE: f64 = 1e-15;
 /// The coefficients of a step are not predicted if the step is more than this many times as long as the last step.
-const UNKNOWN: f64 = 20.0;
+const MAX_PREDICTION_RATIO: f64 = 20.0;
 
 /// Everhart's Gauss–Radau method. Within a step, each slope is a polynomial through its values at eight nodes. Source: E. Everhart, *An
 /// efficient integrator that uses Gauss–Radau spacings*, in *Dynamics of Comets* (1985) 185; H. Rein & D. S. Spiegel, Mon. Not. R. Astron.
@@ -59,10 +60,10 @@ impl GaussRadau {
     /// Finds the coefficients of all lanes for a step of `dt` (s), by iteration over the nodes.
     fn solve(&mut self, field: &mut Field<'_>, now: Time, dt: f64) {
         let ratio = if self.last > 0.0 { dt / self.last } else { 0.0 };
-        let ratio = if ratio > UNKNOWN { 0.0 } else { ratio };
+        let ratio = if ratio > MAX_PREDICTION_RATIO { 0.0 } else { ratio };
         self.lanes.iter_mut().for_each(|lane| lane.expect(ratio));
         let mut before = f64::INFINITY;
-        for round in 0..MOST_ROUNDS {
+        for round in 0..MAX_ITERATIONS {
             self.visit::<1>(field, now, dt);
             self.visit::<2>(field, now, dt);
             self.visit::<3>(field, now, dt);
@@ -71,7 +72,7 @@ impl GaussRadau {
             self.visit::<6>(field, now, dt);
             let change = self.visit::<7>(field, now, dt);
             // A small change that no longer shrinks is a rounding error.
-            if change < KNOWN || round > 1 && change < ROUNDING && change >= before {
+            if change < CONVERGENCE_TOLERANCE || round > 1 && change < RELATIVE_ROUNDING && change >= before {
                 break;
             }
             before = change;
@@ -144,7 +145,7 @@ impl GaussRadau {
             let sum = |of: fn(&End) -> DVec3| ends.iter().map(|end| of(end).length_squared()).sum::<f64>();
             let (slope, rate, curvature) =
                 (sum(|end| end.slope), sum(|end| end.rate), sum(|end| end.curvature));
-            if (slope.max(rate)).sqrt() * dt <= NOISE * size {
+            if (slope.max(rate)).sqrt() * dt <= NEGLIGIBLE_CHANGE * size {
                 return;
             }
             let square = 2.0 * slope / (rate + (curvature * slope).sqrt());
@@ -214,14 +215,14 @@ impl Stepper for GaussRadau {
         loop {
             self.solve(field, now, dt);
             let (suitable, body) = self.suitable(field, dt);
-            if suitable >= CHANGES * dt {
+            if suitable >= MIN_STEP_RATIO * dt {
                 self.finish(field, dt);
-                let next = suitable.min(dt / CHANGES);
+                let next = suitable.min(dt / MIN_STEP_RATIO);
                 // If a limit has shortened this step, the next step may be as long as the method proposed before.
                 self.proposal = if dt < self.proposal { next.max(self.proposal.min(suitable)) } else { next };
                 return Ok(dt);
             }
-            dt = if suitable > 0.0 { suitable } else { CHANGES * dt };
+            dt = if suitable > 0.0 { suitable } else { MIN_STEP_RATIO * dt };
             self.proposal = dt;
             if is_too_short(dt, now) {
                 return Err(body);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// The largest number of iterations of Newton's method. If it does not converge, bisection is used.
-const MOST_ROUNDS: usize = 32;
+const MAX_ITERATIONS: usize = 32;
 
 /// Advances the position and the velocity of a body relative to another one by `dt` (s) along its Kepler orbit. Universal variables treat
 /// ellipses, parabolas and hyperbolas alike. `mass` is the sum of both masses times the gravitational constant, m³/s². Source: H. Rein &
@@ -26,7 +26,7 @@ pub(super) fn drift(mass: f64, dt: f64, place: &mut DVec3, velocity: &mut DVec3)
     let (mut g, mut r) = ([0.0; 4], r0);
     let mut before = f64::NAN;
     let mut is_found = false;
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ITERATIONS {
         g = stiefel(beta, x);
         let bend = eta * g[1] + zeta * g[2];
         r = r0 + bend;

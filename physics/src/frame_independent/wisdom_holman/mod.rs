@@ -31,9 +31,9 @@ pub(super) struct WisdomHolman {
 }
 
 /// The unit of the times in the symplectic corrector, as a fraction of a step: √(7/40).
-const TIME: f64 = 0.418_330_013_267_037_8;
+const CORRECTOR_TIME_UNIT: f64 = 0.418_330_013_267_037_8;
 /// The strengths of the kicks in the symplectic corrector, as fractions of a step. Source: Wisdom (2006), table 1.
-const KICKS: [f64; 8] = [
+const CORRECTOR_KICKS: [f64; 8] = [
     0.093_056_103_771_425_95,
     -0.065_192_863_576_377_9,
     0.032_422_198_864_713_58,
@@ -52,12 +52,12 @@ impl WisdomHolman {
     /// Applies the symplectic corrector. A `sign` of 1 converts from the true motion to the motion that steps of `dt` (s) follow; −1
     /// converts back.
     fn correct(&mut self, sign: f64, dt: f64) {
-        let kick = |number: usize| sign * KICKS[number] * dt;
-        let time = |number: usize| (number + 1) as f64 * TIME * dt;
-        for number in (0..KICKS.len()).rev() {
+        let kick = |number: usize| sign * CORRECTOR_KICKS[number] * dt;
+        let time = |number: usize| (number + 1) as f64 * CORRECTOR_TIME_UNIT * dt;
+        for number in (0..CORRECTOR_KICKS.len()).rev() {
             self.shake(-time(number), -kick(number));
         }
-        for number in 0..KICKS.len() {
+        for number in 0..CORRECTOR_KICKS.len() {
             self.shake(time(number), kick(number));
         }
     }

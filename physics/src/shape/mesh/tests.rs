@@ -9,8 +9,8 @@ use super::*;
 use crate::shape::Shape;
 use crate::{METHODS, RigidBody, World};
 
-/// The tolerance for rounding errors of sums over some thousand triangles.
-const ROUNDING: f64 = 1e-12;
+/// The relative tolerance for rounding errors of sums over some thousand triangles.
+const RELATIVE_ROUNDING: f64 = 1e-12;
 
 /// Returns the surface of a box about a centre, with its faces oriented outwards.
 fn cuboid(size: DVec3, turn: DQuat, centre: DVec3) -> Mesh {
@@ -83,12 +83,12 @@ fn a_box_of_triangles_is_a_box() {
     ] {
         let mesh = cuboid(size, turn, centre);
         assert_eq!(mesh.flaw(), None);
-        assert!((mesh.volume().unwrap() - 6.0).abs() < 6.0 * ROUNDING);
+        assert!((mesh.volume().unwrap() - 6.0).abs() < 6.0 * RELATIVE_ROUNDING);
         let turn = DMat3::from_quat(turn);
         let expected = turn * DMat3::from_diagonal(whole.inertia(1.0)) * turn.transpose();
-        assert!(tensor(&mesh).abs_diff_eq(expected, ROUNDING), "{}", tensor(&mesh));
+        assert!(tensor(&mesh).abs_diff_eq(expected, RELATIVE_ROUNDING), "{}", tensor(&mesh));
         let middle = mesh.vertices().iter().sum::<DVec3>() / 8.0;
-        assert!(middle.abs_diff_eq(DVec3::ZERO, 100.0 * ROUNDING), "{middle}");
+        assert!(middle.abs_diff_eq(DVec3::ZERO, 100.0 * RELATIVE_ROUNDING), "{middle}");
     }
     assert_eq!(cuboid(size, DQuat::IDENTITY, DVec3::ZERO).principal_axes(), DQuat::IDENTITY);
 }
@@ -101,7 +101,7 @@ fn a_tetrahedron_has_the_inertia_of_its_corners() {
         [[0.3, -0.2, 0.1], [1.7, 0.4, 0.0], [0.1, 2.2, 0.5], [-0.4, 0.3, 1.9]].map(DVec3::from_array);
     let mesh = Mesh::new("tetrahedron", corners.into(), vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
     let [a, b, c] = [1, 2, 3].map(|i| corners[i] - corners[0]);
-    assert!((mesh.volume().unwrap() - a.dot(b.cross(c)) / 6.0).abs() < ROUNDING);
+    assert!((mesh.volume().unwrap() - a.dot(b.cross(c)) / 6.0).abs() < RELATIVE_ROUNDING);
     let centre = corners.iter().sum::<DVec3>() / 4.0;
     let second = corners.iter().fold(DMat3::ZERO, |sum, corner| {
         let p = *corner - centre;
@@ -109,8 +109,8 @@ fn a_tetrahedron_has_the_inertia_of_its_corners() {
     });
     let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
     let expected = DMat3::from_diagonal(DVec3::splat(trace)) - second;
-    assert!(tensor(&mesh).abs_diff_eq(expected, ROUNDING), "{}", tensor(&mesh));
-    assert!((mesh.vertices()[2] - (corners[2] - centre)).length() < ROUNDING);
+    assert!(tensor(&mesh).abs_diff_eq(expected, RELATIVE_ROUNDING), "{}", tensor(&mesh));
+    assert!((mesh.vertices()[2] - (corners[2] - centre)).length() < RELATIVE_ROUNDING);
 }
 
 /// A regular polygon with n corners has the fraction n sin(2π/n)/2π of the area of its circle. A ring of m wedges has m sin(2π/m)/2π of
@@ -122,7 +122,7 @@ fn a_torus_of_triangles_has_the_volume_of_its_polygons() {
     let mesh = torus(2.0, 0.5, 24, 16);
     let expected = round * part(24) * part(16);
     assert!(
-        (mesh.volume().unwrap() - expected).abs() < expected * ROUNDING,
+        (mesh.volume().unwrap() - expected).abs() < expected * RELATIVE_ROUNDING,
         "{:?} {expected}",
         mesh.volume()
     );
@@ -155,9 +155,9 @@ fn a_surface_that_shows_its_inside_is_turned() {
     let inward = mesh.triangles().iter().map(|&[a, b, c]| [a, c, b]).collect();
     let turned = Mesh::new("inward", mesh.vertices().to_vec(), inward);
     assert_eq!(turned.flaw(), None);
-    assert!((turned.volume().unwrap() - mesh.volume().unwrap()).abs() < ROUNDING);
+    assert!((turned.volume().unwrap() - mesh.volume().unwrap()).abs() < RELATIVE_ROUNDING);
     assert_eq!(turned.triangles().len(), mesh.triangles().len());
-    assert!(tensor(&turned).abs_diff_eq(tensor(&mesh), ROUNDING));
+    assert!(tensor(&turned).abs_diff_eq(tensor(&mesh), RELATIVE_ROUNDING));
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn what_encloses_nothing_says_why() {
         panic!("{:?}", inconsistent.flaw())
     };
     assert!(
-        first.iter().all(|end| end.abs_diff_eq(end.round(), ROUNDING)),
+        first.iter().all(|end| end.abs_diff_eq(end.round(), RELATIVE_ROUNDING)),
         "in the file's coordinates: {first:?}"
     );
 
@@ -182,7 +182,7 @@ fn what_encloses_nothing_says_why() {
     assert!(matches!(open.flaw(), Some(Flaw::Open { edges: 4, .. })), "{:?}", open.flaw());
     assert_eq!((open.volume(), open.inertia()), (None, DVec3::ZERO));
     // The open box lacks its face at +z, so the centre of its surface is 0.1 below the centre of the box.
-    assert!((open.support(DVec3::Z) - 0.6).abs() < ROUNDING, "{}", open.support(DVec3::Z));
+    assert!((open.support(DVec3::Z) - 0.6).abs() < RELATIVE_ROUNDING, "{}", open.support(DVec3::Z));
 
     let flat = Mesh::new("", vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![[0, 1, 2], [2, 1, 0]]);
     assert_eq!(flat.flaw(), Some(&Flaw::Flat));
@@ -221,9 +221,9 @@ fn a_box_of_triangles_tumbles_as_the_box_does() {
     };
     let (whole, spin) = tumble(&Shape::Box { size }, turn);
     let shape = Shape::Mesh { mesh, scale: 10.0 };
-    assert!((shape.volume().unwrap() - 6.0).abs() < ROUNDING * 100.0);
+    assert!((shape.volume().unwrap() - 6.0).abs() < RELATIVE_ROUNDING * 100.0);
     let reach = |shape: &Shape| shape.support(turn, DVec3::X).unwrap();
-    assert!((reach(&shape.scaled(0.1)) * 10.0 - reach(&shape)).abs() < ROUNDING);
+    assert!((reach(&shape.scaled(0.1)) * 10.0 - reach(&shape)).abs() < RELATIVE_ROUNDING);
     let (triangles, other_spin) = tumble(&shape, DQuat::IDENTITY);
     assert!(spin.abs_diff_eq(other_spin, 1e-9), "{spin} {other_spin}");
     assert!((whole.dot(triangles * turn).abs() - 1.0).abs() < 1e-9);

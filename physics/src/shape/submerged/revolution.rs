@@ -8,7 +8,7 @@ use super::Submerged;
 
 /// The positive nodes and their weights of Gauss–Legendre quadrature with 16 points on [−1, 1]. Source: M. Abramowitz & I. A. Stegun,
 /// *Handbook of Mathematical Functions*, table 25.4.
-const GAUSS: [(f64, f64); 8] = [
+const GAUSS_LEGENDRE: [(f64, f64); 8] = [
     (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
     (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
     (0.458_016_777_657_227_4, 0.169_156_519_395_002_5),
@@ -72,7 +72,7 @@ impl Profile {
             let [begin, end] = [pair[0], pair[1]].map(|y| self.parameter(y));
             let length = end - begin;
             for (node, weight) in
-                GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
+                GAUSS_LEGENDRE.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
             {
                 let part = 0.5 + 0.5 * node;
                 let (y, slope) = self.place(begin + length * part * part * (3.0 - 2.0 * part));

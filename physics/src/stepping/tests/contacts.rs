@@ -356,11 +356,12 @@ fn slow_rolling_is_even_on_a_box() {
 /// more than one thickness.
 #[test]
 fn a_stack_of_coins_sinks_little_at_the_start() {
-    const THICK: f64 = 0.002;
+    /// The thickness of a coin, m.
+    const COIN_THICKNESS: f64 = 0.002;
     let mut scene = Scene::default().with_ground(0.0);
     for k in 0..20 {
-        let at = (f64::from(k) + 0.5) * THICK * DVec3::Y;
-        scene.add(Shape::Cylinder { radius: 0.012, height: THICK }, |body| body.with_location(at));
+        let at = (f64::from(k) + 0.5) * COIN_THICKNESS * DVec3::Y;
+        scene.add(Shape::Cylinder { radius: 0.012, height: COIN_THICKNESS }, |body| body.with_location(at));
     }
     let mut stepping = scene.stepping();
     stepping.set_step(5e-4);
@@ -368,9 +369,9 @@ fn a_stack_of_coins_sinks_little_at_the_start() {
     for k in 1..=40 {
         lowest = lowest.min(run(&mut stepping, 0.005 * f64::from(k)).bodies[20].location.y);
     }
-    let sunk = 19.5 * THICK - lowest;
+    let sunk = 19.5 * COIN_THICKNESS - lowest;
     println!("{sunk} m");
-    assert!(sunk < 1.25 * THICK, "{sunk}");
+    assert!(sunk < 1.25 * COIN_THICKNESS, "{sunk}");
 }
 
 /// Two bodies without friction attract each other by a spring, touch, and revolve about each other at 1 rad/s. They must keep their angular

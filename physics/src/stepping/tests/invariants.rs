@@ -9,7 +9,7 @@ use super::super::super::*;
 use super::{Scene, run};
 
 /// The step of the runs, s: a quarter of the default step.
-const SHORT: f64 = 1.0 / 960.0;
+const SHORT_STEP: f64 = 1.0 / 960.0;
 
 /// Random numbers for systems.
 struct Random(ChaCha8Rng);
@@ -105,7 +105,7 @@ fn a_system_keeps_its_momenta_and_gains_no_energy() {
         let mut random = Random(ChaCha8Rng::seed_from_u64(seed));
         let (scene, world, links) = system(&mut random);
         let mut stepping = TimeStepping::new(world, &scene.contacts(), &links);
-        stepping.set_step(SHORT);
+        stepping.set_step(SHORT_STEP);
         let start = run(&mut stepping, 0.0).balance;
         let sum =
             |of: fn(&RigidBody) -> DVec3| scene.bodies.iter().map(|body| of(body).length()).sum::<f64>();

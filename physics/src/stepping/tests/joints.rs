@@ -247,11 +247,12 @@ fn what_servos_give_is_booked() {
 /// as contacts need, they stretch by 0.4 m.
 #[test]
 fn a_rope_bridge_does_not_stretch() {
-    const ROPE: f64 = 0.06;
+    /// The length of each rope, m.
+    const ROPE_LENGTH: f64 = 0.06;
     let mut scene = Scene::default();
     let mut links = Vec::new();
     let rope = |from: Anchor, to: Anchor| Link {
-        kind: LinkKind::Rope(Rope { between: [from, to], length: ROPE }),
+        kind: LinkKind::Rope(Rope { between: [from, to], length: ROPE_LENGTH }),
         collides: false,
     };
     let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
@@ -280,7 +281,7 @@ fn a_rope_bridge_does_not_stretch() {
                     body.location + body.orientation * at
                 }
             });
-            stretched = stretched.max((one - two).length() - ROPE);
+            stretched = stretched.max((one - two).length() - ROPE_LENGTH);
         }
     }
     assert!(stretched < 0.04, "{stretched}");

@@ -6,7 +6,7 @@ use super::super::super::*;
 use super::{GRAVITY, STEP, Scene, cube, door, run};
 
 /// The time at which all impacts are over, s.
-const END: f64 = 0.2;
+const END_TIME: f64 = 0.2;
 
 fn surfaces(scene: &mut Scene, restitution: f64) {
     let surface = Surface { friction: Some(0.0), restitution: Some(restitution), ..Surface::default() };
@@ -45,7 +45,7 @@ fn hammer(restitution: f64) -> (TimeStepping, [usize; 3]) {
 fn a_joint_shares_a_rebound() {
     for restitution in [0.0, 0.5, 1.0] {
         let (mut stepping, [near, far, ball]) = hammer(restitution);
-        let end = run(&mut stepping, END);
+        let end = run(&mut stepping, END_TIME);
         let common = 10.0 / 22.0;
         let speeds = [common - 21.0 * restitution * common, common + restitution * common];
         for (body, speed) in [ball, near, far].into_iter().zip([speeds[0], speeds[1], speeds[1]]) {
@@ -95,7 +95,8 @@ fn a_hinge_shares_a_rebound() {
     let ball = ball(&mut scene, mass, DVec3::new(-0.5, -distance, 0.0), speed);
     surfaces(&mut scene, 0.8);
     let ends = [Anchor::Point(DVec3::ZERO), Anchor::Body { id: rod, at: 0.5 * DVec3::Y }];
-    let end = run(&mut stepping(&scene, LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY))), END);
+    let end =
+        run(&mut stepping(&scene, LinkKind::Hinge(Hinge::new(ends, DVec3::Z, DQuat::IDENTITY))), END_TIME);
     let effective = ((1.0 + 0.01) / 12.0 + 0.25) / (distance * distance);
     let common = mass * speed / (mass + effective);
     let wanted = common - 0.8 * effective * common / mass;
@@ -123,12 +124,13 @@ fn a_door_rebounds_from_a_stop() {
 /// A table of five parts, with friction, falls flat by 0.45 m. All legs land at once, and the table rebounds to e² times this height.
 #[test]
 fn a_table_rebounds_from_its_four_legs() {
-    const FALL: f64 = 0.45;
+    /// The height from which the table falls, m.
+    const FALL_HEIGHT: f64 = 0.45;
     let restitution = 0.8_f64;
     let mut scene = Scene::default().with_ground(0.0);
     let part = |scene: &mut Scene, size: DVec3, mass: f64, at: DVec3| {
         let shape = Shape::Box { size };
-        let body = RigidBody::new(&shape, mass).with_location(at + FALL * DVec3::Y);
+        let body = RigidBody::new(&shape, mass).with_location(at + FALL_HEIGHT * DVec3::Y);
         scene.add(shape, |_| body)
     };
     let top = part(&mut scene, DVec3::new(1.0, 0.1, 1.0), 4.0, 0.55 * DVec3::Y);
@@ -147,11 +149,11 @@ fn a_table_rebounds_from_its_four_legs() {
     });
     let mut stepping = TimeStepping::new(scene.world(GRAVITY), &scene.contacts(), &links);
     stepping.set_step(0.001);
-    let apex = (2.0 * FALL / GRAVITY).sqrt() * (1.0 + restitution);
+    let apex = (2.0 * FALL_HEIGHT / GRAVITY).sqrt() * (1.0 + restitution);
     let end = run(&mut stepping, apex).bodies[top.index()];
     let height = end.location.y - 0.55;
     // The table falls and rises for one step too long, which changes its height by up to v Δt.
-    let tolerance = 2.0 * 0.001 * (2.0 * GRAVITY * FALL).sqrt();
-    assert!((height - restitution * restitution * FALL).abs() < tolerance, "{height}");
+    let tolerance = 2.0 * 0.001 * (2.0 * GRAVITY * FALL_HEIGHT).sqrt();
+    assert!((height - restitution * restitution * FALL_HEIGHT).abs() < tolerance, "{height}");
     assert!(end.velocity.length() < 0.02, "{}", end.velocity);
 }
