@@ -47,7 +47,7 @@ pub use trials::{Trial, Untested};
 pub use verdict::{AccurateUntil, BodyError, BrokenLaw, Conserved, Order};
 
 /// The default accuracy, as a fraction of the size of the scene: about a pixel of an image.
-pub const ACCURACY: f64 = 1e-3;
+pub const DEFAULT_ACCURACY: f64 = 1e-3;
 
 /// The error that a computation returns after its progress callback has stopped it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
-use super::{Anchor, GROUND, Item, Picture, Rgb};
+use super::{Anchor, BACKGROUND_COLOR, Item, Picture, Rgb};
 
 /// Returns the picture as the bytes of a PNG file.
 ///
@@ -15,7 +15,7 @@ use super::{Anchor, GROUND, Item, Picture, Rgb};
 )]
 pub fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let (width, height) = (picture.width.ceil() as usize, picture.height.ceil() as usize);
-    let mut canvas = Canvas { width, height, rgb: GROUND.repeat(width * height) };
+    let mut canvas = Canvas { width, height, rgb: BACKGROUND_COLOR.repeat(width * height) };
     for item in &picture.items {
         match item {
             Item::Line { points, width, color } => canvas.line(points, *width, *color),
