@@ -204,7 +204,7 @@ impl Cache {
         let folder = self.folder.clone().filter(|_| digest::is_worth_keeping(scene))?;
         let (spill, checkpoint) = Spill::resume(folder, digest::of(scene, moments))?;
         let store = Box::new(spill.clone());
-        let recorder = Recorder::resume(scene, moments.clone(), effort, (&checkpoint, store), seen)?;
+        let recorder = Recorder::resume(scene, moments.clone(), effort, &checkpoint, store, seen)?;
         Some((spill, recorder))
     }
 

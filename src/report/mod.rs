@@ -132,7 +132,7 @@ pub fn assess(
         done += cost;
         watch(Phase::Comparing, (done / all).min(1.0))
     })?;
-    let verdict = Verdict::of(scene, own, &measured, (&compared, other.as_ref()), accuracy);
+    let verdict = Verdict::of(scene, own, &measured, &compared, other.as_ref(), accuracy);
     let size = if verdict.knows_the_size() { verdict.size } else { 0.0 };
     let goal = Goal { scene, measured: &measured, own, accuracy, order: verdict.order, size };
     let (mut done, all) = (0.0, goal.budget());

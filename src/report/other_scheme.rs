@@ -119,13 +119,15 @@ impl Other {
         })
     }
 
-    /// Judges the distances between the two runs. `name` returns the name of a compared body, `error` is the estimated error of the run, `wanted` the requested accuracy, and `size`
-    /// the size of the scene, all in m.
+    /// Judges the distances between the two runs. `name` returns the name of a compared body. `error` is the estimated error of the run,
+    /// `wanted` is the requested accuracy, and `size` is the size of the scene, all in m.
     pub(super) fn judge(
         &self,
         name: impl Fn(usize) -> String,
         apart: &Apart,
-        [error, wanted, size]: [f64; 3],
+        error: f64,
+        wanted: f64,
+        size: f64,
     ) -> OtherScheme {
         /// Distances below this fraction of the size of the scene count as rounding errors.
         const RELATIVE_ROUNDING: f64 = 1e-11;

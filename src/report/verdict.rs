@@ -221,7 +221,8 @@ impl Verdict {
         scene: &Scene,
         own: Setting,
         measured: &ComparedBodies,
-        (compared, other): (&Compared, Option<&Other>),
+        compared: &Compared,
+        other: Option<&Other>,
         accuracy: f64,
     ) -> Verdict {
         let order = Order::of(compared, own.method);
@@ -245,7 +246,7 @@ impl Verdict {
         let error = bodies.iter().map(|(error, _)| *error).fold(0.0, f64::max);
         let other_scheme = other.map(|other| {
             let name = |body: usize| scene.bodies[measured.bodies[body]].name.to_string();
-            other.judge(name, &compared.other, [error, accuracy * size, size])
+            other.judge(name, &compared.other, error, accuracy * size, size)
         });
         bodies.sort_by(|(one, _), (two, _)| two.total_cmp(one));
         let runs = ["the run", "the run at half the step", "the run at a quarter of the step", "the twin"];

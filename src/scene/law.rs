@@ -187,7 +187,8 @@ pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES
 /// Fills a column with one quantity of each body. `row` is the range of the bodies' indices if the indices are consecutive.
 fn fill(
     slot: usize,
-    (bodies, row): (&[BodyId], Option<&Range<usize>>),
+    bodies: &[BodyId],
+    row: Option<&Range<usize>>,
     moment: &Moment,
     at_rest: bool,
     column: &mut [f64],
@@ -226,8 +227,8 @@ fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
 impl ForceLaw for FormulaLaw {
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
         let row = in_a_row(bodies);
-        let bodies = (bodies, row.as_ref());
-        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, at_rest, column);
+        let fill =
+            |slot: usize, column: &mut [f64]| fill(slot, bodies, row.as_ref(), moment, at_rest, column);
         let mut room = [[0.0; MAX_LANES]; 3];
         self.program.run(out.len(), fill, |values: [Output<'_>; 3]| {
             let [a, b, c] = &mut room;
@@ -239,7 +240,7 @@ impl ForceLaw for FormulaLaw {
 
     fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]) {
         let Some(energy) = &self.energy else { return out.fill(0.0) };
-        let fill = |slot: usize, column: &mut [f64]| fill(slot, (bodies, None), moment, true, column);
+        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, None, moment, true, column);
         energy.run(bodies.len(), fill, |[value]| {
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = value.at(lane));
         });

@@ -178,7 +178,7 @@ impl<'a> Surveyor<'a> {
             frame.body(id).is_none()
         });
         for plane in &mut self.planes {
-            plane.see(scene, frame, (&self.free, &come), &mut self.crossed);
+            plane.see(scene, frame, &self.free, &come, &mut self.crossed);
         }
         self.falls.see(scene, frame);
         self.overlaps.see(frame);

@@ -20,7 +20,7 @@ pub fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
         match item {
             Item::Line { points, width, color } => canvas.line(points, *width, *color),
             Item::Text { at, text, anchor, large, color } => {
-                canvas.text(*at, text, (*anchor, *large), *color);
+                canvas.text(*at, text, *anchor, *large, *color);
             }
         }
     }
@@ -91,7 +91,7 @@ impl Canvas {
     }
 
     /// Draws a text in one line. A question mark replaces each character that the font lacks.
-    fn text(&mut self, [x, y]: [f64; 2], text: &str, (anchor, large): (Anchor, bool), color: Rgb) {
+    fn text(&mut self, [x, y]: [f64; 2], text: &str, anchor: Anchor, large: bool, color: Rgb) {
         let letters = if large { RasterHeight::Size20 } else { RasterHeight::Size16 };
         let advance = get_raster_width(FontWeight::Regular, letters) as f64;
         let width = advance * text.chars().count() as f64;

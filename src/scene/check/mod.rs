@@ -320,7 +320,7 @@ fn build(
     contact::ground(&root, &simulation, &mut environment);
     contact::check(&root, &simulation, &bodies, &environment, context);
     let joints = joint::read(&root, &bodies, &simulation, context);
-    stepping::check_joints(&root, &simulation, (&bodies, &joints), context);
+    stepping::check_joints(&root, &simulation, &bodies, &joints, context);
     let mut bodies = bodies;
     joint::swing(&joints, &mut bodies);
     let spans: HashMap<&str, Span> =

@@ -112,7 +112,8 @@ const MEASURED_REBOUNDS: [&str; 2] = ["0.82", "95"];
 pub(super) fn check_joints(
     root: &View<'_>,
     simulation: &SimulationSettings,
-    (bodies, joints): (&[Body], &[Joint]),
+    bodies: &[Body],
+    joints: &[Joint],
     context: &mut Context<'_>,
 ) {
     let is_by_moreau = is_by_moreau(bodies, !joints.is_empty());

@@ -22,7 +22,8 @@ pub(super) fn between(
     (before, after): (&At, &At),
     impacts: &[Impact],
     impulse: impl Fn(&Impact) -> DVec3,
-    (mass, trail): (f64, Trail),
+    mass: f64,
+    trail: Trail,
 ) -> Vec<TrailPoint> {
     let mut hits: Vec<(f64, DVec3)> = Vec::new();
     for impact in impacts {

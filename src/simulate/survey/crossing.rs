@@ -146,7 +146,8 @@ impl Watched {
         &mut self,
         scene: &Scene,
         frame: &Frame,
-        (free, come): (&[usize], &[&BodySnapshot]),
+        free: &[usize],
+        come: &[&BodySnapshot],
         crossed: &mut [bool],
     ) {
         let was_there =

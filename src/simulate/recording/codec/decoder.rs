@@ -37,7 +37,7 @@ impl Decoder {
     /// Decodes the next moment of the page.
     pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
         let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts, laws } =
-            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
+            parts(page, &mut self.at, self.last.joints.len(), self.last.impacts.len())?;
         let mut bodies = Vec::with_capacity(self.last.bodies.len());
         let mut id = 0;
         for (mask, count) in runs {
@@ -90,7 +90,7 @@ impl Decoder {
     /// page, the decoder cannot decode other bodies, joints and contacts.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
         let Parts { head, bodies: (runs, mut values), counts, .. } =
-            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
+            parts(page, &mut self.at, self.last.joints.len(), self.last.impacts.len())?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
             if mask != ABSENT_BODY_MASK && (id..id + count).contains(&wanted) {
@@ -167,7 +167,7 @@ struct Parts<'a> {
 
 /// Splits the moment at offset `at` of a page into its parts. `joints` and `counts` are the numbers of joints and impact counts in each
 /// moment. Moves the offset to the next moment.
-fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
+fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize, counts: usize) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
     let number = u32::from_le_bytes(*number);
