@@ -73,7 +73,7 @@ pub(super) fn check(
     let mut see = |key: &str, span: Span, value: f64| match key {
         "rolling_friction" if value > 0.0 && said.insert(span) => rolling.push(span),
         "restitution" if value >= MIN_RESTITUTION_TO_WARN && elastic.is_none() => {
-            elastic = Some((span, value))
+            elastic = Some((span, value));
         }
         _ => {}
     };
