@@ -20,24 +20,25 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::digest::CacheKey;
-use super::file::{At, ENTRY, damaged};
-use super::{PART, SAVING, STOPPED, files};
+use super::file::{At, PAGE_ENTRY_BYTES, damaged};
+use super::{CHECKPOINT_EXTENSION, PARTIAL_RUN_EXTENSION, SAVING_EXTENSION, files};
 use crate::simulate::Checkpoint;
 use crate::system;
 
-const FORMAT: &[u8; 8] = b"jabuka c";
-/// The number of bytes before the table of pages.
-const HEAD: usize = 56;
+/// The first bytes of every checkpoint.
+const FILE_SIGNATURE: &[u8; 8] = b"jabuka c";
+/// The size of the header before the table of pages, bytes: signature, key, number of pages, and size of the index.
+const HEADER_BYTES: usize = 56;
 
 /// Returns the path of the checkpoint that belongs to a file of pages.
 pub(super) fn beside(part: &Path) -> PathBuf {
-    part.with_extension(STOPPED)
+    part.with_extension(CHECKPOINT_EXTENSION)
 }
 
 /// Writes a checkpoint, which replaces the previous one of the same run.
 pub(super) fn write(part: &Path, key: CacheKey, pages: &[At], checkpoint: &Checkpoint) -> io::Result<()> {
     let Checkpoint { index, simulation } = checkpoint;
-    let mut bytes = [&FORMAT[..], &key].concat();
+    let mut bytes = [&FILE_SIGNATURE[..], &key].concat();
     bytes.extend((pages.len() as u64).to_le_bytes());
     bytes.extend((index.len() as u64).to_le_bytes());
     bytes.extend(pages.iter().flat_map(|at| at.to_bytes()));
@@ -45,7 +46,7 @@ pub(super) fn write(part: &Path, key: CacheKey, pages: &[At], checkpoint: &Check
     bytes.extend_from_slice(simulation);
     let digest: [u8; 32] = Sha256::digest(&bytes).into();
     bytes.extend(digest);
-    let temporary = part.with_extension(SAVING);
+    let temporary = part.with_extension(SAVING_EXTENSION);
     let written = system::create(&temporary).and_then(|mut file| file.write_all(&bytes));
     written.and_then(|()| fs::rename(&temporary, beside(part))).inspect_err(|_| {
         // If the file cannot be removed, the next process removes it.
@@ -58,15 +59,15 @@ fn read(part: &Path, key: CacheKey) -> io::Result<(Vec<At>, Checkpoint)> {
     let bytes = system::read(&beside(part))?;
     let (covered, digest) = bytes.split_last_chunk::<32>().ok_or_else(damaged)?;
     let found: [u8; 32] = Sha256::digest(covered).into();
-    let (head, rest) = covered.split_first_chunk::<HEAD>().ok_or_else(damaged)?;
-    if found != *digest || head[..8] != FORMAT[..] || head[8..40] != key {
+    let (head, rest) = covered.split_first_chunk::<HEADER_BYTES>().ok_or_else(damaged)?;
+    if found != *digest || head[..8] != FILE_SIGNATURE[..] || head[8..40] != key {
         return Err(damaged());
     }
     let number = |at: usize| usize::try_from(u64::from_le_bytes(std::array::from_fn(|i| head[at + i])));
     let (Ok(pages), Ok(size)) = (number(40), number(48)) else { return Err(damaged()) };
-    let (table, rest) = rest.split_at_checked(pages.saturating_mul(ENTRY)).ok_or_else(damaged)?;
+    let (table, rest) = rest.split_at_checked(pages.saturating_mul(PAGE_ENTRY_BYTES)).ok_or_else(damaged)?;
     let (index, simulation) = rest.split_at_checked(size).ok_or_else(damaged)?;
-    let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
+    let pages = table.as_chunks::<PAGE_ENTRY_BYTES>().0.iter().map(At::from_bytes).collect();
     Ok((pages, Checkpoint { index: index.to_owned(), simulation: simulation.to_owned() }))
 }
 
@@ -85,13 +86,13 @@ pub(super) fn find(folder: &Path, key: CacheKey) -> Option<Stopped> {
     let name = super::file::name(key);
     let stem = Path::new(&name).file_stem()?.to_str()?;
     let mut farthest: Option<Stopped> = None;
-    for found in files(folder, STOPPED).ok()? {
+    for found in files(folder, CHECKPOINT_EXTENSION).ok()? {
         let of_key =
             found.path.file_name().and_then(|name| name.to_str()?.strip_prefix(stem)?.strip_prefix('.'));
         if of_key.is_none() {
             continue;
         }
-        let part = found.path.with_extension(PART);
+        let part = found.path.with_extension(PARTIAL_RUN_EXTENSION);
         let Some(file) = lock(&part) else { continue };
         match read(&part, key) {
             Ok((pages, checkpoint)) => {

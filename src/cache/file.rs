@@ -17,18 +17,19 @@ use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
 
-use super::KEPT;
+use super::RUN_EXTENSION;
 use super::digest::CacheKey;
 use crate::simulate::{Counts, Recording, Store};
 use crate::system;
 
-const FORMAT: &[u8; 8] = b"jabuka 1";
-/// The size of a page's entry in the table of pages, bytes.
-pub(super) const ENTRY: usize = 48;
-/// The size of the data at the end of the file, bytes.
-const TAIL: usize = 48;
-/// The size of the largest possible page, bytes. A page holds about 1 MB, or a single moment of all bodies if that is larger.
-const LARGEST: u64 = 4 << 30;
+/// The first bytes of every file with a cached run.
+const FILE_SIGNATURE: &[u8; 8] = b"jabuka 1";
+/// The size of a page's entry in the table of pages, bytes: its offset, its size, and its digest.
+pub(super) const PAGE_ENTRY_BYTES: usize = 48;
+/// The size of the data at the end of the file, bytes: the number of pages, the offset of the table of pages, and a digest.
+const FOOTER_BYTES: usize = 48;
+/// The largest size of a page that is read, bytes. A page holds about 1 MB, or a single moment of all bodies if that is larger.
+const MAX_PAGE_BYTES: u64 = 4 << 30;
 
 /// The position of a page in a file: offset and size in bytes, and the digest of the page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,22 +42,22 @@ pub(super) struct At {
 impl At {
     /// Reads the page. Fails if its bytes do not have the digest.
     pub(super) fn read(&self, file: &File) -> io::Result<Arc<[u8]>> {
-        let size = usize::try_from(self.bytes.min(LARGEST)).map_err(|_| damaged())?;
+        let size = usize::try_from(self.bytes.min(MAX_PAGE_BYTES)).map_err(|_| damaged())?;
         let mut bytes = vec![0; size];
         file.read_exact_at(&mut bytes, self.offset)?;
         let digest: [u8; 32] = Sha256::digest(&bytes).into();
         if digest == self.digest { Ok(bytes.into()) } else { Err(damaged()) }
     }
 
-    pub(super) fn to_bytes(self) -> [u8; ENTRY] {
-        let mut bytes = [0; ENTRY];
+    pub(super) fn to_bytes(self) -> [u8; PAGE_ENTRY_BYTES] {
+        let mut bytes = [0; PAGE_ENTRY_BYTES];
         bytes[..8].copy_from_slice(&self.offset.to_le_bytes());
         bytes[8..16].copy_from_slice(&self.bytes.to_le_bytes());
         bytes[16..].copy_from_slice(&self.digest);
         bytes
     }
 
-    pub(super) fn from_bytes(bytes: &[u8; ENTRY]) -> At {
+    pub(super) fn from_bytes(bytes: &[u8; PAGE_ENTRY_BYTES]) -> At {
         let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| bytes[at + i]));
         At { offset: number(0), bytes: number(8), digest: std::array::from_fn(|i| bytes[16 + i]) }
     }
@@ -65,12 +66,12 @@ impl At {
 /// Returns the file name of a cached run.
 pub(super) fn name(key: CacheKey) -> String {
     let hex: String = key.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
-    format!("{hex}.{KEPT}")
+    format!("{hex}.{RUN_EXTENSION}")
 }
 
 /// Returns the bytes of the file before the pages.
 pub(super) fn begin(key: CacheKey) -> Vec<u8> {
-    [&FORMAT[..], &key].concat()
+    [&FILE_SIGNATURE[..], &key].concat()
 }
 
 /// Returns the bytes of the file after the pages. `offset` is the end of the last page.
@@ -90,14 +91,14 @@ pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Rec
     let length = file.metadata()?.len();
     let mut head = [0; 40];
     file.read_exact_at(&mut head, 0)?;
-    if head[..8] != FORMAT[..] || head[8..] != key {
+    if head[..8] != FILE_SIGNATURE[..] || head[8..] != key {
         return Err(damaged());
     }
-    let mut tail = [0; TAIL];
-    file.read_exact_at(&mut tail, length.checked_sub(TAIL as u64).ok_or_else(damaged)?)?;
+    let mut tail = [0; FOOTER_BYTES];
+    file.read_exact_at(&mut tail, length.checked_sub(FOOTER_BYTES as u64).ok_or_else(damaged)?)?;
     let number = |at: usize| u64::from_le_bytes(std::array::from_fn(|i| tail[at + i]));
     let (pages, begin) = (number(0), number(8));
-    let size = length.checked_sub(begin).filter(|size| *size >= TAIL as u64).ok_or_else(damaged)?;
+    let size = length.checked_sub(begin).filter(|size| *size >= FOOTER_BYTES as u64).ok_or_else(damaged)?;
     let mut bytes = vec![0; usize::try_from(size).map_err(|_| damaged())?];
     file.read_exact_at(&mut bytes, begin)?;
     let (covered, digest) = bytes.split_at(bytes.len() - 32);
@@ -105,10 +106,13 @@ pub(super) fn open(path: &Path, key: CacheKey, counts: Counts) -> io::Result<Rec
     if found[..] != *digest {
         return Err(damaged());
     }
-    let table = usize::try_from(pages).ok().and_then(|pages| pages.checked_mul(ENTRY)).ok_or_else(damaged)?;
+    let table = usize::try_from(pages)
+        .ok()
+        .and_then(|pages| pages.checked_mul(PAGE_ENTRY_BYTES))
+        .ok_or_else(damaged)?;
     let described = covered.get(..covered.len() - 16).ok_or_else(damaged)?;
     let (table, index) = described.split_at_checked(table).ok_or_else(damaged)?;
-    let pages = table.as_chunks::<ENTRY>().0.iter().map(At::from_bytes).collect();
+    let pages = table.as_chunks::<PAGE_ENTRY_BYTES>().0.iter().map(At::from_bytes).collect();
     // If the modification time cannot be set, the run seems to have been unused for longer than it really was.
     let _: io::Result<()> = file.set_modified(SystemTime::now());
     Recording::with_index(counts, index, Box::new(Kept { file, pages }))

@@ -27,18 +27,18 @@ use crate::system;
 
 pub use spill::Spill;
 
-/// The simulation time below which a run is not kept, since repeating it is fast.
-const QUICK: Duration = Duration::from_millis(200);
+/// The computing time from which on a run is kept. Faster runs are simply repeated.
+const MIN_KEPT_COMPUTING_TIME: Duration = Duration::from_millis(200);
 /// The default size limit of the cache, bytes.
 const USUAL_LIMIT: u64 = 2_000_000_000;
 /// The file extension of cached runs.
-const KEPT: &str = "run";
-/// The file extension of runs that are being simulated.
-const PART: &str = "part";
-/// The file extension of checkpoints, which are beside the files of pages.
-const STOPPED: &str = "checkpoint";
+const RUN_EXTENSION: &str = "run";
+/// The file extension of runs whose simulation has not ended.
+const PARTIAL_RUN_EXTENSION: &str = "part";
+/// The file extension of checkpoints. A checkpoint is beside the file of its run's pages.
+const CHECKPOINT_EXTENSION: &str = "checkpoint";
 /// The file extension of checkpoints that are being written.
-const SAVING: &str = "saving";
+const SAVING_EXTENSION: &str = "saving";
 /// The default interval between two checkpoints of a long run.
 const USUAL_INTERVAL: Duration = Duration::from_secs(10);
 
@@ -70,13 +70,13 @@ impl Cache {
     /// Makes a cache that keeps nothing.
     #[must_use]
     pub fn none() -> Cache {
-        Cache { folder: None, limit: 0, quick: QUICK, interval: USUAL_INTERVAL }
+        Cache { folder: None, limit: 0, quick: MIN_KEPT_COMPUTING_TIME, interval: USUAL_INTERVAL }
     }
 
     /// Makes a cache that keeps at most `limit` bytes in a folder. The folder is created when the first run is kept.
     #[must_use]
     pub fn new(folder: PathBuf, limit: u64) -> Cache {
-        Cache { folder: Some(folder), limit, quick: QUICK, interval: USUAL_INTERVAL }
+        Cache { folder: Some(folder), limit, quick: MIN_KEPT_COMPUTING_TIME, interval: USUAL_INTERVAL }
     }
 
     /// Makes the cache keep every run, however short its simulation was.
@@ -204,7 +204,7 @@ impl Cache {
         let folder = self.folder.clone().filter(|_| digest::is_worth_keeping(scene))?;
         let (spill, checkpoint) = Spill::resume(folder, digest::of(scene, moments))?;
         let store = Box::new(spill.clone());
-        let recorder = Recorder::resume(scene, moments.clone(), effort, (&checkpoint, store), seen)?;
+        let recorder = Recorder::resume(scene, moments.clone(), effort, &checkpoint, store, seen)?;
         Some((spill, recorder))
     }
 
@@ -259,7 +259,7 @@ impl Cache {
     /// If the cache folder cannot be read.
     pub fn holding(&self) -> io::Result<Holding> {
         let Some(folder) = &self.folder else { return Ok(Holding::default()) };
-        let (kept, stopped) = (files(folder, KEPT)?, stopped(folder)?);
+        let (kept, stopped) = (files(folder, RUN_EXTENSION)?, stopped(folder)?);
         let bytes = kept.iter().chain(&stopped).map(|kept| kept.bytes).sum();
         Ok(Holding { runs: kept.len(), stopped: stopped.len(), bytes })
     }
@@ -272,13 +272,13 @@ impl Cache {
         let held = self.holding()?;
         let Some(folder) = &self.folder else { return Ok(held) };
         sweep(folder)?;
-        files(folder, KEPT)?.iter().chain(&stopped(folder)?).try_for_each(Kept::remove)?;
+        files(folder, RUN_EXTENSION)?.iter().chain(&stopped(folder)?).try_for_each(Kept::remove)?;
         Ok(held)
     }
 
     fn tidy(&self, folder: &Path) -> io::Result<()> {
         sweep(folder)?;
-        let mut kept = files(folder, KEPT)?;
+        let mut kept = files(folder, RUN_EXTENSION)?;
         kept.extend(stopped(folder)?);
         kept.sort_by(|a, b| (a.used, &a.path).cmp(&(b.used, &b.path)));
         let mut bytes: u64 = kept.iter().map(|kept| kept.bytes).sum();
@@ -315,7 +315,7 @@ struct Kept {
 
 impl Kept {
     fn remove(&self) -> io::Result<()> {
-        if self.path.extension().is_some_and(|extension| extension == PART) {
+        if self.path.extension().is_some_and(|extension| extension == PARTIAL_RUN_EXTENSION) {
             // The file is only removed under its lock, since another process may be continuing this run.
             let locked = checkpoint::lock(&self.path);
             locked.iter().for_each(|_| checkpoint::remove(&self.path));
@@ -335,12 +335,12 @@ fn save(spill: &Spill, recorder: &mut Recorder<'_>) -> io::Result<bool> {
 /// not count.
 fn stopped(folder: &Path) -> io::Result<Vec<Kept>> {
     let of_checkpoint = |found: Kept| {
-        let path = found.path.with_extension(PART);
+        let path = found.path.with_extension(PARTIAL_RUN_EXTENSION);
         let bytes = found.bytes + fs::metadata(&path).ok()?.len();
         checkpoint::lock(&path)?;
         Some(Kept { path, bytes, used: found.used })
     };
-    Ok(files(folder, STOPPED)?.into_iter().filter_map(of_checkpoint).collect())
+    Ok(files(folder, CHECKPOINT_EXTENSION)?.into_iter().filter_map(of_checkpoint).collect())
 }
 
 /// Returns the files of a folder with this file extension. The list is empty if the folder does not exist.
@@ -367,16 +367,16 @@ fn files(folder: &Path, ending: &str) -> io::Result<Vec<Kept>> {
 
 /// Removes the files of killed processes from which no run can be continued. No process has locked these files.
 fn sweep(folder: &Path) -> io::Result<()> {
-    for part in files(folder, PART)? {
+    for part in files(folder, PARTIAL_RUN_EXTENSION)? {
         let is_left = system::open(&part.path).is_ok_and(|file| file.try_lock().is_ok());
         if is_left && !checkpoint::beside(&part.path).exists() {
             remove(&part.path)?;
         }
     }
-    for ending in [STOPPED, SAVING] {
+    for ending in [CHECKPOINT_EXTENSION, SAVING_EXTENSION] {
         for left in files(folder, ending)? {
-            let part = left.path.with_extension(PART);
-            let is_left = !part.exists() || ending == SAVING && checkpoint::lock(&part).is_some();
+            let part = left.path.with_extension(PARTIAL_RUN_EXTENSION);
+            let is_left = !part.exists() || ending == SAVING_EXTENSION && checkpoint::lock(&part).is_some();
             if is_left {
                 remove(&left.path)?;
             }

@@ -12,14 +12,14 @@ use sha2::{Digest, Sha256};
 use super::checkpoint::{self, Stopped};
 use super::digest::CacheKey;
 use super::file::{self, At};
-use super::{PART, SAVING};
+use super::{PARTIAL_RUN_EXTENSION, SAVING_EXTENSION};
 use crate::simulate::{Checkpoint, Store};
 use crate::system;
 
 /// The size up to which the recorded pages of a run stay in memory, bytes.
 const IN_MEMORY: usize = 1 << 20;
 /// The disk space that is left free for other programs, bytes. A disk with less free space counts as full.
-const RESERVE: u64 = 32 << 20;
+const MIN_FREE_DISK_BYTES: u64 = 32 << 20;
 
 /// Stores the recorded pages of one run. All clones share the same pages.
 #[derive(Clone)]
@@ -183,8 +183,9 @@ impl Part {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         fs::create_dir_all(folder)?;
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path =
-            folder.join(file::name(key)).with_extension(format!("{}-{number}.{PART}", std::process::id()));
+        let path = folder
+            .join(file::name(key))
+            .with_extension(format!("{}-{number}.{PARTIAL_RUN_EXTENSION}", std::process::id()));
         let file = system::open_to_write(&path, true)?;
         file.try_lock().map_err(io::Error::from)?;
         // A killed process may have left a checkpoint, which does not belong to this new run.
@@ -202,7 +203,7 @@ impl Part {
 
     fn has_room(&self, bytes: usize) -> io::Result<()> {
         let space = rustix::fs::fstatvfs(&self.file)?;
-        let is_full = space.f_bavail.saturating_mul(space.f_frsize) < RESERVE + bytes as u64;
+        let is_full = space.f_bavail.saturating_mul(space.f_frsize) < MIN_FREE_DISK_BYTES + bytes as u64;
         if is_full { Err(full()) } else { Ok(()) }
     }
 
@@ -219,7 +220,7 @@ impl Drop for Part {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
             // The pages were not kept, so their file and the checkpoint are removed.
-            let _: io::Result<()> = fs::remove_file(path.with_extension(SAVING));
+            let _: io::Result<()> = fs::remove_file(path.with_extension(SAVING_EXTENSION));
             checkpoint::remove(path);
         }
     }

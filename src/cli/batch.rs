@@ -7,7 +7,7 @@ use jabuka::diagnostic::{Report, visible_path};
 use jabuka::output::{self, OutputError};
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::Film;
-use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS, Settings};
+use jabuka::render::batch::{self, JobFolder, Requirements, SCRIPTS_FOLDER, Settings};
 use jabuka::simulate::Selection;
 
 use super::picture_arguments::PictureArguments;
@@ -102,7 +102,7 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
     let cameras = arguments.of_scene.cameras(&folder, arguments.output.is_some(), &scene)?;
 
     for (_, folder) in &cameras {
-        let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder.join(SCRIPTS));
+        let protected = ProtectedFiles::of_scene(&scene).and_folder(&folder.join(SCRIPTS_FOLDER));
         terminal::report_protected(
             protected.and_then(|protected| protected.and_folder(&folder.join("images"))),
         )?;
@@ -195,7 +195,7 @@ fn make(
         }
     })?;
     let options = arguments.picture.options(size, transparent).join(" ");
-    let settings = batch::settings(&folder.join(SCRIPTS), frames, options, arguments.film.video_rate)?;
+    let settings = batch::settings(&folder.join(SCRIPTS_FOLDER), frames, options, arguments.film.video_rate)?;
     let cpus = arguments.cpus.map(|cpus| cpus as usize);
     let chunk = batch::chunk(settings.frames.len(), cpus.unwrap_or(1));
     let chunk = arguments.chunk.map_or(chunk, |chunk| chunk as usize);

@@ -85,7 +85,7 @@ fn write(
 
 fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progress) -> Result<(), Failure> {
     /// The maximum number of differing scripts that are shown in full.
-    const SHOWN: usize = 3;
+    const MAX_SHOWN_DIFFERENCES: usize = 3;
     let differences = output::compare(run, folder, selection, &|| progress.step());
     let differences = differences.map_err(|error| progress.failed(&error))?;
     progress.finish();
@@ -98,11 +98,11 @@ fn check(run: &Run<'_>, folder: &Path, selection: &Selection, progress: &Progres
         ));
         return Ok(());
     }
-    for difference in differences.iter().take(SHOWN) {
+    for difference in differences.iter().take(MAX_SHOWN_DIFFERENCES) {
         terminal::result(&difference.to_text());
     }
-    if differences.len() > SHOWN {
-        terminal::result(&format!("… and {} more scripts\n", differences.len() - SHOWN));
+    if differences.len() > MAX_SHOWN_DIFFERENCES {
+        terminal::result(&format!("… and {} more scripts\n", differences.len() - MAX_SHOWN_DIFFERENCES));
     }
     terminal::result(&format!(
         "{}: {} of {compared} scripts differ\n",

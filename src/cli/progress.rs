@@ -13,10 +13,10 @@ use jabuka::simulate::Workload;
 
 use super::{Failure, terminal};
 
-/// The duration of a task after which the bar is shown.
-const LATE: Duration = Duration::from_secs(1);
+/// The duration of a task after which its progress bar appears.
+const BAR_DELAY: Duration = Duration::from_secs(1);
 /// The interval between two updates of the bar.
-const LOOK: Duration = Duration::from_millis(200);
+const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 
 /// A progress bar on standard error, shown for tasks that take more than a second. If standard error is no terminal, nothing is shown.
 ///
@@ -72,7 +72,7 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(what);
-        bar.enable_steady_tick(LOOK);
+        bar.enable_steady_tick(UPDATE_INTERVAL);
         let steps = Mutex::new(Steps { shown: true, ..Steps::default() });
         let (pair_counter, workload) = (PairCounter::default(), Workload::default());
         Progress(Arc::new(Shared { bar, start: Instant::now(), pair_counter, workload, steps }))
@@ -139,7 +139,7 @@ impl Shared {
         let most = weight(self.workload, steps.done).saturating_sub(1);
         let within = self.pair_counter.done().saturating_sub(steps.before).min(most);
         self.bar.set_position(steps.position.saturating_add(within));
-        if !steps.shown && self.start.elapsed() > LATE {
+        if !steps.shown && self.start.elapsed() > BAR_DELAY {
             steps.shown = true;
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
@@ -157,7 +157,7 @@ fn look(bar: &Weak<Shared>) {
         shared.show(&mut shared.steps.lock().unwrap_or_else(PoisonError::into_inner));
         shared.bar.tick();
         drop(shared);
-        std::thread::sleep(LOOK);
+        std::thread::sleep(UPDATE_INTERVAL);
     }
 }
 

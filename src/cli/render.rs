@@ -243,7 +243,7 @@ fn render_scripts(
 /// Runs a rendering job, and shows its progress and failures.
 pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failure> {
     /// The maximum number of failed frames whose errors are shown in full.
-    const SHOWN: usize = 3;
+    const MAX_SHOWN_FAILURES: usize = 3;
     let mut progress = None;
     let mut failures = 0;
     let mut slowest = 0.0;
@@ -260,7 +260,7 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
             }
             Event::Failed(fault) => {
                 failures += 1;
-                if failures <= SHOWN {
+                if failures <= MAX_SHOWN_FAILURES {
                     progress.iter().for_each(|progress| progress.above(|| terminal::report(&fault.report())));
                 }
                 progress.iter().for_each(Progress::step);
@@ -273,9 +273,9 @@ pub(super) fn render(job: &Job<'_>, stop: &AtomicBool) -> Result<Outcome, Failur
     for warning in &outcome.warnings {
         terminal::error(&format!("POV-Ray: {warning}\n"));
     }
-    if outcome.failed.len() > SHOWN {
+    if outcome.failed.len() > MAX_SHOWN_FAILURES {
         let others: Vec<String> =
-            outcome.failed[SHOWN..].iter().map(|fault| fault.frame.to_string()).collect();
+            outcome.failed[MAX_SHOWN_FAILURES..].iter().map(|fault| fault.frame.to_string()).collect();
         terminal::error(&format!("and of the frames {}\n", others.join(", ")));
     }
     Ok(outcome)

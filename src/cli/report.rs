@@ -11,7 +11,7 @@ use jabuka::export::ExportError;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::report::plot::{Picture, png, svg};
-use jabuka::report::{ACCURACY, Assessment, Phase, assess};
+use jabuka::report::{Assessment, DEFAULT_ACCURACY, Phase, assess};
 
 use super::export::whole;
 use super::progress::Progress;
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
     scene: PathBuf,
     /// The wanted accuracy: the maximum position error of any point of a body, as a fraction of the size of the scene. 0.001 is about a
     /// pixel
-    #[arg(long, value_name = "PART", default_value_t = ACCURACY, value_parser = parse_accuracy)]
+    #[arg(long, value_name = "PART", default_value_t = DEFAULT_ACCURACY, value_parser = parse_accuracy)]
     accuracy: f64,
     /// Plot the energy drift, the error, and the distance between neighboring runs over time: FILE.svg or FILE.png
     #[arg(long, value_name = "FILE")]
@@ -79,20 +79,20 @@ fn parse_accuracy(argument: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    /// The length of the progress bar for each of the two phases of the report.
-    const STEPS: usize = 500;
+    /// The number of steps of the progress bar in each of the two phases of the report.
+    const STEPS_PER_PHASE: usize = 500;
     let stop = interrupt::watched();
     let plot = arguments.plot.as_deref().map(|path| Ok((path, Plot::of(path)?))).transpose()?;
     let scene = arguments.of_scene.read_with(&arguments.scene, &[])?;
     if let Some((path, _)) = plot {
         terminal::report_protected(ProtectedFiles::of_scene(&scene).check(path))?;
     }
-    let progress = Progress::new(2 * STEPS);
+    let progress = Progress::new(2 * STEPS_PER_PHASE);
     let mut done = 0;
     let assessed = assess(&scene, arguments.accuracy, &mut |phase, part| {
         let (what, before) = match phase {
             Phase::Comparing => ("comparing", 0),
-            Phase::Trying => ("trying", STEPS),
+            Phase::Trying => ("trying", STEPS_PER_PHASE),
         };
         progress.phase(what);
         #[allow(
@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
             clippy::cast_sign_loss,
             reason = "it is a part of few steps"
         )]
-        let now = before + (part * STEPS as f64) as usize;
+        let now = before + (part * STEPS_PER_PHASE as f64) as usize;
         while done < now {
             progress.step();
             done += 1;

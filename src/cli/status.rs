@@ -38,7 +38,7 @@ enum Format {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     /// The interval at which `--watch` reads the status again.
-    const PAUSE: Duration = Duration::from_secs(2);
+    const POLL_INTERVAL: Duration = Duration::from_secs(2);
     // On a terminal, each new status replaces the previous one.
     let redraw = terminal::is_interactive() && arguments.format == Format::Text;
     let mut shown = String::new();
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         if !arguments.watch || terminal::is_lost() {
             return Err(Failure::Errors);
         }
-        std::thread::sleep(PAUSE);
+        std::thread::sleep(POLL_INTERVAL);
     }
 }
 

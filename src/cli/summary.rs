@@ -12,9 +12,9 @@ use jabuka::{Run, Scene};
 
 use super::shell;
 
-/// The energy error, as a fraction of the energy that [`EnergyScale`] names, above which the summary suggests `jabuka report`. The summary
-/// also gives the energy that joints take if it exceeds the same fraction.
-const DOUBTFUL: f64 = 0.01;
+/// The largest energy error without a hint in the summary, as a fraction of the energy that [`EnergyScale`] names. A larger error suggests
+/// `jabuka report`. The summary also gives the energy that joints take if it exceeds the same fraction.
+const MAX_RELATIVE_ENERGY_ERROR: f64 = 0.01;
 
 /// Returns a summary of the written files and of the accuracy of the run. `path` is the path of the scene file.
 pub(super) fn summary(
@@ -98,7 +98,7 @@ pub(super) fn drift(drift: f64, scale: EnergyScale, scene: &Scene) -> String {
 
 /// Returns the line that suggests `jabuka report`, with the user's settings. Empty if the energy drift is small.
 fn report(scene: &Scene, path: &Path, drift: f64) -> String {
-    if drift.abs() <= DOUBTFUL {
+    if drift.abs() <= MAX_RELATIVE_ENERGY_ERROR {
         return String::new();
     }
     let set = scene.overrides.iter().map(|value| format!(" --set {}", shell::word(value)));
@@ -106,8 +106,8 @@ fn report(scene: &Scene, path: &Path, drift: f64) -> String {
 }
 
 /// Returns the lines with the number of impacts and the energy lost in contacts. With time stepping, also returns the largest overlap of
-/// bodies, the largest error of joints, and the energy that joints take if it exceeds the fraction [`DOUBTFUL`] of `scale`. `scale` is the
-/// energy to which the energy error is relative, J. `scheme` says how contacts are solved.
+/// bodies, the largest error of joints, and the energy that joints take if it exceeds the fraction [`MAX_RELATIVE_ENERGY_ERROR`] of
+/// `scale`. `scale` is the energy to which the energy error is relative, J. `scheme` says how contacts are solved.
 fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) -> String {
     let ContactTotals { impacts, lost, rubbed, penetration, joints, taken_by_joints } = totals;
     let taken =
@@ -118,7 +118,7 @@ fn contacts(totals: ContactTotals, law: ContactLaw, scheme: &str, scale: f64) ->
     let [depth, gap] = [penetration, joints].map(two_digits);
     let gap = if joints > 0.0 { format!("; joints {gap} m off at most") } else { String::new() };
     let gap = match taken_by_joints {
-        taken if joints > 0.0 && taken.abs() > DOUBTFUL * scale => {
+        taken if joints > 0.0 && taken.abs() > MAX_RELATIVE_ENERGY_ERROR * scale => {
             format!("{gap}; joints and limits {}", energy_taken(taken))
         }
         _ => gap,

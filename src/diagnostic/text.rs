@@ -113,10 +113,11 @@ fn window(labels: &[Label], text: &str) -> Range<usize> {
 }
 
 fn first_lines_end(label: &Label, text: &str) -> usize {
-    const LINES: usize = 4;
+    /// The largest number of lines that are shown of a label's text.
+    const MAX_LABEL_LINES: usize = 4;
     let end = boundary(text, label.span.end);
     let start = boundary(text, label.span.start).min(end);
-    text[start..end].match_indices('\n').nth(LINES - 1).map_or(end, |(newline, _)| start + newline)
+    text[start..end].match_indices('\n').nth(MAX_LABEL_LINES - 1).map_or(end, |(newline, _)| start + newline)
 }
 
 /// Returns the offset of the first byte of the character that contains the given byte. Beyond the text, returns the length of the text.

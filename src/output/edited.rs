@@ -66,12 +66,14 @@ impl Folder {
     /// Returns a warning that names the first edited files that were renamed. `None` if no file was edited.
     pub fn edits(&self) -> Option<Diagnostic> {
         /// The largest number of files that the warning names.
-        const SHOWN: usize = 3;
+        const MAX_LISTED_FILES: usize = 3;
         let set_aside = self.lock_set_aside();
-        let moves =
-            set_aside.iter().take(SHOWN).map(|SetAside { name, now }| format!("`{name}` is now `{now}`"));
+        let moves = set_aside
+            .iter()
+            .take(MAX_LISTED_FILES)
+            .map(|SetAside { name, now }| format!("`{name}` is now `{now}`"));
         let moves = moves.collect::<Vec<_>>().join(", ");
-        let others = match set_aside.len().saturating_sub(SHOWN) {
+        let others = match set_aside.len().saturating_sub(MAX_LISTED_FILES) {
             0 => String::new(),
             others => format!(", and {others} more"),
         };

@@ -103,9 +103,10 @@ fn is_full(error: &io::Error) -> bool {
 
 /// Lists the first of some names of files.
 fn listed(names: &[String]) -> String {
-    const SHOWN: usize = 5;
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    match names.len().saturating_sub(SHOWN) {
+    /// The largest number of files that an error names.
+    const MAX_LISTED_FILES: usize = 5;
+    let shown: Vec<String> = names.iter().take(MAX_LISTED_FILES).map(|name| format!("`{name}`")).collect();
+    match names.len().saturating_sub(MAX_LISTED_FILES) {
         0 => shown.join(", "),
         others => format!("{}, and {others} more", shown.join(", ")),
     }

@@ -14,7 +14,7 @@ use crate::system::{Dir, FolderError, Kind, Made, made_here};
 
 /// The name of the lock file. It stays in the folder, since removing it would race with another process that has just opened it. The lock
 /// belongs to the open file, so it ends with the process, however the process ends.
-const LOCK: &str = ".jabuka-lock";
+const LOCK_FILE: &str = ".jabuka-lock";
 
 /// An output folder that is locked, so that only this process writes to it.
 pub struct Folder {
@@ -123,7 +123,7 @@ impl Folder {
     /// Removes everything that was written, if the folder was empty when it was opened. The lock is removed with this value.
     pub(crate) fn discard(&self) {
         if self.is_new {
-            for name in self.dir.names().unwrap_or_default().iter().filter(|name| *name != LOCK) {
+            for name in self.dir.names().unwrap_or_default().iter().filter(|name| *name != LOCK_FILE) {
                 // What cannot be removed stays, and the manifest says that it is incomplete.
                 let _: Result<(), FolderError> = self.dir.remove_all(name);
             }
@@ -167,7 +167,7 @@ impl Drop for Folder {
     fn drop(&mut self) {
         // A folder that was made for nothing is removed, with its lock.
         let is_for_nothing = self.is_new && !self.made.is_empty() && is_empty(&self.dir).unwrap_or(false);
-        if is_for_nothing && self.dir.remove_file(LOCK).is_ok() {
+        if is_for_nothing && self.dir.remove_file(LOCK_FILE).is_ok() {
             self.made.remove();
         }
     }
@@ -217,19 +217,21 @@ fn is_temporary(name: &str) -> bool {
 
 /// Returns true if a folder is empty but for a lock and leftovers of a killed process.
 fn is_empty(dir: &Dir) -> Result<bool, FolderError> {
-    let is_left = |name: &str| name == LOCK || is_temporary(name);
+    let is_left = |name: &str| name == LOCK_FILE || is_temporary(name);
     Ok(dir.names()?.iter().all(|name| name.to_str().is_some_and(is_left)))
 }
 
 fn lock(dir: &Dir) -> Result<File, OutputError> {
-    let file = dir.open_or_create(LOCK)?;
+    let file = dir.open_or_create(LOCK_FILE)?;
     // A new child process briefly has copies of all open files, until it executes its program. A lock that was just released can therefore
     // still be held by such a copy, so locking is tried for 0.2 s.
     for _ in 0..20 {
         match file.try_lock() {
             Ok(()) => return Ok(file),
             Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(10)),
-            Err(TryLockError::Error(error)) => return Err(OutputError::Io(dir.path().join(LOCK), error)),
+            Err(TryLockError::Error(error)) => {
+                return Err(OutputError::Io(dir.path().join(LOCK_FILE), error));
+            }
         }
     }
     Err(OutputError::Locked(dir.path().to_owned()))
@@ -284,6 +286,6 @@ mod tests {
         fs::write(folder.path().join(".jabuka-frame_0001.pov.tmp"), "half").unwrap();
         Folder::open(folder.path()).unwrap();
         let names = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name());
-        assert_eq!(names.collect::<Vec<_>>(), [LOCK]);
+        assert_eq!(names.collect::<Vec<_>>(), [LOCK_FILE]);
     }
 }

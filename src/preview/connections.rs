@@ -16,34 +16,35 @@ use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-/// The time in which a client must send the head of a request, and again its body. Clients are on this machine, so they need milliseconds.
-const PATIENCE: Duration = Duration::from_secs(5);
+/// The time in which a client must send the head of a request. It has the same time again for the body. Clients are on this machine, so
+/// they need milliseconds.
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// The largest number of connections at the same time. A page has six at most.
-const MOST: usize = 128;
+/// The largest number of simultaneous connections. A page has six at most.
+const MAX_CONNECTIONS: usize = 128;
 
 /// The largest size of a request's body, bytes.
-const LARGEST: usize = 1 << 16;
+const MAX_BODY_BYTES: usize = 1 << 16;
 
 /// Answers the requests of all connections. Never returns.
 pub(super) async fn serve(listener: TcpListener, router: Router) -> Infallible {
-    /// The pause after the system has refused a connection, for lack of memory or of file descriptors.
-    const PAUSE: Duration = Duration::from_millis(200);
-    let free = Arc::new(Semaphore::new(MOST));
+    /// The pause before the next attempt to accept a connection, if the system had too little memory or too few file descriptors.
+    const RETRY_DELAY: Duration = Duration::from_millis(200);
+    let free = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
         // If there are too many connections, the next one waits until one of them ends.
         let place = Arc::clone(&free).acquire_owned().await;
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
             Err(_) => {
-                tokio::time::sleep(PAUSE).await;
+                tokio::time::sleep(RETRY_DELAY).await;
                 continue;
             }
         };
         let router = router.clone();
         tokio::spawn(async move {
             let mut builder = http1::Builder::new();
-            builder.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+            builder.timer(TokioTimer::new()).header_read_timeout(REQUEST_TIMEOUT);
             // A connection ends with an error if the client goes away, or is too slow.
             let _ = builder.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router)).await;
             drop(place);
@@ -54,7 +55,7 @@ pub(super) async fn serve(listener: TcpListener, router: Router) -> Infallible {
 /// Waits for the whole body of a request before the request is answered.
 pub(super) async fn with_whole_body(request: Request, next: Next) -> Response {
     let (head, body) = request.into_parts();
-    match tokio::time::timeout(PATIENCE, to_bytes(body, LARGEST)).await {
+    match tokio::time::timeout(REQUEST_TIMEOUT, to_bytes(body, MAX_BODY_BYTES)).await {
         Ok(Ok(bytes)) => next.run(Request::from_parts(head, Body::from(bytes))).await,
         Ok(Err(_)) => {
             (StatusCode::BAD_REQUEST, "the body of the request is too long, or broken off\n").into_response()

@@ -204,8 +204,9 @@ pub(super) fn triangles(scene: &Scene) -> Vec<u8> {
 /// Chooses how finely curved surfaces are divided. If a scene has many bodies, they are small in the picture, and coarse triangles
 /// suffice.
 fn detail(scene: &Scene) -> Detail {
-    const MANY: usize = 1_000;
-    if scene.bodies.len() > MANY { Detail::Coarse } else { Detail::Fine }
+    /// The largest number of bodies for which all surfaces are drawn with fine triangles.
+    const MAX_FINELY_DRAWN_BODIES: usize = 1_000;
+    if scene.bodies.len() > MAX_FINELY_DRAWN_BODIES { Detail::Coarse } else { Detail::Fine }
 }
 
 /// Returns the base shapes of a scene, each once, in the order of the bodies.

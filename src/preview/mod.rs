@@ -105,8 +105,9 @@ impl Preview {
 }
 
 async fn until(stop: &AtomicBool) {
-    const LOOK: Duration = Duration::from_millis(50);
+    /// The interval between two checks of the flag `stop`.
+    const POLL_INTERVAL: Duration = Duration::from_millis(50);
     while !stop.load(Ordering::Relaxed) {
-        tokio::time::sleep(LOOK).await;
+        tokio::time::sleep(POLL_INTERVAL).await;
     }
 }

@@ -5,20 +5,20 @@ use std::io;
 use crate::physics::Balance;
 use crate::simulate::Reader;
 
-/// The count of numbers in the energy and momentum balance of a frame.
+/// The number of values in the energy and momentum balance of a frame.
 #[cfg(test)]
-pub(super) const HEAD: usize = 13;
-/// The count of numbers in a sample of one body at one frame.
+pub(super) const NUMBERS_PER_BALANCE: usize = 13;
+/// The number of values in a sample of one body at one frame.
 #[cfg(test)]
-pub(super) const BODY: usize = 15;
-/// The count of numbers in a pose: a location and an orientation.
-const POSE: usize = 7;
+pub(super) const NUMBERS_PER_SAMPLE: usize = 15;
+/// The number of values in a pose: three for the location, four for the orientation.
+const NUMBERS_PER_POSE: usize = 7;
 /// The size of an encoded number, bytes.
-const NUMBER: usize = 8;
+const BYTES_PER_NUMBER: usize = 8;
 
 /// Returns the size of the poses of all bodies in one frame, bytes.
 pub(super) fn pose_bytes(bodies: usize) -> usize {
-    POSE * bodies * NUMBER
+    NUMBERS_PER_POSE * bodies * BYTES_PER_NUMBER
 }
 
 /// Encodes the poses of all bodies in some frames. Each frame has all locations (x y z), then all orientations (x y z w). The numbers of

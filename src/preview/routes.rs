@@ -49,11 +49,12 @@ pub(super) struct Server {
 }
 
 /// The content security policy of the page: it can load its own files and send requests to this server, nothing else.
-const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
+const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
     img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-const HEADERS: [(HeaderName, &str); 6] = [
-    (header::CONTENT_SECURITY_POLICY, POLICY),
+/// The headers that the server adds to its responses. They restrict what a browser does with a response.
+const SECURITY_HEADERS: [(HeaderName, &str); 6] = [
+    (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY),
     (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
     (header::REFERRER_POLICY, "no-referrer"),
     (header::CACHE_CONTROL, "no-store"),
@@ -89,7 +90,7 @@ async fn guarded(request: Request, next: Next) -> Response {
         Ok(()) => next.run(request).await,
         Err(refused) => refused.into_response(),
     };
-    for (name, value) in HEADERS {
+    for (name, value) in SECURITY_HEADERS {
         response.headers_mut().insert(name, HeaderValue::from_static(value));
     }
     response
@@ -152,7 +153,7 @@ async fn events(
     State(server): State<Server>,
 ) -> Sse<impl Stream<Item = Result<Event, std::convert::Infallible>>> {
     /// The smallest interval between two events that the server sends to the page.
-    const PAUSE: Duration = Duration::from_millis(30);
+    const MIN_EVENT_INTERVAL: Duration = Duration::from_millis(30);
     let (sender, receiver) = mpsc::channel(1);
     tokio::spawn(async move {
         let mut pulse = server.session.pulse();
@@ -170,7 +171,7 @@ async fn events(
                 changed = pulse.changed() => if changed.is_err() { return },
                 () = sender.closed() => return,
             }
-            tokio::time::sleep(PAUSE).await;
+            tokio::time::sleep(MIN_EVENT_INTERVAL).await;
         }
     });
     Sse::new(ReceiverStream::new(receiver).map(Ok)).keep_alive(KeepAlive::default())
@@ -197,10 +198,10 @@ async fn poses(
     Path(id): Path<RunId>,
     Query(frames): Query<Frames>,
 ) -> Result<Response, Failed> {
-    /// The size up to which small frames are sent together, bytes.
-    const TOGETHER: usize = 1 << 16;
+    /// The largest size of frames that are sent together, bytes. A larger frame is sent alone.
+    const MAX_BATCH_BYTES: usize = 1 << 16;
     /// The interval between two checks for new frames.
-    const LOOK: Duration = Duration::from_millis(4);
+    const POLL_INTERVAL: Duration = Duration::from_millis(4);
     let run = server.run(id)?;
     let (sender, receiver) = mpsc::channel::<std::io::Result<Bytes>>(2);
     tokio::spawn(async move {
@@ -213,10 +214,10 @@ async fn poses(
                 if is_over {
                     return;
                 }
-                tokio::time::sleep(LOOK).await;
+                tokio::time::sleep(POLL_INTERVAL).await;
                 continue;
             }
-            let many = (TOGETHER / numbers::pose_bytes(bodies).max(1)).max(1);
+            let many = (MAX_BATCH_BYTES / numbers::pose_bytes(bodies).max(1)).max(1);
             let until = recorded.min(frame + many);
             let mut mine = reader.take().unwrap_or_else(|| run.recording().read());
             let read = tokio::task::spawn_blocking(move || {

@@ -72,7 +72,7 @@ pub(super) struct Progress {
 }
 
 /// The smallest interval between two notifications about new frames.
-const PULSE: Duration = Duration::from_millis(40);
+const MIN_NOTIFICATION_INTERVAL: Duration = Duration::from_millis(40);
 
 impl PreviewRun {
     /// Starts a run in another thread. The thread calls `pulse` after new frames and at the end.
@@ -213,7 +213,7 @@ impl PreviewRun {
                 return Err(Report::default());
             }
             self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds = recorder.bounds();
-            if told.elapsed() > PULSE {
+            if told.elapsed() > MIN_NOTIFICATION_INTERVAL {
                 pulse();
                 told = Instant::now();
             }

@@ -64,7 +64,7 @@ fn kinetic(body: &RigidBody, at: &BodySnapshot) -> f64 {
 mod tests {
     use std::sync::Arc;
 
-    use super::super::numbers::{BODY, HEAD};
+    use super::super::numbers::{NUMBERS_PER_BALANCE, NUMBERS_PER_SAMPLE};
     use super::*;
     use crate::Scene;
     use crate::cache::Cache;
@@ -81,8 +81,8 @@ mod tests {
         let bytes = of_body(&run, 0, 0..11).unwrap();
         let numbers: Vec<f64> =
             bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
-        assert_eq!(numbers.len(), 11 * BODY);
-        for (frame, of_frame) in numbers.chunks(BODY).enumerate() {
+        assert_eq!(numbers.len(), 11 * NUMBERS_PER_SAMPLE);
+        for (frame, of_frame) in numbers.chunks(NUMBERS_PER_SAMPLE).enumerate() {
             assert_eq!(of_frame[0], run.scene.simulation.timeline.time(frame));
             assert_eq!(of_frame[1..14].iter().all(|number| number.is_nan()), frame < 5, "{frame}");
         }
@@ -104,9 +104,9 @@ mod tests {
             numbers.skip(size - 1).step_by(size).collect()
         };
         let expected: Vec<f64> = (0..11).map(|frame| f64::from(u8::from(frame > 5))).collect();
-        assert_eq!(last(balance(&run, 0..11).unwrap(), HEAD), expected);
-        assert_eq!(last(of_body(&run, 0, 0..11).unwrap(), BODY), expected);
-        assert_eq!(last(of_body(&run, 1, 0..11).unwrap(), BODY), [0.0; 11]);
+        assert_eq!(last(balance(&run, 0..11).unwrap(), NUMBERS_PER_BALANCE), expected);
+        assert_eq!(last(of_body(&run, 0, 0..11).unwrap(), NUMBERS_PER_SAMPLE), expected);
+        assert_eq!(last(of_body(&run, 1, 0..11).unwrap(), NUMBERS_PER_SAMPLE), [0.0; 11]);
     }
 
     /// The sum of the kinetic energies of all bodies equals the kinetic energy of the run.
@@ -140,11 +140,13 @@ mod tests {
         };
         let whole = numbers(balance(&run, 0..11).unwrap());
         let [first, second] = [0, 1].map(|body| numbers(of_body(&run, body, 0..11).unwrap()));
-        assert_eq!((whole.len(), first.len()), (11 * HEAD, 11 * BODY));
+        assert_eq!((whole.len(), first.len()), (11 * NUMBERS_PER_BALANCE, 11 * NUMBERS_PER_SAMPLE));
         for frame in 0..11 {
-            assert_eq!(whole[frame * HEAD], first[frame * BODY]);
-            let (sum, kinetic) =
-                (first[frame * BODY + 13] + second[frame * BODY + 13], whole[frame * HEAD + 1]);
+            assert_eq!(whole[frame * NUMBERS_PER_BALANCE], first[frame * NUMBERS_PER_SAMPLE]);
+            let (sum, kinetic) = (
+                first[frame * NUMBERS_PER_SAMPLE + 13] + second[frame * NUMBERS_PER_SAMPLE + 13],
+                whole[frame * NUMBERS_PER_BALANCE + 1],
+            );
             assert!((sum - kinetic).abs() < 1e-12 * kinetic, "{sum} {kinetic}");
         }
     }

@@ -13,7 +13,7 @@ use tokio::sync::watch;
 
 use super::panicked::caught;
 use super::run::{PreviewRun, Progress, RunId, no_room};
-use super::watch::{INTERVAL, Watched};
+use super::watch::{POLL_INTERVAL, Watched};
 use crate::Scene;
 use crate::cache::Cache;
 use crate::diagnostic::Report;
@@ -71,10 +71,10 @@ pub(super) struct State {
 }
 
 /// The largest number of runs with other methods.
-const VARIANTS: usize = 8;
+const MAX_VARIANTS: usize = 8;
 
 /// The time that a new run has to finish before the page shows it unfinished.
-const QUICK: Duration = Duration::from_millis(150);
+const MAX_WAIT_FOR_RUN: Duration = Duration::from_millis(150);
 
 impl Inner {
     fn variant(&self, variant: &Variant) -> Option<Arc<PreviewRun>> {
@@ -125,12 +125,12 @@ impl Session {
                 if stop.load(Ordering::Relaxed) {
                     return;
                 }
-                thread::sleep(INTERVAL);
+                thread::sleep(POLL_INTERVAL);
                 if watched.have_changed() {
                     watched.settle();
                     break;
                 }
-                if again && read.elapsed() > 2 * INTERVAL {
+                if again && read.elapsed() > 2 * POLL_INTERVAL {
                     break;
                 }
             }
@@ -185,7 +185,7 @@ impl Session {
                 continue;
             }
             inner.variants.push_back((variant, Arc::clone(&run)));
-            if inner.variants.len() > VARIANTS {
+            if inner.variants.len() > MAX_VARIANTS {
                 inner.variants.pop_front().iter().for_each(|(_, run)| run.cancel());
             }
             drop(inner);
@@ -240,7 +240,7 @@ impl Session {
         };
         // A run that finishes almost at once is not shown unfinished.
         let begun = Instant::now();
-        while run.outcome().is_none() && begun.elapsed() < QUICK {
+        while run.outcome().is_none() && begun.elapsed() < MAX_WAIT_FOR_RUN {
             thread::sleep(Duration::from_millis(2));
         }
         let mut inner = self.lock();

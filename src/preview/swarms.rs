@@ -9,8 +9,8 @@ use crate::physics::Particle;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Swarms;
 
-/// The approximate limit of drawn particles, over all emitters. The page draws all particles anew in each frame.
-const MOST: f64 = 10_000.0;
+/// The approximate largest number of drawn particles of all emitters together. The page draws all particles anew in each frame.
+const MAX_DRAWN_PARTICLES: f64 = 10_000.0;
 
 /// The computed particles of a run. `None` until a page requests them.
 #[derive(Default)]
@@ -19,7 +19,7 @@ pub(super) struct KeptSwarms(Mutex<Option<Swarms>>);
 /// Returns the largest number of drawn particles per emitter.
 #[allow(clippy::cast_precision_loss, reason = "emitters are few")]
 fn most_of_each(scene: &Scene) -> f64 {
-    MOST / scene.emitters.len().max(1) as f64
+    MAX_DRAWN_PARTICLES / scene.emitters.len().max(1) as f64
 }
 
 /// Returns the name of each emitter with too many particles, and the number n: only every n-th of its particles is drawn.

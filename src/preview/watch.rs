@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 /// The interval between two checks of the files.
-pub(super) const INTERVAL: Duration = Duration::from_millis(60);
+pub(super) const POLL_INTERVAL: Duration = Duration::from_millis(60);
 
 /// The size, inode and modification time of a file, which show whether it has changed. `None` if the file does not exist.
 type Mark = Option<(u64, u64, SystemTime)>;
@@ -41,12 +41,14 @@ impl Watched {
 
     /// Waits until the files stop changing and none is empty, for at most 0.3 s. An editor may empty a file before it writes the new text.
     pub(super) fn settle(&self) {
-        const QUIET: Duration = Duration::from_millis(20);
-        const MOST: u32 = 15;
+        /// The time in which the files must not change.
+        const SETTLE_INTERVAL: Duration = Duration::from_millis(20);
+        /// The largest number of checks. Together with the interval, it gives the limit of 0.3 s.
+        const MAX_SETTLE_CHECKS: u32 = 15;
         let marks = || self.0.iter().map(|(file, _)| mark(file)).collect::<Vec<Mark>>();
         let mut before = marks();
-        for _ in 0..MOST {
-            std::thread::sleep(QUIET);
+        for _ in 0..MAX_SETTLE_CHECKS {
+            std::thread::sleep(SETTLE_INTERVAL);
             let now = marks();
             let is_empty = now.iter().flatten().any(|(bytes, ..)| *bytes == 0);
             if now == before && !is_empty {
@@ -58,9 +60,10 @@ impl Watched {
 
     /// Returns true if a file was changed so recently that a further change might leave the same size and time.
     pub(super) fn are_young(&self) -> bool {
-        const YOUNG: Duration = Duration::from_millis(50);
+        /// The age from which on the size and the time of a file show every further change.
+        const MIN_RELIABLE_AGE: Duration = Duration::from_millis(50);
         let is_young = |mark: &Mark| {
-            mark.and_then(|(.., changed)| changed.elapsed().ok()).is_some_and(|age| age < YOUNG)
+            mark.and_then(|(.., changed)| changed.elapsed().ok()).is_some_and(|age| age < MIN_RELIABLE_AGE)
         };
         self.0.iter().any(|(_, mark)| is_young(mark))
     }

@@ -13,20 +13,25 @@ use super::picture::{self, Picture, Size, light, srgb};
 
 type Rgb = [u8; 3];
 
-/// The margin around the page's contents, and the gap between two images, pixels.
-const MARGIN: usize = 32;
-const GAP: usize = 24;
+/// The margin around the page's contents, pixels.
+const PAGE_MARGIN: usize = 32;
+/// The gap between two images, pixels.
+const IMAGE_GAP: usize = 24;
 /// The vertical gap between an image and its caption, pixels.
 const ABOVE_CAPTION: usize = 8;
-/// The area of an image on the sheet, in square pixels: that of 480 × 270. Smaller images are not enlarged.
-const AREA: f64 = 480.0 * 270.0;
+/// The largest area of an image on the sheet, in square pixels: that of 480 × 270. Smaller images are not enlarged.
+const MAX_IMAGE_AREA: f64 = 480.0 * 270.0;
 /// The preferred ratio of width to height of a sheet.
-const SHAPE: f64 = 16.0 / 9.0;
+const PREFERRED_ASPECT_RATIO: f64 = 16.0 / 9.0;
 
-const GROUND: Rgb = [247, 246, 243];
-const EDGE: Rgb = [214, 211, 204];
-const INK: Rgb = [52, 50, 46];
-const FAINT_INK: Rgb = [122, 118, 110];
+/// The color of the page.
+const BACKGROUND_COLOR: Rgb = [247, 246, 243];
+/// The color of the borders of images.
+const BORDER_COLOR: Rgb = [214, 211, 204];
+/// The color of the left part of a caption, which is the number of the frame.
+const TEXT_COLOR: Rgb = [52, 50, 46];
+/// The color of the right part of a caption, which is the time.
+const FAINT_TEXT_COLOR: Rgb = [122, 118, 110];
 
 /// An image of a film that a contact sheet may show.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,8 +52,8 @@ pub struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// The default largest number of images on a sheet.
-    pub const USUAL: usize = 12;
+    /// The largest number of images on a sheet, unless the user gives another.
+    pub const DEFAULT_MAX_IMAGES: usize = 12;
 
     /// Plans a contact sheet with this path.
     ///
@@ -62,7 +67,7 @@ impl ContactSheet {
         if path.is_dir() {
             return Err(FilmError::Folder(path));
         }
-        Ok(ContactSheet { path, most: ContactSheet::USUAL })
+        Ok(ContactSheet { path, most: ContactSheet::DEFAULT_MAX_IMAGES })
     }
 
     /// Limits the number of images on the sheet. The limit is at least 1.
@@ -101,12 +106,17 @@ impl ContactSheet {
         for (index, (image, [left, right])) in images.iter().zip(&captions).enumerate() {
             let (x, y) = layout.place(index);
             let (width, height) = layout.image;
-            page.frame((x - 1, y - 1), (width + 2, height + 2), EDGE);
+            page.frame((x - 1, y - 1), (width + 2, height + 2), BORDER_COLOR);
             page.put(image, (x, y), width);
             let base = y + height + ABOVE_CAPTION;
-            page.write(left, (x, base), layout.letters, INK);
+            page.write(left, (x, base), layout.letters, TEXT_COLOR);
             let end = x + layout.cell.0;
-            page.write(right, (end - text_width(right, layout.letters), base), layout.letters, FAINT_INK);
+            page.write(
+                right,
+                (end - text_width(right, layout.letters), base),
+                layout.letters,
+                FAINT_TEXT_COLOR,
+            );
         }
         page.save(&target)?;
         target.finish()
@@ -135,7 +145,7 @@ struct Layout {
 
 impl Layout {
     fn new(count: usize, (width, height): Size, captions: &[[String; 2]]) -> Layout {
-        let scale = (AREA / (width as f64 * height as f64)).sqrt().min(1.0);
+        let scale = (MAX_IMAGE_AREA / (width as f64 * height as f64)).sqrt().min(1.0);
         let image = [width, height].map(|length| ((length as f64 * scale).round() as usize).max(1));
         let needed = |letters| {
             let space = get_raster_width(FontWeight::Regular, letters);
@@ -149,9 +159,9 @@ impl Layout {
         let columns = columns(count, cell);
         let rows = count.div_ceil(columns);
         let page = (
-            2 * MARGIN + columns * (cell.0 + GAP) - GAP,
+            2 * PAGE_MARGIN + columns * (cell.0 + IMAGE_GAP) - IMAGE_GAP,
             // The height of a line of text includes empty space below the letters, so a slightly smaller margin looks even.
-            2 * MARGIN + rows * (cell.1 + GAP) - GAP - letters.val() / 4,
+            2 * PAGE_MARGIN + rows * (cell.1 + IMAGE_GAP) - IMAGE_GAP - letters.val() / 4,
         );
         Layout { page, columns, image: (image[0], image[1]), cell, letters }
     }
@@ -159,17 +169,17 @@ impl Layout {
     /// Returns the upper left corner of the image with this index, pixels.
     fn place(&self, index: usize) -> (usize, usize) {
         let (column, row) = (index % self.columns, index / self.columns);
-        (MARGIN + column * (self.cell.0 + GAP), MARGIN + row * (self.cell.1 + GAP))
+        (PAGE_MARGIN + column * (self.cell.0 + IMAGE_GAP), PAGE_MARGIN + row * (self.cell.1 + IMAGE_GAP))
     }
 }
 
-/// Returns the number of columns that gives the page a shape near [`SHAPE`] with few empty cells.
+/// Returns the number of columns that gives the page a shape near [`PREFERRED_ASPECT_RATIO`] with few empty cells.
 fn columns(count: usize, (width, height): Size) -> usize {
     let badness = |columns: usize| {
         let rows = count.div_ceil(columns);
-        let shape = (columns * (width + GAP)) as f64 / (rows * (height + GAP)) as f64;
+        let shape = (columns * (width + IMAGE_GAP)) as f64 / (rows * (height + IMAGE_GAP)) as f64;
         let empty = (columns * rows - count) as f64 / (columns * rows) as f64;
-        libm::log(shape / SHAPE).abs() + 2.0 * empty
+        libm::log(shape / PREFERRED_ASPECT_RATIO).abs() + 2.0 * empty
     };
     (1..=count).min_by(|a, b| badness(*a).total_cmp(&badness(*b))).unwrap_or(1)
 }
@@ -232,7 +242,7 @@ struct Page {
 
 impl Page {
     fn new(size: Size) -> Page {
-        Page { size, rgb: GROUND.repeat(size.0 * size.1) }
+        Page { size, rgb: BACKGROUND_COLOR.repeat(size.0 * size.1) }
     }
 
     fn pixel(&mut self, (x, y): (usize, usize)) -> &mut [u8] {

@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::RenderError;
-use super::record::{Compare, HIDDEN, Record, State, Verdict};
+use super::record::{Compare, HIDDEN_FOLDER, Record, State, Verdict};
 use super::undated::undated;
 use crate::output::Manifest;
 use crate::system::{Dir, FolderError, Kind};
@@ -49,17 +49,17 @@ impl Images {
     }
 
     fn of(folder: Dir) -> Result<Images, RenderError> {
-        match folder.about(HIDDEN)?.map(|found| found.kind) {
+        match folder.about(HIDDEN_FOLDER)?.map(|found| found.kind) {
             Some(Kind::Folder) => {}
-            Some(_) => return Err(RenderError::Link(folder.path().join(HIDDEN))),
+            Some(_) => return Err(RenderError::Link(folder.path().join(HIDDEN_FOLDER))),
             None => {
                 if !folder.names()?.is_empty() && Manifest::of_dir(&folder).is_none() {
                     return Err(RenderError::NotOurs(folder.path().to_owned()));
                 }
-                folder.new_folder(HIDDEN)?;
+                folder.new_folder(HIDDEN_FOLDER)?;
             }
         }
-        let hidden = folder.folder(HIDDEN)?;
+        let hidden = folder.folder(HIDDEN_FOLDER)?;
         let images = Images { _lock: lock(&folder, &hidden)?, folder, hidden };
         images.sweep()?;
         Ok(images)
@@ -222,7 +222,7 @@ impl Drop for WorkFolder {
 
 /// Returns true if jabuka has rendered images into a folder.
 pub(crate) fn is_folder_of_images(folder: &Path) -> bool {
-    folder.join(HIDDEN).is_dir()
+    folder.join(HIDDEN_FOLDER).is_dir()
 }
 
 fn file_name(name: &str) -> String {

@@ -151,7 +151,7 @@ fn covering([r, g, b, cover]: [f32; 4], count: f32) -> [u8; 4] {
 fn number(light: f32) -> u8 {
     let (starts, borders) = &*NUMBERS;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is within the table")]
-    let place = (light.clamp(0.0, 1.0) * STARTS as f32) as usize;
+    let place = (light.clamp(0.0, 1.0) * SEARCH_INTERVALS as f32) as usize;
     let mut number = starts[place];
     while number < 255 && light >= borders[usize::from(number)] {
         number += 1;
@@ -168,8 +168,9 @@ static LIGHT: LazyLock<Box<[f32; 65536]>> = LazyLock::new(|| {
     table
 });
 
-/// The size of the table in which the search for an sRGB byte starts. The byte is then at most a few steps away.
-const STARTS: usize = 4096;
+/// The number of equal intervals of linear light from 0 to 1 in the table in which the search for an sRGB byte starts. The byte is then at
+/// most a few steps away.
+const SEARCH_INTERVALS: usize = 4096;
 
 /// For each table entry, the smallest sRGB byte that light in its range can have. For each byte, the light above which the next byte is
 /// nearer.
@@ -180,13 +181,13 @@ static NUMBERS: LazyLock<(Vec<u8>, [f32; 255])> = LazyLock::new(|| {
     }
     let mut number = 0;
     let start = |place: usize| {
-        let light = place as f32 / STARTS as f32;
+        let light = place as f32 / SEARCH_INTERVALS as f32;
         while number < 255 && light >= borders[usize::from(number)] {
             number += 1;
         }
         number
     };
-    ((0..=STARTS).map(start).collect(), borders)
+    ((0..=SEARCH_INTERVALS).map(start).collect(), borders)
 });
 
 /// Converts an sRGB value to linear light, both from 0 to 1.
@@ -198,13 +199,13 @@ fn linear(number: f64) -> f32 {
 /// Returns whether a PNG has an alpha channel, and whether it has 16 bits per channel. Fails for encodings that POV-Ray does not write.
 fn format(info: &Info<'_>) -> Result<(bool, bool), String> {
     /// The gamma of 1/2.2 as a PNG stores it, times 100 000. It is the power law that is nearest to sRGB.
-    const GAMMA: u32 = 45455;
+    const SRGB_GAMMA: u32 = 45455;
     if info.interlaced {
         return Err("it is interlaced".to_owned());
     }
     // POV-Ray writes an sRGB chunk and a gamma chunk, unless its options set another gamma.
     let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
-    if info.srgb.is_none() && gamma.is_some_and(|gamma| gamma.abs_diff(GAMMA) > 500) {
+    if info.srgb.is_none() && gamma.is_some_and(|gamma| gamma.abs_diff(SRGB_GAMMA) > 500) {
         return Err("its colors are not sRGB".to_owned());
     }
     match (info.color_type, info.bit_depth) {

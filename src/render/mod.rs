@@ -48,6 +48,6 @@ pub(crate) use inputs::named;
 pub use job::{Event, Job, Outcome};
 pub use options::{Quality, options};
 pub use povray::PovRay;
-pub use record::{Compare, Files, HIDDEN, Record, State, Verdict};
+pub use record::{Compare, Files, HIDDEN_FOLDER, Record, State, Verdict};
 pub use sequence::{Script, Sequence};
 pub use status::{Failed, Running, Status};

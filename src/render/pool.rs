@@ -13,15 +13,16 @@ use super::images::Finished;
 use super::process::{Process, RenderTask, Setup, Step};
 use super::{Images, RenderError, cpu};
 
-/// The time that POV-Ray waits between two images, s, measured with POV-Ray 3.7.
-const WAIT: f64 = 0.2;
+/// The time that a POV-Ray process waits between two images, s, measured with POV-Ray 3.7.
+const IDLE_SECONDS_PER_IMAGE: f64 = 0.2;
 
-/// The number of processes per processor: `FIRST` before any image is measured, and `MOST` as the limit afterwards.
-const FIRST: usize = 4;
-const MOST: usize = 12;
+/// The number of processes per processor until the first images are measured.
+const INITIAL_PROCESSES_PER_CPU: usize = 4;
+/// The largest number of processes per processor after the first images are measured.
+const MAX_PROCESSES_PER_CPU: usize = 12;
 
 /// The interval between two polls of the POV-Ray processes.
-const TICK: Duration = Duration::from_millis(8);
+const POLL_INTERVAL: Duration = Duration::from_millis(8);
 
 /// The result of rendering one picture (a [`RenderTask`]).
 pub(super) enum TaskResult {
@@ -100,7 +101,7 @@ impl<'a> Pool<'a> {
                 looked = Instant::now();
                 self.guard(done)?;
             }
-            thread::sleep(TICK);
+            thread::sleep(POLL_INTERVAL);
         }
         Ok(true)
     }
@@ -123,7 +124,7 @@ impl<'a> Pool<'a> {
         let (images, cost, _) = self.measured;
         let processors = self.processors;
         if images < processors {
-            FIRST * processors
+            INITIAL_PROCESSES_PER_CPU * processors
         } else {
             #[allow(clippy::cast_precision_loss, reason = "numbers of images and processors are small")]
             let (each, processors) = (cost / images as f64, processors as f64);
@@ -132,8 +133,9 @@ impl<'a> Pool<'a> {
                 clippy::cast_sign_loss,
                 reason = "it is small and positive"
             )]
-            let busy = (processors * (1.0 + WAIT / each.max(1e-3))).min(1e3).ceil() as usize;
-            busy.clamp(self.processors + 2, MOST * self.processors)
+            let busy =
+                (processors * (1.0 + IDLE_SECONDS_PER_IMAGE / each.max(1e-3))).min(1e3).ceil() as usize;
+            busy.clamp(self.processors + 2, MAX_PROCESSES_PER_CPU * self.processors)
         }
     }
 
@@ -272,11 +274,11 @@ impl<'a> Pool<'a> {
 
     /// Returns the default time limit for a frame, which is far above the times of the frames so far.
     fn usual_limit(&self) -> Duration {
-        /// The limit until the time of a first frame is known.
-        const UNKNOWN: Duration = Duration::from_secs(24 * 3600);
+        /// The time limit for a frame until the time of a first frame is known.
+        const INITIAL_TIME_LIMIT: Duration = Duration::from_secs(24 * 3600);
         let (images, _, slowest) = self.measured;
         if images == 0 {
-            return UNKNOWN;
+            return INITIAL_TIME_LIMIT;
         }
         #[allow(clippy::cast_precision_loss, reason = "the number of processes is small")]
         let sharing = (self.running.len().div_ceil(self.processors)) as f64;

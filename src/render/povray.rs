@@ -22,10 +22,10 @@ pub struct PovRay {
 }
 
 /// The name of the file that caches the version of POV-Ray, in the hidden folder among the images.
-const MEMORY: &str = "povray";
+const VERSION_CACHE_FILE: &str = "povray";
 
 /// The longest time to wait for POV-Ray's answer about its version.
-const PATIENCE: Duration = Duration::from_secs(20);
+const VERSION_TIMEOUT: Duration = Duration::from_secs(20);
 
 impl PovRay {
     /// Finds POV-Ray: at the path `given`, or else as `povray` in the `PATH`. Asking it for its version takes 0.2 s, so the answer is
@@ -43,7 +43,7 @@ impl PovRay {
     ) -> Result<PovRay, RenderError> {
         let path = PovRay::locate(given)?;
         let mark = mark(&path, &confinement).map_err(RenderError::io(&path))?;
-        let remembered = images.hidden().read_to_string(MEMORY).ok();
+        let remembered = images.hidden().read_to_string(VERSION_CACHE_FILE).ok();
         let remembered = remembered.as_deref().and_then(|text| text.split_once('\n'));
         if let Some((_, version)) = remembered.filter(|(of, _)| *of == mark) {
             let version = version.trim_end().to_owned();
@@ -54,7 +54,7 @@ impl PovRay {
             // If the answer cannot be cached, the next command asks POV-Ray again.
             let _ = images
                 .hidden()
-                .create(MEMORY)
+                .create(VERSION_CACHE_FILE)
                 .map(|mut file| file.write_all(format!("{mark}\n{version}\n").as_bytes()));
             let version = version.to_owned();
             return Ok(PovRay { path, version, confinement, unlimited: None });
@@ -136,7 +136,7 @@ fn ask(path: &Path, confinement: &Confinement) -> Result<String, RenderError> {
     let mut child = Started::new(&mut command).map_err(RenderError::io(path))?;
     let start = Instant::now();
     while child.exit().map_err(RenderError::io(path))?.is_none() {
-        if start.elapsed() > PATIENCE {
+        if start.elapsed() > VERSION_TIMEOUT {
             return Err(RenderError::NotPovray(path.to_owned(), "nothing, for 20 s".to_owned()));
         }
         std::thread::sleep(Duration::from_millis(5));

@@ -162,13 +162,13 @@ impl Process {
 
     /// Kills the process if it hangs or exceeds the time limit. `cpu` is its CPU time so far, s.
     pub(super) fn guard(&mut self, cpu: Option<f64>, limit: Duration) -> Step {
-        /// A process that uses no CPU time for this long hangs. POV-Ray never waits as long for anything.
-        const STILL: Duration = Duration::from_secs(20);
+        /// A process that uses no CPU time for longer than this hangs. POV-Ray never waits as long for anything.
+        const MAX_IDLE_TIME: Duration = Duration::from_secs(20);
         let now = Instant::now();
         if cpu.is_none_or(|cpu| cpu > self.alive.0 + 0.005) {
             self.alive = (cpu.unwrap_or(0.0), now);
         }
-        if now - self.alive.1 > STILL {
+        if now - self.alive.1 > MAX_IDLE_TIME {
             self.died("it hung: it did nothing for 20 s".to_owned())
         } else if now - self.since > limit {
             self.died(format!("it took more than the time limit of {:.0} s", limit.as_secs_f64()))
@@ -258,13 +258,13 @@ fn master(tasks: &[RenderTask]) -> String {
 /// Returns true if a PNG file is complete: it ends with the last chunk of a PNG.
 fn is_whole(folder: &Dir, name: &str) -> bool {
     /// The last chunk of every PNG: a length of 0, `IEND`, and the checksum.
-    const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
+    const PNG_END_CHUNK: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
     let ends = || -> io::Result<bool> {
         let mut file = folder.open_file(name)?;
         file.seek(SeekFrom::End(-12))?;
         let mut last = [0; 12];
         file.read_exact(&mut last)?;
-        Ok(last == END)
+        Ok(last == PNG_END_CHUNK)
     };
     ends().unwrap_or(false)
 }

@@ -28,15 +28,15 @@ use sha2::{Digest, Sha256};
 
 use crate::system::{self, Dir, FolderError};
 
-/// The hidden folder beside the images. It contains the records, and other data about the images.
-pub const HIDDEN: &str = ".jabuka";
+/// The name of the hidden folder beside the images. It contains the records, and other data about the images.
+pub const HIDDEN_FOLDER: &str = ".jabuka";
 
 /// The words that make a script's image depend on the number of its frame.
-const NUMBERED: [&str; 2] = ["frame_number", "clock"];
+const FRAME_NUMBER_WORDS: [&str; 2] = ["frame_number", "clock"];
 
 /// The beginning of the names of scripts that contain the moments of a frame with motion blur. Their `frame_number` is the number of the
 /// moment, so they do not depend on the number of the frame.
-const BLURRED: &str = "shutter_";
+const SHUTTER_SCRIPT_PREFIX: &str = "shutter_";
 
 /// The record of a rendered image, or of one that is yet to be rendered.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -132,7 +132,8 @@ impl Record {
         reader.skip_until(b'\n')?;
         let mut text = Vec::new();
         reader.read_to_end(&mut text)?;
-        let blurred = script.file_name().is_some_and(|name| name.to_string_lossy().starts_with(BLURRED));
+        let blurred =
+            script.file_name().is_some_and(|name| name.to_string_lossy().starts_with(SHUTTER_SCRIPT_PREFIX));
         let numbered = !blurred && (files.numbered || mentions_number(&text));
         Ok(Record {
             script: hex(&Sha256::digest(&text)),
@@ -175,7 +176,7 @@ impl Record {
 
     /// Returns the path of an image's record. `name` is the image's name without its extension: `frame_0007`.
     pub fn path(images: &Path, name: &str) -> PathBuf {
-        images.join(HIDDEN).join(format!("{name}.txt"))
+        images.join(HIDDEN_FOLDER).join(format!("{name}.txt"))
     }
 
     /// Reads the record of an image. `None` if the file does not exist, or is not a record.
@@ -183,7 +184,7 @@ impl Record {
         Record::of_file(system::open(&Record::path(images, name)).ok()?)
     }
 
-    /// Reads the record of an image in the folder [`HIDDEN`].
+    /// Reads the record of an image in the folder [`HIDDEN_FOLDER`].
     pub(super) fn read_in(hidden: &Dir, name: &str) -> Option<Record> {
         Record::of_file(hidden.open_file(format!("{name}.txt")).ok()?)
     }
@@ -196,16 +197,16 @@ impl Record {
         Record::parse(&text)
     }
 
-    /// Writes the record of an existing image under a temporary name, and renames it when it is complete. The folder [`HIDDEN`] must
+    /// Writes the record of an existing image under a temporary name, and renames it when it is complete. The folder [`HIDDEN_FOLDER`] must
     /// exist.
     ///
     /// # Errors
     /// If the record cannot be written.
     pub fn write(&self, images: &Path, name: &str) -> io::Result<()> {
-        Ok(self.write_in(&Dir::open(&images.join(HIDDEN))?, name)?)
+        Ok(self.write_in(&Dir::open(&images.join(HIDDEN_FOLDER))?, name)?)
     }
 
-    /// Writes the record into the folder [`HIDDEN`], as [`Record::write`] does.
+    /// Writes the record into the folder [`HIDDEN_FOLDER`], as [`Record::write`] does.
     pub(super) fn write_in(&self, hidden: &Dir, name: &str) -> Result<(), FolderError> {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let unique = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
@@ -299,7 +300,7 @@ fn mentions_number(text: &[u8]) -> bool {
             && !is_word(text.get(start.wrapping_sub(1)))
             && !is_word(text.get(start + word.len()))
     };
-    (0..text.len()).any(|start| NUMBERED.iter().any(|word| at(start, word)))
+    (0..text.len()).any(|start| FRAME_NUMBER_WORDS.iter().any(|word| at(start, word)))
 }
 
 /// Returns the SHA-256 of a file in hexadecimal digits, and its length in bytes.
@@ -341,7 +342,7 @@ mod tests {
     #[test]
     fn a_record_is_seven_lines_and_reads_back() {
         let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        fs::create_dir(folder.path().join(HIDDEN_FOLDER)).unwrap();
         let image = folder.path().join("image.png");
         fs::write(&image, "twelve bytes").unwrap();
         let record = expected(folder.path(), "// frame 7\nabc\n").of_image(&image).unwrap();
@@ -352,7 +353,11 @@ mod tests {
         assert_eq!(record.to_text(), text);
         record.write(folder.path(), "frame_0007").unwrap();
         assert_eq!(Record::read(folder.path(), "frame_0007"), Some(record.clone()));
-        assert_eq!(fs::read_dir(folder.path().join(HIDDEN)).unwrap().count(), 1, "no temporary file is left");
+        assert_eq!(
+            fs::read_dir(folder.path().join(HIDDEN_FOLDER)).unwrap().count(),
+            1,
+            "no temporary file is left"
+        );
         let capitals = text.replace("image d4", "image Z4");
         for broken in ["", "script x\n", &text[..text.len() - 1], &format!("{text}more\n"), &capitals] {
             assert_eq!(Record::parse(broken), None, "{broken}");
@@ -407,7 +412,7 @@ mod tests {
     #[test]
     fn an_image_is_up_to_date_if_everything_is_as_it_was() {
         let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        fs::create_dir(folder.path().join(HIDDEN_FOLDER)).unwrap();
         let now = expected(folder.path(), "// frame 7\nabc\n");
         let state = |record: &Record, compare| record.state(folder.path(), "frame_0007", compare);
         assert_eq!(state(&now, Compare::All), State::Missing);
@@ -434,7 +439,7 @@ mod tests {
     #[test]
     fn an_image_of_which_one_byte_has_changed_is_found_by_its_digest() {
         let folder = tempfile::tempdir().unwrap();
-        fs::create_dir(folder.path().join(HIDDEN)).unwrap();
+        fs::create_dir(folder.path().join(HIDDEN_FOLDER)).unwrap();
         let image = folder.path().join("frame_0007.png");
         fs::write(&image, "an image").unwrap();
         let now = expected(folder.path(), "// frame 7\nabc\n");

@@ -87,8 +87,8 @@ impl<'a> ResultCollector<'a> {
 
     /// Records the failure of a frame, and of all frames with equal scripts.
     fn failure(&mut self, task: &RenderTask, said: &str) -> Result<(), RenderError> {
-        /// If this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
-        const HOPELESS: usize = 8;
+        /// If at least this many frames fail and none succeeds, the frames themselves are not the cause, and the job stops.
+        const MIN_FAILURES_TO_STOP: usize = 8;
         // POV-Ray may still be rendering other moments of the failed frame. Their images are ignored.
         self.exposures.remove(&task.index);
         if !self.failed.insert(task.index) {
@@ -103,7 +103,10 @@ impl<'a> ResultCollector<'a> {
             (self.watch)(Event::Failed(&fault));
             self.outcome.failed.push(fault);
         }
-        if !self.job.keep_going && self.outcome.rendered == 0 && self.outcome.failed.len() >= HOPELESS {
+        if !self.job.keep_going
+            && self.outcome.rendered == 0
+            && self.outcome.failed.len() >= MIN_FAILURES_TO_STOP
+        {
             return Err(RenderError::AllFail(self.outcome.failed.len()));
         }
         Ok(())

@@ -10,16 +10,16 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use super::batch::{CurrentSettings, SCRIPTS};
+use super::batch::{CurrentSettings, SCRIPTS_FOLDER};
 use super::files;
-use super::record::{Compare, Files, HIDDEN, Record, State, Verdict};
+use super::record::{Compare, Files, HIDDEN_FOLDER, Record, State, Verdict};
 use crate::diagnostic::visible;
 use crate::output;
 use crate::simulate::Selection;
 use crate::system;
 
-/// The age at which the marker of a running frame counts as abandoned. A living process updates its marker twice a minute.
-const HEARTBEATS: Duration = Duration::from_secs(180);
+/// The age from which on the marker of a running frame counts as abandoned. A living process updates its marker twice a minute.
+const MAX_MARKER_AGE: Duration = Duration::from_secs(180);
 
 /// The status of the images in a folder. Each list contains the numbers of frames in one state.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -158,7 +158,7 @@ impl Status {
     /// Returns the status as text for a terminal: the number of frames in each state, and their numbers.
     pub fn to_text(&self) -> String {
         /// The largest number of failed frames that are shown.
-        const SHOWN: usize = 10;
+        const MAX_SHOWN_FAILURES: usize = 10;
         let list = |frames: &[usize]| frames.iter().copied().collect::<Selection>().to_string();
         let on_hosts = |running: &[Running]| {
             let hosts: BTreeSet<&str> = running.iter().map(|running| running.host.as_str()).collect();
@@ -187,11 +187,12 @@ impl Status {
         }
         if !self.failed.is_empty() {
             text.push_str(&format!("failed   {}\n", self.failed.len()));
-            for failed in self.failed.iter().take(SHOWN) {
+            for failed in self.failed.iter().take(MAX_SHOWN_FAILURES) {
                 text.push_str(&format!("  frame {}: {}\n", failed.frame, failed.reason));
             }
-            if self.failed.len() > SHOWN {
-                let rest: Vec<usize> = self.failed.iter().skip(SHOWN).map(|failed| failed.frame).collect();
+            if self.failed.len() > MAX_SHOWN_FAILURES {
+                let rest: Vec<usize> =
+                    self.failed.iter().skip(MAX_SHOWN_FAILURES).map(|failed| failed.frame).collect();
                 text.push_str(&format!("  and {}\n", list(&rest)));
             }
         }
@@ -219,7 +220,7 @@ impl FolderContents {
 
     fn find(folder: &Path) -> io::Result<FolderContents> {
         let (scripts, job) = match CurrentSettings::read(folder)? {
-            Some(job) => (folder.join(SCRIPTS), Some(job)),
+            Some(job) => (folder.join(SCRIPTS_FOLDER), Some(job)),
             None => (folder.to_owned(), None),
         };
         let images = folder.join("images");
@@ -264,7 +265,7 @@ impl Running {
     /// Reads the marker of a frame that is being rendered. Also returns true if the marker is recent, so that the process is probably
     /// alive.
     fn read(images: &Path, name: &str, frame: usize) -> Option<(Running, bool)> {
-        let path = images.join(HIDDEN).join("running").join(name);
+        let path = images.join(HIDDEN_FOLDER).join("running").join(name);
         let touched = fs::metadata(&path).ok()?.modified().ok()?;
         let text = system::read_to_string(&path).ok()?;
         let mut words = text.split_whitespace();
@@ -273,14 +274,14 @@ impl Running {
         let since = words.next()?.parse().ok()?;
         // The clock of another machine may be ahead, so the age could be negative.
         let age = SystemTime::now().duration_since(touched).unwrap_or_default();
-        Some((Running { frame, host, process, since }, age < HEARTBEATS))
+        Some((Running { frame, host, process, since }, age < MAX_MARKER_AGE))
     }
 }
 
 impl Failed {
     /// Reads the reason of a frame's failure. `None` if the frame has not failed, or its script has changed since.
     fn read(images: &Path, name: &str, frame: usize, script: &Path) -> Option<Failed> {
-        let path = images.join(HIDDEN).join("failed").join(format!("{name}.txt"));
+        let path = images.join(HIDDEN_FOLDER).join("failed").join(format!("{name}.txt"));
         let text = system::read_to_string(&path).ok()?;
         let modified = |path: &Path| fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
         if modified(script) > modified(&path) {

@@ -4,12 +4,12 @@
 //! script `render-chunk` of a cluster job removes the same chunks.
 
 /// The bytes with which every PNG begins.
-const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 /// Returns the bytes of a PNG without the date. `None` if the PNG has no date, or if the bytes are not those of a PNG.
 pub(super) fn undated(png: &[u8]) -> Option<Vec<u8>> {
-    let mut rest = png.strip_prefix(&SIGNATURE)?;
-    let mut kept = SIGNATURE.to_vec();
+    let mut rest = png.strip_prefix(&PNG_SIGNATURE)?;
+    let mut kept = PNG_SIGNATURE.to_vec();
     while !rest.is_empty() {
         // A chunk has the length of its data, its type, its data, and a checksum.
         let (length, after) = rest.split_first_chunk::<4>()?;
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn dates_go_and_all_else_stays() {
         let head =
-            [&SIGNATURE[..], &chunk(b"IHDR", b"x"), &chunk(b"tEXt", b"Comment\0Date of birth")].concat();
+            [&PNG_SIGNATURE[..], &chunk(b"IHDR", b"x"), &chunk(b"tEXt", b"Comment\0Date of birth")].concat();
         let date = [chunk(b"tIME", &[1; 7]), chunk(b"tEXt", b"Comment\0Render Date: 2026-01-01")].concat();
         let rest =
             [chunk(b"tEXt", b"Software\0POV-Ray"), chunk(b"IDAT", b"tIME"), chunk(b"IEND", b"")].concat();

@@ -77,9 +77,9 @@ pub(super) fn together(
     see: &mut dyn FnMut(&[Option<Snapshot>]),
 ) -> Result<(), Stopped> {
     /// The largest number of body states that wait in memory for their comparison, per run.
-    const ROOM: usize = 4096;
+    const MAX_WAITING_STATES: usize = 4096;
     let (frames, room) =
-        (scene.simulation.timeline.frames(), (ROOM / scene.bodies.len().max(1)).clamp(1, 64));
+        (scene.simulation.timeline.frames(), (MAX_WAITING_STATES / scene.bodies.len().max(1)).clamp(1, 64));
     let mut done = 0;
     while done < frames && runs.iter().any(|run| run.ended.is_none() && !run.is_long) {
         let now = room.min(frames - done);

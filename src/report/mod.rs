@@ -47,7 +47,7 @@ pub use trials::{Trial, Untested};
 pub use verdict::{AccurateUntil, BodyError, BrokenLaw, Conserved, Order};
 
 /// The default accuracy, as a fraction of the size of the scene: about a pixel of an image.
-pub const ACCURACY: f64 = 1e-3;
+pub const DEFAULT_ACCURACY: f64 = 1e-3;
 
 /// The error that a computation returns after its progress callback has stopped it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,7 +132,7 @@ pub fn assess(
         done += cost;
         watch(Phase::Comparing, (done / all).min(1.0))
     })?;
-    let verdict = Verdict::of(scene, own, &measured, (&compared, other.as_ref()), accuracy);
+    let verdict = Verdict::of(scene, own, &measured, &compared, other.as_ref(), accuracy);
     let size = if verdict.knows_the_size() { verdict.size } else { 0.0 };
     let goal = Goal { scene, measured: &measured, own, accuracy, order: verdict.order, size };
     let (mut done, all) = (0.0, goal.budget());

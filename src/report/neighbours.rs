@@ -12,19 +12,19 @@ use super::measure::ComparedBodies;
 use crate::scene::Scene;
 
 /// The initial distance between two neighboring runs, as a fraction of the size of the scene.
-pub(super) const APART: f64 = 1e-9;
+pub(super) const INITIAL_DISTANCE: f64 = 1e-9;
 
 /// The largest distance at which two runs count as neighbors, as a fraction of the size of the scene.
-const FAR: f64 = 0.02;
+const MAX_NEIGHBOR_DISTANCE: f64 = 0.02;
 
 /// The largest mean of MEGNO's Y that does not indicate chaos. (A distance that grows like t² gives 4.)
-const CHAOTIC: f64 = 5.0;
+const MAX_NONCHAOTIC_MEGNO: f64 = 5.0;
 
 /// The largest mean of MEGNO's Y that indicates regular motion.
-const REGULAR: f64 = 3.5;
+const MAX_REGULAR_MEGNO: f64 = 3.5;
 
 /// The largest growth factor of the distance in regular motion. Beyond it, the motion is not regular, whatever the mean of Y.
-const LARGE: f64 = 1e4;
+const MAX_REGULAR_GROWTH: f64 = 1e4;
 
 /// How two neighboring runs, whose starts differ very slightly, separate with time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -74,7 +74,7 @@ pub(super) fn displaced(scene: &Scene, measured: &ComparedBodies) -> Scene {
         size => size,
     };
     let free = axes_of_motion(scene, measured);
-    let (apart, touches) = (APART * size, scene.simulation.contacts.is_some());
+    let (apart, touches) = (INITIAL_DISTANCE * size, scene.simulation.contacts.is_some());
     for (number, &id) in measured.bodies.iter().enumerate() {
         let start = &mut twin.bodies[id].start;
         if !touches {
@@ -84,7 +84,7 @@ pub(super) fn displaced(scene: &Scene, measured: &ComparedBodies) -> Scene {
         start.velocity += faster * direction(3 * number + 1, free);
         // In a plane motion, bodies rotate only about the normal of the plane.
         let about = if free == DVec3::ONE { free } else { DVec3::ONE - free };
-        start.angular_velocity += APART / end * direction(3 * number + 2, about);
+        start.angular_velocity += INITIAL_DISTANCE / end * direction(3 * number + 2, about);
     }
     twin
 }
@@ -113,9 +113,10 @@ fn axes_of_motion(scene: &Scene, measured: &ComparedBodies) -> DVec3 {
 /// Returns the unit vector with this number in a fixed sequence of vectors that are spread over the sphere. Components along axes with
 /// `free` = 0 are removed first.
 fn direction(number: usize, free: DVec3) -> DVec3 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    /// The reciprocal of the golden ratio. Its multiples are spread evenly over the interval from 0 to 1, without their integer parts.
+    const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
     #[allow(clippy::cast_precision_loss, reason = "any number will do")]
-    let part = (number as f64 + 0.5) * GOLDEN % 1.0;
+    let part = (number as f64 + 0.5) * INVERSE_GOLDEN_RATIO % 1.0;
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * (17.0 * part % 1.0));
     let height = 1.8 * part - 0.9;
     let around = (1.0 - height * height).sqrt();
@@ -125,25 +126,26 @@ fn direction(number: usize, free: DVec3) -> DVec3 {
 /// Classifies the separation of two neighboring runs. `times` are in s; `distances` are fractions of the size of the scene. Also returns
 /// the mean of MEGNO's Y, 0 if unknown.
 pub(super) fn parting(times: &[f64], distances: &[f64]) -> (Separation, f64) {
-    /// The smallest number of frames from which the separation can be classified.
-    const FEW: usize = 8;
-    let near = distances.iter().position(|distance| *distance > FAR).unwrap_or(distances.len());
+    /// The smallest number of frames for which the separation is classified.
+    const MIN_FRAMES: usize = 8;
+    let near =
+        distances.iter().position(|distance| *distance > MAX_NEIGHBOR_DISTANCE).unwrap_or(distances.len());
     let begin = distances.iter().position(|distance| *distance > 0.0).unwrap_or(near);
     let seen: Vec<(f64, f64)> = (begin..near)
         .filter(|&k| distances[k] > 0.0)
         .map(|k| (times[k] - times[begin], libm::log(distances[k])))
         .collect();
     let (Some(first), Some(last)) = (seen.first(), seen.last()) else { return (Separation::Unknown, 0.0) };
-    if seen.len() < FEW {
+    if seen.len() < MIN_FRAMES {
         return (Separation::Unknown, 0.0);
     }
     let growth = libm::exp(last.1 - first.1);
     let ((mean, late), slope) = (megno(&seen), slope(&seen));
-    let found = if mean > CHAOTIC && slope > 0.0 {
+    let found = if mean > MAX_NONCHAOTIC_MEGNO && slope > 0.0 {
         Separation::Chaotic { lyapunov_time: 1.0 / slope, doubling_time: std::f64::consts::LN_2 / slope }
-    } else if near < distances.len() && growth > LARGE {
+    } else if near < distances.len() && growth > MAX_REGULAR_GROWTH {
         Separation::Sudden { time: times[near] }
-    } else if mean.max(late) > REGULAR || growth > LARGE {
+    } else if mean.max(late) > MAX_REGULAR_MEGNO || growth > MAX_REGULAR_GROWTH {
         Separation::Unclear { growth }
     } else {
         Separation::Regular { growth }

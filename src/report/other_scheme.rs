@@ -79,7 +79,7 @@ pub(super) struct Apart {
 }
 
 /// The largest number of timesteps that the other run may take, as a multiple of those that its setting gives. Impacts divide steps.
-const STEPS: f64 = 20.0;
+const MAX_STEP_RATIO: f64 = 20.0;
 
 impl Other {
     /// Returns the other contact law of a scene. `None` without contacts.
@@ -111,22 +111,26 @@ impl Other {
                 clippy::cast_precision_loss,
                 reason = "the number of steps is limited"
             )]
-            let (each, most) =
-                (cost / scene.simulation.timeline.frames().max(1) as f64, (STEPS * cost) as u64 + 100);
+            let (each, most) = (
+                cost / scene.simulation.timeline.frames().max(1) as f64,
+                (MAX_STEP_RATIO * cost) as u64 + 100,
+            );
             ComparedRun::new(scene, each).of_at_most(most)
         })
     }
 
-    /// Judges the distances between the two runs. `name` returns the name of a compared body, `error` is the estimated error of the run, `wanted` the requested accuracy, and `size`
-    /// the size of the scene, all in m.
+    /// Judges the distances between the two runs. `name` returns the name of a compared body. `error` is the estimated error of the run,
+    /// `wanted` is the requested accuracy, and `size` is the size of the scene, all in m.
     pub(super) fn judge(
         &self,
         name: impl Fn(usize) -> String,
         apart: &Apart,
-        [error, wanted, size]: [f64; 3],
+        error: f64,
+        wanted: f64,
+        size: f64,
     ) -> OtherScheme {
         /// Distances below this fraction of the size of the scene count as rounding errors.
-        const ROUNDING: f64 = 1e-11;
+        const RELATIVE_ROUNDING: f64 = 1e-11;
         let contacts = self.law.name();
         let why = match &self.scenes {
             Err(why) => Some(*why),
@@ -140,7 +144,7 @@ impl Other {
         // Impacts make both schemes methods of first order. The places of impacts in their steps differ, so the difference of two runs
         // fluctuates, and may be a third of what it usually is.
         let other_error = 3.0 * factor(1.0) * apart.halved;
-        let agreement = match error.max(ROUNDING * size) {
+        let agreement = match error.max(RELATIVE_ROUNDING * size) {
             error if is_whole && distance <= error => Agreement::Within,
             error if is_whole && distance <= error + other_error => Agreement::Explained,
             _ => Agreement::Parted,

@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use super::neighbours::APART;
+use super::neighbours::INITIAL_DISTANCE;
 use super::other_scheme::{Agreement, OtherScheme};
 use super::verdict::{AccurateUntil, BrokenLaw, Conserved, Order, Verdict};
 use super::{Assessment, Separation, Trial, Untested};
 use crate::physics::Method;
 
 /// The largest number of bodies in the table of errors.
-const NAMED: usize = 5;
+const MAX_LISTED_BODIES: usize = 5;
 
 /// The indent of the rows of tables and of continued lines.
 const INDENT: &str = "          ";
@@ -100,7 +100,7 @@ impl Assessment {
     }
 
     fn say_bodies(&self, out: &mut String, verdict: &Verdict) {
-        let named: Vec<&super::BodyError> = verdict.bodies.iter().take(NAMED).collect();
+        let named: Vec<&super::BodyError> = verdict.bodies.iter().take(MAX_LISTED_BODIES).collect();
         // Distances up to this limit are rounding errors; a percentage of the path would mean nothing.
         let is_seen = |place: f64| place > 1e-12 * verdict.size;
         let mut rows = vec![["body", "place off by", "of its way", "turned by", "at t"].map(str::to_owned)];
@@ -130,7 +130,7 @@ impl Assessment {
             Separation::Unknown => "too few frames tell whether it is chaotic".to_owned(),
             Separation::Regular { growth } => format!("regular so far: {}", apart(growth)),
             Separation::Sudden { time } => format!(
-                "unpredictable: neighbours that begin {APART:e} of the size apart are torn apart by t = {} s",
+                "unpredictable: neighbours that begin {INITIAL_DISTANCE:e} of the size apart are torn apart by t = {} s",
                 digits(time, 3)
             ),
             Separation::Unclear { growth } => {
@@ -351,7 +351,7 @@ fn apart(growth: f64) -> String {
     match growth {
         growth if growth < 2.0 => "neighbours stay together".to_owned(),
         growth => format!(
-            "neighbours that begin {APART:e} of the size apart end {} times as far apart",
+            "neighbours that begin {INITIAL_DISTANCE:e} of the size apart end {} times as far apart",
             digits(growth, 2)
         ),
     }

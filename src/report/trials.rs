@@ -81,10 +81,10 @@ fn methods(scene: &Scene) -> (Vec<&'static Method>, Vec<Untested>) {
 }
 
 /// The budget of the search, in force evaluations, as a multiple of those of the run itself.
-const RUNS: f64 = 4.0;
+const BUDGET_IN_RUNS: f64 = 4.0;
 
 /// The smallest budget of the search, in force evaluations of a single body. They take about two seconds.
-const EVALUATIONS: f64 = 6e6;
+const MIN_BUDGET_EVALUATIONS: f64 = 6e6;
 
 /// The goal of the search for a method and a timestep.
 pub(super) struct Goal<'a> {
@@ -107,7 +107,7 @@ impl Goal<'_> {
         let contacts = if scene.simulation.contacts.is_some() { 20.0 * bodies } else { 0.0 };
         let pairs: f64 = pairs.map(|pairs| pairs as f64 / 20.0).sum();
         let weight = 2.0 + bodies + 5.0 * scene.joints.len() as f64 + pairs + contacts;
-        (RUNS * self.own.cost(scene)).max(EVALUATIONS / weight)
+        (BUDGET_IN_RUNS * self.own.cost(scene)).max(MIN_BUDGET_EVALUATIONS / weight)
     }
 
     fn reaches(&self, trial: &Trial) -> bool {
@@ -156,8 +156,8 @@ impl Goal<'_> {
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Trial>, Option<String>), Stopped> {
         /// The largest number of timesteps tested with each method.
-        const TRIES: usize = 5;
-        for _ in 0..TRIES {
+        const MAX_TIMESTEPS_PER_METHOD: usize = 5;
+        for _ in 0..MAX_TIMESTEPS_PER_METHOD {
             let Some(steps) = self.next_steps(method, &tried) else { return Ok((tried, None)) };
             let setting = Setting::new(method, steps, self.scene);
             // The test makes two runs. The run at half the timestep costs twice as much as the other.

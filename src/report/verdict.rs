@@ -179,16 +179,16 @@ impl Order {
     /// differences do not show the order.
     fn of(compared: &Compared, method: &Method) -> Order {
         /// Differences below this fraction of the size of the scene count as rounding errors.
-        const ROUNDING: f64 = 1e-11;
+        const RELATIVE_ROUNDING: f64 = 1e-11;
         /// The largest difference between two runs that still shows the order, as a fraction of the size of the scene.
-        const NEAR: f64 = 0.05;
+        const MAX_RUN_DIFFERENCE: f64 = 0.05;
         /// The largest difference between the measured and the method's order that counts as agreement.
-        const SAME: f64 = 0.35;
-        let far = |moment: &&Moment| moment.off.is_some_and(|off| off <= NEAR * compared.size);
+        const ORDER_TOLERANCE: f64 = 0.35;
+        let far = |moment: &&Moment| moment.off.is_some_and(|off| off <= MAX_RUN_DIFFERENCE * compared.size);
         let near = compared.moments.iter().skip(1).take_while(far).filter_map(|moment| moment.squares);
         let (count, [coarse, fine]) = near
             .fold((0.0, [0.0; 2]), |(n, sum), squares| (n + 1.0, [sum[0] + squares[0], sum[1] + squares[1]]));
-        let rounding = ROUNDING * compared.size;
+        let rounding = RELATIVE_ROUNDING * compared.size;
         if count < 2.0 {
             return Order::Unknown;
         }
@@ -199,7 +199,7 @@ impl Order {
         match measured {
             measured if measured < 0.4 => Order::None { measured },
             _ if method.adaptive => Order::Adaptive,
-            measured if (measured - nominal).abs() <= SAME => Order::Nominal { measured },
+            measured if (measured - nominal).abs() <= ORDER_TOLERANCE => Order::Nominal { measured },
             measured => Order::Other { measured },
         }
     }
@@ -221,7 +221,8 @@ impl Verdict {
         scene: &Scene,
         own: Setting,
         measured: &ComparedBodies,
-        (compared, other): (&Compared, Option<&Other>),
+        compared: &Compared,
+        other: Option<&Other>,
         accuracy: f64,
     ) -> Verdict {
         let order = Order::of(compared, own.method);
@@ -245,7 +246,7 @@ impl Verdict {
         let error = bodies.iter().map(|(error, _)| *error).fold(0.0, f64::max);
         let other_scheme = other.map(|other| {
             let name = |body: usize| scene.bodies[measured.bodies[body]].name.to_string();
-            other.judge(name, &compared.other, [error, accuracy * size, size])
+            other.judge(name, &compared.other, error, accuracy * size, size)
         });
         bodies.sort_by(|(one, _), (two, _)| two.total_cmp(one));
         let runs = ["the run", "the run at half the step", "the run at a quarter of the step", "the twin"];
@@ -336,14 +337,15 @@ impl Verdict {
 /// Decides whether a run conserves a momentum (`kind`: 0 linear, 1 angular). `is_changed` is true if an influence from outside changes it.
 /// Runs at other timesteps cannot decide this: the changes by impacts depend on the timestep as errors do.
 fn conserved(compared: &Compared, kind: usize, is_changed: bool) -> Conserved {
-    /// Relative changes up to this limit count as errors, even if an influence from outside may act.
-    const SMALL: f64 = 1e-9;
+    /// The largest change of a momentum that counts as an error even if an influence from outside may act, as a fraction of the largest sum
+    /// of the magnitudes of all bodies' momenta.
+    const MAX_MOMENTUM_ERROR: f64 = 1e-9;
     let most = compared.momenta[kind];
     if most == 0.0 {
         return Conserved::Still;
     }
     let largest = compared.moments.iter().map(|moment| moment.changed[kind]).fold(0.0, f64::max);
-    if is_changed && largest > SMALL * most {
+    if is_changed && largest > MAX_MOMENTUM_ERROR * most {
         return Conserved::Changed;
     }
     Conserved::Kept { drift: largest / most }

@@ -4,7 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::os::unix::ffi::OsStrExt;
 
 /// The variables that programs need: where programs, libraries, fonts and settings are, language and time zone.
-const NAMES: &[&str] = &[
+const PASSED_VARIABLES: &[&str] = &[
     "DYLD_FALLBACK_LIBRARY_PATH",
     "DYLD_LIBRARY_PATH",
     "FONTCONFIG_FILE",
@@ -27,7 +27,7 @@ const NAMES: &[&str] = &[
 ];
 
 /// The beginnings of the names of further such variables: of the locale, and of POV-Ray.
-const BEGINNINGS: &[&str] = &["LC_", "POV"];
+const PASSED_PREFIXES: &[&str] = &["LC_", "POV"];
 
 /// Returns the variables of this process that the program receives.
 pub(super) fn passed_on() -> impl Iterator<Item = (OsString, OsString)> {
@@ -35,6 +35,6 @@ pub(super) fn passed_on() -> impl Iterator<Item = (OsString, OsString)> {
 }
 
 fn is_needed(name: &OsStr) -> bool {
-    NAMES.iter().any(|known| name == *known)
-        || BEGINNINGS.iter().any(|beginning| name.as_bytes().starts_with(beginning.as_bytes()))
+    PASSED_VARIABLES.iter().any(|known| name == *known)
+        || PASSED_PREFIXES.iter().any(|beginning| name.as_bytes().starts_with(beginning.as_bytes()))
 }

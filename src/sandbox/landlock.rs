@@ -11,7 +11,7 @@ use landlock::{
 use super::LaunchError;
 
 /// The newest Landlock version that jabuka was tested with. An older kernel enforces the rules that it knows.
-const NEWEST: ABI = ABI::V7;
+const NEWEST_TESTED_ABI: ABI = ABI::V7;
 
 /// Restricts the current thread, and all programs that it starts, to reading and writing the given paths. Paths to read need not exist.
 /// TCP connections, signals to other processes and abstract sockets are forbidden.
@@ -20,17 +20,17 @@ const NEWEST: ABI = ABI::V7;
 /// If the kernel refuses the rules, or a path to write does not exist.
 pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), LaunchError> {
     // Programs may not create devices, links or pipes, because jabuka reads the files that they write.
-    let written = AccessFs::from_all(NEWEST)
+    let written = AccessFs::from_all(NEWEST_TESTED_ABI)
         & !make_bitflags!(AccessFs::{Execute | MakeChar | MakeBlock | MakeSock | MakeFifo | MakeSym | IoctlDev});
     let refused = |error: RulesetError| LaunchError::Refused(error.to_string());
     let ruleset = Ruleset::default()
-        .handle_access(AccessFs::from_all(NEWEST))
-        .and_then(|ruleset| ruleset.handle_access(AccessNet::from_all(NEWEST)))
-        .and_then(|ruleset| ruleset.scope(Scope::from_all(NEWEST)))
+        .handle_access(AccessFs::from_all(NEWEST_TESTED_ABI))
+        .and_then(|ruleset| ruleset.handle_access(AccessNet::from_all(NEWEST_TESTED_ABI)))
+        .and_then(|ruleset| ruleset.scope(Scope::from_all(NEWEST_TESTED_ABI)))
         .and_then(Ruleset::create)
         .map_err(refused)?;
     // A path that does not exist needs no rule.
-    let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST)).ok());
+    let reading = read.iter().filter_map(|path| beneath(path, AccessFs::from_read(NEWEST_TESTED_ABI)).ok());
     let writing: Result<Vec<_>, LaunchError> = write
         .iter()
         .map(|path| beneath(path, written).map_err(|why| LaunchError::Write(path.clone(), why)))
@@ -45,7 +45,7 @@ pub(super) fn restrict(read: &[PathBuf], write: &[PathBuf]) -> Result<(), Launch
 /// Creates the rule for a file, or for a folder and everything in it.
 fn beneath(path: &Path, access: BitFlags<AccessFs>) -> Result<PathBeneath<PathFd>, String> {
     let opened = PathFd::new(path).map_err(|error| error.to_string())?;
-    let access = if path.is_dir() { access } else { access & AccessFs::from_file(NEWEST) };
+    let access = if path.is_dir() { access } else { access & AccessFs::from_file(NEWEST_TESTED_ABI) };
     Ok(PathBeneath::new(opened, access))
 }
 

@@ -8,7 +8,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
 /// The folders and files with programs, libraries and their configuration, on all distributions.
-const SYSTEM: &[&str] = &[
+const SYSTEM_PATHS: &[&str] = &[
     "/usr",
     "/bin",
     "/sbin",
@@ -61,11 +61,11 @@ const SYSTEM: &[&str] = &[
 ];
 
 /// The folders and files next to the folder `bin` of a program that is installed outside of the system's folders.
-const INSTALLED: &[&str] = &["lib", "lib32", "lib64", "libexec", "etc/povray"];
+const INSTALLATION_PATHS: &[&str] = &["lib", "lib32", "lib64", "libexec", "etc/povray"];
 
 /// The paths that every program may read.
 pub(super) fn by_all() -> impl Iterator<Item = PathBuf> {
-    SYSTEM.iter().map(PathBuf::from)
+    SYSTEM_PATHS.iter().map(PathBuf::from)
 }
 
 /// The additional paths that one program may read: its own folder, libraries and configuration, and the folders and settings files that
@@ -102,7 +102,7 @@ fn is_narrow(folder: &Path, home: Option<&Path>) -> bool {
 fn installed_with(program: &Path) -> Vec<PathBuf> {
     let folder = program.parent().filter(|folder| folder.file_name() == Some(OsStr::new("bin")));
     let Some(root) = folder.and_then(Path::parent) else { return Vec::new() };
-    let mut paths: Vec<PathBuf> = INSTALLED.iter().map(|name| root.join(name)).collect();
+    let mut paths: Vec<PathBuf> = INSTALLATION_PATHS.iter().map(|name| root.join(name)).collect();
     let shared = fs::read_dir(root.join("share")).into_iter().flatten().flatten();
     paths.extend(
         shared.filter(|entry| entry.file_name().as_bytes().starts_with(b"povray")).map(|entry| entry.path()),

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::expression::{ExpressionError, LANES, Output, Resolved, Wide, too_intricate};
+use super::expression::{ExpressionError, MAX_LANES, Output, Resolved, Wide, too_intricate};
 use crate::diagnostic::Span;
 use crate::physics::{BodyId, FORCE_BLOCK, ForceLaw, Moment, Undefined, in_a_row};
 
@@ -16,15 +16,20 @@ pub const QUANTITIES: &[&str] = &["x", "y", "z", "r", "mass", "charge", "vx", "v
 /// The names of the quantities that a potential can use: location, mass and charge.
 pub const OF_PLACE: &[&str] = QUANTITIES.split_at(6).0;
 
-/// The indices of some quantities in [`QUANTITIES`].
-const R: usize = 3;
-const MASS: usize = 4;
-const CHARGE: usize = 5;
-const VX: usize = 6;
-const SPEED: usize = 9;
-const TIME: usize = 10;
+/// The index of the distance from the origin in [`QUANTITIES`].
+const R_SLOT: usize = 3;
+/// The index of the mass in [`QUANTITIES`].
+const MASS_SLOT: usize = 4;
+/// The index of the charge in [`QUANTITIES`].
+const CHARGE_SLOT: usize = 5;
+/// The index of the first component of the velocity in [`QUANTITIES`].
+const VX_SLOT: usize = 6;
+/// The index of the speed in [`QUANTITIES`]. It follows the components of the velocity.
+const SPEED_SLOT: usize = 9;
+/// The index of the time in [`QUANTITIES`].
+const TIME_SLOT: usize = 10;
 
-const _: () = assert!(FORCE_BLOCK == LANES);
+const _: () = assert!(FORCE_BLOCK == MAX_LANES);
 
 /// A formula of a body's quantities, such as its location and velocity.
 pub struct BodyFormula {
@@ -99,14 +104,14 @@ impl FormulaLaw {
     /// If the derivatives of the potential are too long.
     pub fn new(force: [OfBody; 3], potential: Option<OfBody>) -> Result<FormulaLaw, ExpressionError> {
         /// The maximum number of operations in a derivative. This is enough for formulas of up to a thousand characters.
-        const MOST: u64 = 100_000;
+        const MAX_DERIVATIVE_OPERATIONS: u64 = 100_000;
         let formulas = force.each_ref().map(OfBody::resolved);
         let program = Wide::new(&formulas.each_ref());
         let energy = potential.as_ref().map(OfBody::resolved);
         let mut slopes = None;
         if let (Some(energy), Some(OfBody::Formula(formula))) = (&energy, &potential) {
-            let each = [0, 1, 2, R].map(|slot| energy.derivative(slot));
-            if each.iter().any(|slope| slope.operations() > MOST) {
+            let each = [0, 1, 2, R_SLOT].map(|slot| energy.derivative(slot));
+            if each.iter().any(|slope| slope.operations() > MAX_DERIVATIVE_OPERATIONS) {
                 let message =
                     "the derivatives of this potential are too long, by which it is held against the force";
                 return Err(too_intricate(0..formula.text.len(), message));
@@ -119,17 +124,17 @@ impl FormulaLaw {
 
     /// Returns whether the force depends on the time.
     pub fn depends_on_time(&self) -> bool {
-        self.program.uses(TIME)
+        self.program.uses(TIME_SLOT)
     }
 
     /// Returns whether the force depends on the charge of the body.
     pub fn depends_on_charge(&self) -> bool {
-        self.program.uses(CHARGE)
+        self.program.uses(CHARGE_SLOT)
     }
 
     /// Returns whether the force depends on the mass of the body.
     pub fn depends_on_mass(&self) -> bool {
-        self.program.uses(MASS)
+        self.program.uses(MASS_SLOT)
     }
 
     /// Returns the first formula that has no finite value for these quantities, with the reason. `None` if all values are finite.
@@ -153,7 +158,8 @@ impl FormulaLaw {
             slopes.run(1, fill, |values: [_; 4]| {
                 let [x, y, z, r] = values.map(|value| value.at(0));
                 let place = DVec3::new(quantities[0], quantities[1], quantities[2]);
-                let outwards = if quantities[R] > 0.0 { place / quantities[R] } else { DVec3::ZERO };
+                let outwards =
+                    if quantities[R_SLOT] > 0.0 { place / quantities[R_SLOT] } else { DVec3::ZERO };
                 gradient = DVec3::new(x, y, z) + r * outwards;
             });
         }
@@ -181,7 +187,8 @@ pub fn quantities_at(at: &Undefined, mass: f64, charge: f64) -> [f64; QUANTITIES
 /// Fills a column with one quantity of each body. `row` is the range of the bodies' indices if the indices are consecutive.
 fn fill(
     slot: usize,
-    (bodies, row): (&[BodyId], Option<&Range<usize>>),
+    bodies: &[BodyId],
+    row: Option<&Range<usize>>,
     moment: &Moment,
     at_rest: bool,
     column: &mut [f64],
@@ -189,19 +196,21 @@ fn fill(
     let (state, model) = (moment.state, moment.model);
     match (slot, row) {
         (0..3, Some(row)) => return copy(&state.location[row.clone()], slot, column),
-        (VX..SPEED, Some(row)) if !at_rest => return copy(&state.velocity[row.clone()], slot - VX, column),
+        (VX_SLOT..SPEED_SLOT, Some(row)) if !at_rest => {
+            return copy(&state.velocity[row.clone()], slot - VX_SLOT, column);
+        }
         _ => {}
     }
     let each = column.iter_mut().zip(bodies.iter().map(|body| body.index()));
     match slot {
-        TIME => column.fill(moment.time),
-        VX..=SPEED if at_rest => column.fill(0.0),
+        TIME_SLOT => column.fill(moment.time),
+        VX_SLOT..=SPEED_SLOT if at_rest => column.fill(0.0),
         0..3 => each.for_each(|(to, i)| *to = state.location[i][slot]),
-        R => each.for_each(|(to, i)| *to = state.location[i].length()),
-        MASS => each.for_each(|(to, i)| *to = model.mass()[i]),
-        CHARGE => each.for_each(|(to, i)| *to = model.charge()[i]),
-        SPEED => each.for_each(|(to, i)| *to = state.velocity[i].length()),
-        _ => each.for_each(|(to, i)| *to = state.velocity[i][slot - VX]),
+        R_SLOT => each.for_each(|(to, i)| *to = state.location[i].length()),
+        MASS_SLOT => each.for_each(|(to, i)| *to = model.mass()[i]),
+        CHARGE_SLOT => each.for_each(|(to, i)| *to = model.charge()[i]),
+        SPEED_SLOT => each.for_each(|(to, i)| *to = state.velocity[i].length()),
+        _ => each.for_each(|(to, i)| *to = state.velocity[i][slot - VX_SLOT]),
     }
 }
 
@@ -218,9 +227,9 @@ fn copy(from: &[DVec3], component: usize, column: &mut [f64]) {
 impl ForceLaw for FormulaLaw {
     fn force(&self, bodies: &[BodyId], moment: &Moment, at_rest: bool, out: &mut [DVec3]) {
         let row = in_a_row(bodies);
-        let bodies = (bodies, row.as_ref());
-        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, moment, at_rest, column);
-        let mut room = [[0.0; LANES]; 3];
+        let fill =
+            |slot: usize, column: &mut [f64]| fill(slot, bodies, row.as_ref(), moment, at_rest, column);
+        let mut room = [[0.0; MAX_LANES]; 3];
         self.program.run(out.len(), fill, |values: [Output<'_>; 3]| {
             let [a, b, c] = &mut room;
             let [x, y, z] = values;
@@ -231,7 +240,7 @@ impl ForceLaw for FormulaLaw {
 
     fn potential(&self, bodies: &[BodyId], moment: &Moment, out: &mut [f64]) {
         let Some(energy) = &self.energy else { return out.fill(0.0) };
-        let fill = |slot: usize, column: &mut [f64]| fill(slot, (bodies, None), moment, true, column);
+        let fill = |slot: usize, column: &mut [f64]| fill(slot, bodies, None, moment, true, column);
         energy.run(bodies.len(), fill, |[value]| {
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = value.at(lane));
         });
@@ -242,6 +251,6 @@ impl ForceLaw for FormulaLaw {
     }
 
     fn depends_on_velocity(&self) -> bool {
-        (VX..=SPEED).any(|slot| self.program.uses(slot))
+        (VX_SLOT..=SPEED_SLOT).any(|slot| self.program.uses(slot))
     }
 }

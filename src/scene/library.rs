@@ -38,7 +38,7 @@ pub struct PlainLook {
 }
 
 /// The default shading parameters of library materials. Most materials override some of these parameters.
-const PLAIN: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
+const DEFAULT_PLAIN_LOOK: PlainLook = PlainLook { tone: [1.0; 3], cover: 1.0, metallic: 0.0, roughness: 0.5 };
 
 impl LibraryMaterial {
     /// Sets the shading parameters, with a factor `shade` for the material's color that is the same for red, green and blue.
@@ -48,12 +48,12 @@ impl LibraryMaterial {
 
     /// Sets the shading parameters, with a factor for each of red, green and blue of the material's color.
     const fn tinged(self, tone: [f64; 3], metallic: f64, roughness: f64) -> LibraryMaterial {
-        LibraryMaterial { plain: PlainLook { tone, metallic, roughness, ..PLAIN }, ..self }
+        LibraryMaterial { plain: PlainLook { tone, metallic, roughness, ..DEFAULT_PLAIN_LOOK }, ..self }
     }
 
     /// Sets the opacity and the roughness of a transparent material.
     const fn covers(self, cover: f64, roughness: f64) -> LibraryMaterial {
-        LibraryMaterial { plain: PlainLook { cover, roughness, ..PLAIN }, ..self }
+        LibraryMaterial { plain: PlainLook { cover, roughness, ..DEFAULT_PLAIN_LOOK }, ..self }
     }
 }
 
@@ -75,7 +75,15 @@ const fn opaque(
     color: u32,
     meaning: &'static str,
 ) -> LibraryMaterial {
-    LibraryMaterial { name, meaning, color: Some(color), family, pattern, ior: None, plain: PLAIN }
+    LibraryMaterial {
+        name,
+        meaning,
+        color: Some(color),
+        family,
+        pattern,
+        ior: None,
+        plain: DEFAULT_PLAIN_LOOK,
+    }
 }
 
 const fn clear(
@@ -92,33 +100,41 @@ const fn clear(
         family: "clear",
         pattern,
         ior: Some(ior),
-        plain: PLAIN,
+        plain: DEFAULT_PLAIN_LOOK,
     }
 }
 
 const fn painted(name: &'static str, family: &'static str, meaning: &'static str) -> LibraryMaterial {
-    LibraryMaterial { name, meaning, color: None, family, pattern: Pattern::Centred, ior: None, plain: PLAIN }
+    LibraryMaterial {
+        name,
+        meaning,
+        color: None,
+        family,
+        pattern: Pattern::Centred,
+        ior: None,
+        plain: DEFAULT_PLAIN_LOOK,
+    }
 }
 
 /// The family of the materials that consist of a [`Finish`] alone.
-const FINISH: &str = "finish";
+const FINISH_FAMILY: &str = "finish";
 
 /// All materials of the library, grouped by family.
 pub const MATERIALS: &[LibraryMaterial] = &[
-    opaque("matte", FINISH, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
-    opaque("satin", FINISH, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),
+    opaque("matte", FINISH_FAMILY, Pattern::None, 0xff_ff_ff, "Like chalk: no highlight"),
+    opaque("satin", FINISH_FAMILY, Pattern::None, 0xff_ff_ff, "Like eggshell: a soft highlight"),
     opaque(
         "glossy",
-        FINISH,
+        FINISH_FAMILY,
         Pattern::None,
         0xff_ff_ff,
         "Like enamel: a sharp highlight and a faint reflection",
     ),
-    opaque("metal", FINISH, Pattern::None, 0xff_ff_ff, "Polished metal of any color"),
-    opaque("mirror", FINISH, Pattern::None, 0xff_ff_ff, "A mirror: all of what is around it"),
+    opaque("metal", FINISH_FAMILY, Pattern::None, 0xff_ff_ff, "Polished metal of any color"),
+    opaque("mirror", FINISH_FAMILY, Pattern::None, 0xff_ff_ff, "A mirror: all of what is around it"),
     opaque(
         "luminous",
-        FINISH,
+        FINISH_FAMILY,
         Pattern::None,
         0xff_ff_ff,
         "Shines by itself, evenly; lets lamps inside shine out",
@@ -226,7 +242,7 @@ impl LibraryMaterial {
 
     /// Returns the finish of a material that consists of a finish alone. `None` for other materials.
     pub(super) fn finish(&self) -> Option<Finish> {
-        Finish::named(self.name).filter(|_| self.family == FINISH)
+        Finish::named(self.name).filter(|_| self.family == FINISH_FAMILY)
     }
 
     /// Returns whether the material emits light.

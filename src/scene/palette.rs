@@ -6,7 +6,7 @@ use super::{Color, Finish, LibraryMaterial, Look, Material};
 use crate::physics::Shape;
 
 /// The default colors, in the order in which bodies get them. Neighboring colors are easy to distinguish, also for color-blind people.
-const COLORS: [(&str, Color); 8] = [
+const DEFAULT_COLORS: [(&str, Color); 8] = [
     ("red", Color([0.80, 0.07, 0.10])),
     ("blue", Color([0.08, 0.31, 0.72])),
     ("amber", Color([0.97, 0.75, 0.13])),
@@ -23,7 +23,7 @@ pub(super) struct Palette {
     /// The number of bodies that have advanced the sequence of default colors. Copies count as well.
     turns: usize,
     /// The index of the material for each default color. `None` if no body has needed the color yet.
-    colors: [Option<usize>; COLORS.len()],
+    colors: [Option<usize>; DEFAULT_COLORS.len()],
     checkered: Option<usize>,
     /// The index of the material for each library material in use, by name.
     by_name: HashMap<&'static str, usize>,
@@ -46,7 +46,7 @@ impl Palette {
             return DefaultLook::Checkered;
         }
         self.turns += 1;
-        DefaultLook::Color((self.turns - 1) % COLORS.len())
+        DefaultLook::Color((self.turns - 1) % DEFAULT_COLORS.len())
     }
 
     /// Returns the index of a library material in `materials`. Adds the material when it is first needed.
@@ -78,7 +78,7 @@ fn material(usual: DefaultLook) -> Material {
     match usual {
         DefaultLook::Checkered => Material { name: "checkered".to_owned(), look: Look::Checkered },
         DefaultLook::Color(number) => {
-            let (name, color) = COLORS[number];
+            let (name, color) = DEFAULT_COLORS[number];
             Material { name: format!("palette {name}"), look: Look::Plain { color, finish: Finish::Glossy } }
         }
     }

@@ -13,9 +13,9 @@ use crate::scene::source::{Node, Value};
 use crate::scene::timed::{Timed, TimedVector};
 
 /// The smallest allowed magnitude of a nonzero number. Squares, and products of three such numbers, do not underflow.
-const SMALLEST: f64 = 1e-100;
+const MIN_MAGNITUDE: f64 = 1e-100;
 /// The largest allowed magnitude of a number. Squares, and products of three such numbers, do not overflow.
-const LARGEST: f64 = 1e100;
+const MAX_MAGNITUDE: f64 = 1e100;
 
 /// Returns the error for a value of the wrong type.
 pub(super) fn wrong_type(node: &Node, expected: &Kind) -> Diagnostic {
@@ -41,9 +41,10 @@ pub(super) fn number(node: &Node, bound: Bound) -> Result<f64, Diagnostic> {
         let message = format!("expected a finite number{}, found {}", bound.in_words(), figure(number));
         return Err(Diagnostic::error(Code::NotFinite, message).at(node.span, ""));
     }
-    if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
-        let message =
-            format!("a scene's numbers are 0, or from {SMALLEST:e} to {LARGEST:e}; this one is {number:e}");
+    if number != 0.0 && !(MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&number.abs()) {
+        let message = format!(
+            "a scene's numbers are 0, or from {MIN_MAGNITUDE:e} to {MAX_MAGNITUDE:e}; this one is {number:e}"
+        );
         return Err(Diagnostic::error(Code::OutOfRange, message).at(node.span, ""));
     }
     if !bound.admits(number) {

@@ -76,10 +76,13 @@ impl Formulas {
         resolved: &Resolved,
     ) -> Result<Arc<TimeFormula>, ExpressionError> {
         /// The maximum number of operations in a derivative. This is enough for formulas of up to a thousand characters.
-        const MOST: u64 = 100_000;
+        const MAX_DERIVATIVE_OPERATIONS: u64 = 100_000;
         let rate = resolved.derivative(0);
-        let curvature = if rate.operations() > MOST { None } else { Some(rate.derivative(0)) };
-        let Some(curvature) = curvature.filter(|curvature| curvature.operations() <= MOST) else {
+        let curvature =
+            if rate.operations() > MAX_DERIVATIVE_OPERATIONS { None } else { Some(rate.derivative(0)) };
+        let Some(curvature) =
+            curvature.filter(|curvature| curvature.operations() <= MAX_DERIVATIVE_OPERATIONS)
+        else {
             let range = 0..text.len();
             let message = "the derivatives of this formula are too long, by which velocities follow from it";
             return Err(super::expression::too_intricate(range, message));

@@ -9,8 +9,8 @@ pub struct Timeline {
     pub frame_rate: f64,
 }
 
-/// Times that differ by less than this part of the interval between frames differ only by rounding.
-const ROUNDING: f64 = 1e-6;
+/// The largest rounding error of a time, as a fraction of the interval between frames.
+const RELATIVE_ROUNDING: f64 = 1e-6;
 
 impl Timeline {
     /// Returns the number of frames, including the first frame at time 0 and the last frame.
@@ -51,7 +51,7 @@ impl Timeline {
 
     /// Returns the tolerance for rounding errors of times, s.
     pub fn slack(&self) -> f64 {
-        ROUNDING / self.frame_rate
+        RELATIVE_ROUNDING / self.frame_rate
     }
 
     /// Returns whether a time (s) is exactly that of a frame.

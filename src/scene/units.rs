@@ -12,8 +12,9 @@ const fn unit(names: &'static [&'static str], of: &'static str, factor: f64) -> 
 }
 
 /// The length of a Julian year, s.
-const YEAR: f64 = 365.25 * 86_400.0;
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
+const JULIAN_YEAR: f64 = 365.25 * 86_400.0;
+/// The angle of one degree, rad.
+const RADIANS_PER_DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// The known units, grouped by quantity. The unit of the scene language comes first in each group.
 static UNITS: &[Unit] = &[
@@ -24,7 +25,7 @@ static UNITS: &[Unit] = &[
     unit(&["min", "minute", "minutes"], "s", 60.0),
     unit(&["h", "hr", "hour", "hours"], "s", 3600.0),
     unit(&["d", "day", "days"], "s", 86_400.0),
-    unit(&["yr", "y", "a", "year", "years"], "s", YEAR),
+    unit(&["yr", "y", "a", "year", "years"], "s", JULIAN_YEAR),
     unit(&["m", "meter", "meters", "metre", "metres"], "m", 1.0),
     unit(&["pm"], "m", 1e-12),
     // Unicode has two characters for the angstrom sign.
@@ -39,7 +40,7 @@ static UNITS: &[Unit] = &[
     unit(&["ft", "foot", "feet"], "m", 0.3048),
     // The value of the astronomical unit is from resolution B2 of the IAU, 2012.
     unit(&["AU", "au", "ua"], "m", 149_597_870_700.0),
-    unit(&["ly"], "m", 299_792_458.0 * YEAR),
+    unit(&["ly"], "m", 299_792_458.0 * JULIAN_YEAR),
     // A parsec is 648000/π astronomical units (resolution B2 of the IAU, 2015).
     unit(&["pc"], "m", 149_597_870_700.0 * 648_000.0 / std::f64::consts::PI),
     unit(&["kg"], "kg", 1.0),
@@ -55,16 +56,16 @@ static UNITS: &[Unit] = &[
     unit(&["km/h", "kmh", "kph"], "m/s", 1.0 / 3.6),
     unit(&["mph"], "m/s", 0.447_04),
     unit(&["AU/d", "AU/day", "au/d", "au/day"], "m/s", 149_597_870_700.0 / 86_400.0),
-    unit(&["AU/yr", "au/yr"], "m/s", 149_597_870_700.0 / YEAR),
+    unit(&["AU/yr", "au/yr"], "m/s", 149_597_870_700.0 / JULIAN_YEAR),
     unit(&["Å/ps", "Å/ps"], "m/s", 100.0),
     unit(&["Å/fs", "Å/fs"], "m/s", 1e5),
     unit(&["nm/ps"], "m/s", 1e3),
     unit(&["m/s²", "m/s^2", "m/s2", "m/s**2", "m s^-2"], "m/s²", 1.0),
     unit(&["rad/s", "1/s", "s^-1"], "rad/s", 1.0),
-    unit(&["deg/s", "°/s"], "rad/s", DEGREE),
+    unit(&["deg/s", "°/s"], "rad/s", RADIANS_PER_DEGREE),
     unit(&["rpm", "rev/min"], "rad/s", std::f64::consts::TAU / 60.0),
     unit(&["°", "deg", "degree", "degrees"], "degrees", 1.0),
-    unit(&["rad", "radian", "radians"], "degrees", 1.0 / DEGREE),
+    unit(&["rad", "radian", "radians"], "degrees", 1.0 / RADIANS_PER_DEGREE),
     unit(&["N"], "N", 1.0),
     unit(&["mN"], "N", 1e-3),
     unit(&["kN"], "N", 1e3),
@@ -142,7 +143,7 @@ pub(super) fn converted(number: f64, unit: &str, of: &str) -> Option<String> {
     let factor = match (factor(unit, of), of) {
         (None, "") => UNITS.iter().find(|known| known.names.contains(&unit)).map(|known| known.factor),
         // For an angular velocity, read degrees as degrees per second.
-        (None, "rad/s") => factor(unit, "degrees").map(|degrees| degrees * DEGREE),
+        (None, "rad/s") => factor(unit, "degrees").map(|degrees| degrees * RADIANS_PER_DEGREE),
         (factor, _) => factor,
     };
     factor.map(|factor| written(number * factor))

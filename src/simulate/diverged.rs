@@ -52,10 +52,10 @@ impl PartialEq for Diverged {
 }
 
 impl Diverged {
-    /// A force that is this many times as large as all others together causes the motion alone.
-    const ALONE: f64 = 10.0;
-    /// A trial with a shorter step may take this number of steps, times the number of bodies.
-    const TRIAL: f64 = 1e5;
+    /// The smallest ratio of a force to the sum of all others at which it causes the motion alone.
+    const DOMINANT_FORCE_RATIO: f64 = 10.0;
+    /// The largest cost of a trial with a shorter step: the number of steps times the number of bodies.
+    const MAX_TRIAL_COST: f64 = 1e5;
 
     pub(super) fn of(scene: &Scene, body: BodyId, time: f64) -> Diverged {
         // Forces such as springs at rest are zero at the start.
@@ -98,7 +98,8 @@ impl Diverged {
         all.sort_by(|(_, _, a), (_, _, b)| b.total_cmp(a));
         let others: f64 = all[1..].iter().map(|(_, _, size)| size).sum();
         let (force, name, size) = all.swap_remove(0);
-        (size.is_finite() && size > Diverged::ALONE * others).then_some((Cause { force, size, time }, name))
+        (size.is_finite() && size > Diverged::DOMINANT_FORCE_RATIO * others)
+            .then_some((Cause { force, size, time }, name))
     }
 }
 
@@ -116,7 +117,7 @@ impl ShorterStep {
             // One digit is enough.
             let step = format!("{:.0e}", simulation.step / part).parse().unwrap_or(simulation.step / part);
             #[allow(clippy::cast_precision_loss, reason = "no scene has 2^53 bodies")]
-            if time / step * scene.bodies.len() as f64 > Diverged::TRIAL {
+            if time / step * scene.bodies.len() as f64 > Diverged::MAX_TRIAL_COST {
                 return shorter;
             }
             trial.simulation.step = step;

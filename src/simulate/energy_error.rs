@@ -85,9 +85,9 @@ impl EnergyError {
     /// rounding errors.
     pub(crate) fn drift(&self, contacts: Option<ContactLaw>) -> f64 {
         /// Energies below this fraction of `magnitude` are rounding errors of contacts and joints.
-        const ROUNDING: f64 = 1e-10;
+        const RELATIVE_ROUNDING: f64 = 1e-10;
         let (_, energy) = self.scale(contacts);
-        if contacts.is_some() && energy <= ROUNDING * self.magnitude {
+        if contacts.is_some() && energy <= RELATIVE_ROUNDING * self.magnitude {
             return 0.0;
         }
         if energy > 0.0 { self.largest / energy } else { 0.0 }

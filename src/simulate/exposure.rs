@@ -23,7 +23,8 @@ pub struct Exposure {
 impl Exposure {
     pub(super) fn new(
         frame: Frame,
-        (history, clouds): (History, Clouds),
+        history: History,
+        clouds: Clouds,
         rest: (Arc<Recording>, usize),
     ) -> Exposure {
         Exposure { frame, history, clouds, rest }
@@ -39,7 +40,7 @@ impl Exposure {
         let index = self.frame.index;
         shutter
             .moments(self.frame.time)
-            .map(move |time| moment(&mut reader, (&mut history, &clouds), index, time))
+            .map(move |time| moment(&mut reader, &mut history, &clouds, index, time))
     }
 }
 
@@ -47,7 +48,8 @@ impl Exposure {
 #[allow(clippy::float_cmp, reason = "moments are recorded at these very times")]
 fn moment(
     reader: &mut Reader,
-    (history, clouds): (&mut History, &Clouds),
+    history: &mut History,
+    clouds: &Clouds,
     index: usize,
     time: f64,
 ) -> Result<Frame, SimulateError> {

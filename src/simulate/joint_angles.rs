@@ -23,7 +23,7 @@ struct Seen {
 
 impl JointAngles {
     /// The number of values that describe an angle in a checkpoint.
-    const NUMBERS: usize = 3;
+    const NUMBERS_PER_ANGLE: usize = 3;
 
     /// Starts to count at the start of a run, where all angles are 0.
     pub(super) fn new(scene: &Scene) -> JointAngles {
@@ -60,7 +60,7 @@ impl JointAngles {
 
     /// Returns the number of values that [`numbers`](Self::numbers) returns.
     pub(super) fn size(&self) -> usize {
-        JointAngles::NUMBERS * self.last.len()
+        JointAngles::NUMBERS_PER_ANGLE * self.last.len()
     }
 
     /// Continues the count from a state that [`numbers`](Self::numbers) has returned.

@@ -14,8 +14,8 @@ use super::Frame;
 use crate::physics::{Placed, Shape};
 use crate::scene::{Body, Scene};
 
-/// The tolerance: two bodies count as overlapping if they still overlap after each has shrunk by this fraction.
-const DEEP: f64 = 0.01;
+/// Two bodies count as overlapping if they still overlap after each has shrunk by this fraction of its size.
+const OVERLAP_TOLERANCE: f64 = 0.01;
 
 /// The first two bodies that moved into each other. They did not touch in their first common frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,16 +49,16 @@ pub(super) struct Watch<'a> {
 
 /// The cost of an overlap test between two convex shapes, relative to a comparison of distances. Shapes other than balls need an iterative
 /// test.
-const OF_SHAPES: u64 = 64;
+const SHAPE_TEST_COST: u64 = 64;
 /// The allowed mean cost of overlap tests per body and frame. It is less than the cost of the body's line in a script.
-const USUAL: u64 = 32;
-/// The allowed cost of overlap tests per frame in addition to [`USUAL`]. It does not depend on the number of bodies.
-const ALWAYS: u64 = 16_384;
-/// The watch ends after a frame in which the overlap tests cost more than this multiple of the allowed mean cost.
-const MOST: u64 = 128;
+const COST_PER_BODY: u64 = 32;
+/// The allowed cost of overlap tests per frame in addition to [`COST_PER_BODY`]. It does not depend on the number of bodies.
+const COST_PER_FRAME: u64 = 16_384;
+/// The largest cost of overlap tests in one frame, as a multiple of the allowed mean cost. The watch ends after a frame that costs more.
+const MAX_COST_RATIO: u64 = 128;
 /// The largest number of intended overlaps per body. Beyond it, the watch ends. In a packing of equal balls, there are six touching pairs
 /// per ball.
-const TOGETHER: usize = 64;
+const MAX_INTENDED_OVERLAPS: usize = 64;
 
 impl<'a> Watch<'a> {
     pub(super) fn new(scene: &'a Scene) -> Watch<'a> {
@@ -87,10 +87,10 @@ impl<'a> Watch<'a> {
         self.near.fill(frame);
         let mut first: Option<(usize, usize)> = None;
         let mut together = std::mem::take(&mut self.together);
-        let most = TOGETHER * self.near.bodies.len();
-        let cost = self.near.each_pair(frame, MOST * self.usual(), |i, j| {
+        let most = MAX_INTENDED_OVERLAPS * self.near.bodies.len();
+        let cost = self.near.each_pair(frame, MAX_COST_RATIO * self.usual(), |i, j| {
             if !(self.were_there[i] && self.were_there[j]) {
-                if self.meet(frame, i, j, 1.0 + DEEP) {
+                if self.meet(frame, i, j, 1.0 + OVERLAP_TOLERANCE) {
                     together.insert((i, j));
                 }
                 return if together.len() > most { u64::MAX } else { self.cost(i, j) };
@@ -99,7 +99,7 @@ impl<'a> Watch<'a> {
             if !is_earlier || together.contains(&(i, j)) {
                 return 1;
             }
-            if self.meet(frame, i, j, 1.0 - DEEP) {
+            if self.meet(frame, i, j, 1.0 - OVERLAP_TOLERANCE) {
                 first = Some((i, j));
             }
             self.cost(i, j)
@@ -109,7 +109,7 @@ impl<'a> Watch<'a> {
         are_there.zip(&mut self.were_there).for_each(|(is_there, was_there)| *was_there = is_there);
         let name = |i: usize| self.scene.bodies[self.near.bodies[i].id].name.to_string();
         self.found = first.map(|(i, j)| Overlap { bodies: [name(i), name(j)], time: frame.time });
-        self.is_over = self.found.is_some() || cost > MOST * self.usual();
+        self.is_over = self.found.is_some() || cost > MAX_COST_RATIO * self.usual();
         self.pause = cost / self.usual();
     }
 
@@ -120,7 +120,7 @@ impl<'a> Watch<'a> {
 
     /// The allowed mean cost of overlap tests in a frame.
     fn usual(&self) -> u64 {
-        ALWAYS + USUAL * self.near.bodies.len() as u64
+        COST_PER_FRAME + COST_PER_BODY * self.near.bodies.len() as u64
     }
 
     /// True if two bodies overlap after both are scaled by a factor.
@@ -138,7 +138,7 @@ impl<'a> Watch<'a> {
         let [one, other] = [i, j].map(|i| &self.scene.bodies[self.near.bodies[i].id].shape);
         match (one, other) {
             (Shape::Sphere { .. }, Shape::Sphere { .. }) => 1,
-            _ => OF_SHAPES * (parts(one).count() * parts(other).count()) as u64,
+            _ => SHAPE_TEST_COST * (parts(one).count() * parts(other).count()) as u64,
         }
     }
 }
@@ -147,11 +147,11 @@ impl<'a> Watch<'a> {
 /// rings).
 pub(crate) fn touch_at_start(one: &Body, other: &Body) -> bool {
     /// The factor by which shapes are enlarged, so that shapes that only touch count as overlapping.
-    const NEAR: f64 = 1.0 + DEEP;
+    const ENLARGEMENT_FACTOR: f64 = 1.0 + OVERLAP_TOLERANCE;
     let shapes = [one, other].map(Body::drawn);
     let [one, other] = [one, other].map(|body| (body.start.location, body.start.orientation));
-    let others: Vec<Placed<'_>> = placed(&shapes[1], other, NEAR).collect();
-    placed(&shapes[0], one, NEAR).any(|part| others.iter().any(|other| part.intersects(other)))
+    let others: Vec<Placed<'_>> = placed(&shapes[1], other, ENLARGEMENT_FACTOR).collect();
+    placed(&shapes[0], one, ENLARGEMENT_FACTOR).any(|part| others.iter().any(|other| part.intersects(other)))
 }
 
 /// Returns the convex parts of a shape in the world, each enlarged by a factor. `location` (m) and `orientation` are those of its body.

@@ -173,7 +173,7 @@ impl History {
             [_, second] if second == id => impact.impulse,
             _ => DVec3::ZERO,
         };
-        corners::between((before, &(moment.time, *now)), &self.impacts, impulse, (self.masses[number], trail))
+        corners::between((before, &(moment.time, *now)), &self.impacts, impulse, self.masses[number], trail)
     }
 
     /// The trails, ghosts and delayed camera targets of a moment at or after the last frame.

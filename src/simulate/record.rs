@@ -158,11 +158,11 @@ impl<'a> Recorded<'a> {
                     Ok(frame) => {
                         let rest = (Arc::clone(&recording), frames.position());
                         // Only cameras with shutters read on from this frame, so only they need its past and its particles.
-                        let before = match is_exposed {
+                        let (history, clouds) = match is_exposed {
                             true => (frames.history().clone(), frames.clouds().clone()),
                             false => (History::default(), Clouds::new(scene)),
                         };
-                        return Some(Ok(Exposure::new(frame, before, rest)));
+                        return Some(Ok(Exposure::new(frame, history, clouds, rest)));
                     }
                     Err(error) => return Some(Err(error)),
                 }
@@ -205,7 +205,7 @@ impl<'a> Recorded<'a> {
 fn exposure(scene: &Scene, recording: &Arc<Recording>, moment: usize) -> Result<Exposure, SimulateError> {
     let frames = Frames::recorded(scene, recording);
     let (frame, history, clouds) = frames.recorded_moment(moment, recording.frame_at(moment))?;
-    Ok(Exposure::new(frame, (history, clouds), (Arc::clone(recording), moment + 1)))
+    Ok(Exposure::new(frame, history, clouds, (Arc::clone(recording), moment + 1)))
 }
 
 /// Reads all frames of a recording, and passes each to the surveyor and to `seen`.
@@ -268,7 +268,8 @@ impl<'a> Recorder<'a> {
         scene: &'a Scene,
         moments: Moments,
         pair_counter: &PairCounter,
-        (checkpoint, store): (&Checkpoint, Box<dyn Store>),
+        checkpoint: &Checkpoint,
+        store: Box<dyn Store>,
         seen: &mut dyn FnMut(&Frame),
     ) -> Option<Recorder<'a>> {
         let mut simulation = Simulation::new(scene, moments, pair_counter);

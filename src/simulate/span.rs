@@ -9,7 +9,7 @@ use crate::physics::BodySnapshot;
 use crate::scene::{Body, Quantity, Scene};
 
 /// The growth factor of the run's space after which the next span is stored.
-const GROWTH: f64 = 1.2;
+const STORED_GROWTH_FACTOR: f64 = 1.2;
 
 /// An axis-aligned box in the world, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Spans {
     fn keep(&mut self, time: f64) {
         let Some((span, _)) = &mut self.now else { return };
         span.until = time;
-        let grown = |last: &Span| span.seen.diagonal() > GROWTH * last.seen.diagonal();
+        let grown = |last: &Span| span.seen.diagonal() > STORED_GROWTH_FACTOR * last.seen.diagonal();
         if self.kept.last().is_none_or(grown) {
             self.kept.extend(self.now());
         }

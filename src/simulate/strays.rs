@@ -3,11 +3,11 @@
 use super::Bounds;
 
 /// The smallest number of moving bodies for which strays are searched.
-const MANY: usize = 8;
+const MIN_MOVING_BODIES: usize = 8;
 /// The largest fraction of the moving bodies that may be strays.
-const MOST: f64 = 1.0 / 3.0;
-/// The run's size without strays, relative to its size with strays, is at most this fraction. Otherwise no body counts as a stray.
-const SMALLER: f64 = 0.5;
+const MAX_STRAY_FRACTION: f64 = 1.0 / 3.0;
+/// The largest ratio of the run's size without strays to its size with strays. If the ratio is larger, no body counts as a stray.
+const MAX_SIZE_RATIO: f64 = 0.5;
 
 /// The space that each body takes during a run, by the index of the body.
 #[derive(Default)]
@@ -52,7 +52,7 @@ impl Paths {
     pub(super) fn without_strays(&self) -> Option<WithoutStrays> {
         let mut paths: Vec<Path> = self.0.iter().flatten().copied().collect();
         let moving = paths.iter().filter(|path| !path.is_fixed).count();
-        if moving < MANY {
+        if moving < MIN_MOVING_BODIES {
             return None;
         }
         let centre = middle_of_starts(&paths);
@@ -64,10 +64,10 @@ impl Paths {
         paths.sort_by(|one, two| reach(two).total_cmp(&reach(one)));
         let whole = paths.iter().map(|path| path.all).reduce(Bounds::union)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number")]
-        let most = ((moving as f64 * MOST) as usize).max(1);
+        let most = ((moving as f64 * MAX_STRAY_FRACTION) as usize).max(1);
         (1..=most).map(|strays| WithoutStrays::new(&paths, strays)).find_map(|rest| {
             let rest = rest?;
-            (rest.bounds.diagonal() <= SMALLER * whole.diagonal()).then_some(rest)
+            (rest.bounds.diagonal() <= MAX_SIZE_RATIO * whole.diagonal()).then_some(rest)
         })
     }
 }

@@ -82,8 +82,9 @@ impl ContactTotals {
     /// Replaces energies by 0 if they are within the rounding error of all energies. `magnitude` is the largest sum of the kinetic energy and
     /// the magnitude of the potential energy, J.
     fn rounded(self, magnitude: f64) -> ContactTotals {
-        const ROUNDING: f64 = 1e-11;
-        let round = |taken: f64| if taken.abs() <= ROUNDING * magnitude { 0.0 } else { taken };
+        /// Energies up to this fraction of `magnitude` count as rounding errors.
+        const RELATIVE_ROUNDING: f64 = 1e-11;
+        let round = |taken: f64| if taken.abs() <= RELATIVE_ROUNDING * magnitude { 0.0 } else { taken };
         ContactTotals { lost: round(self.lost), rubbed: round(self.rubbed), ..self }
     }
 }
@@ -177,7 +178,7 @@ impl<'a> Surveyor<'a> {
             frame.body(id).is_none()
         });
         for plane in &mut self.planes {
-            plane.see(scene, frame, (&self.free, &come), &mut self.crossed);
+            plane.see(scene, frame, &self.free, &come, &mut self.crossed);
         }
         self.falls.see(scene, frame);
         self.overlaps.see(frame);

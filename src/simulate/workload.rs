@@ -8,7 +8,7 @@ use crate::physics::{Force, Loads, Method, Moment, RigidBody, Shape, World};
 use crate::scene::Scene;
 
 /// The number of pair interactions that take about as long as writing the script lines of one body.
-const SCRIPT: u64 = 100;
+const SCRIPT_COST_PER_BODY: u64 = 100;
 
 /// The expected number of pair interactions in each frame of a run. It equals the count of a [`PairCounter`](crate::physics::PairCounter)
 /// if all bodies are always present, and is approximate otherwise. Scenes without pair interactions have no cost.
@@ -37,7 +37,7 @@ impl Workload {
             first: pairs.saturating_mul(3),
             each: pairs.saturating_mul(evaluations.saturating_add(2)),
             frames: scene.simulation.timeline.frames(),
-            script: SCRIPT * scene.bodies.len() as u64,
+            script: SCRIPT_COST_PER_BODY * scene.bodies.len() as u64,
         }
     }
 

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use super::Dir;
 use sha2::{Digest, Sha256};
 
-/// The number of notes from which on those of removed folders are forgotten.
-const MANY: usize = 10_000;
+/// The number of notes from which on those of removed folders are deleted.
+const MAX_NOTES_WITHOUT_CLEANUP: usize = 10_000;
 
 /// Returns true if jabuka has noted that it made this folder.
 pub(crate) fn is_noted(folder: &Dir) -> bool {
@@ -27,7 +27,7 @@ pub(crate) fn note(folder: &Dir) {
     let write = || -> Option<()> {
         let notes = Dir::make(&place()?).ok()?;
         let names = notes.names().ok()?;
-        if names.len() >= MANY {
+        if names.len() >= MAX_NOTES_WITHOUT_CLEANUP {
             names.iter().for_each(|name| forget_if_gone(&notes, name));
         }
         let mut file = notes.create(name(folder)?).ok()?;

@@ -11,12 +11,14 @@ use crate::output::{self, Folder, OutputError};
 use crate::system::{Dir, Kind};
 
 /// The name of the file that marks a folder as one of jabuka's job folders. It contains the digests of the files as jabuka wrote them.
-const MARKS: &str = ".jabuka-job.json";
+const DIGESTS_FILE: &str = ".jabuka-job.json";
 
+/// The name of the program that the file of digests gives as its generator.
 const GENERATOR: &str = "jabuka";
 
-/// The files of a job folder that jabuka keeps if they differ from what it writes, and that engines read beside them.
-const KEPT: [&str; 9] = [
+/// The files of a job folder that its scripts or an engine read, and that users may edit. Jabuka keeps such a file if it differs from what
+/// jabuka writes.
+const EDITABLE_FILES: [&str; 9] = [
     "local.conf",
     "render.sbatch",
     "video.sbatch",
@@ -45,13 +47,13 @@ impl Default for WrittenDigests {
 impl WrittenDigests {
     /// Reads the digests of the files in a job folder. `None` if jabuka did not make the folder.
     pub(super) fn read(folder: &Dir) -> Option<WrittenDigests> {
-        let marks: WrittenDigests = serde_json::from_slice(&folder.read(MARKS).ok()?).ok()?;
+        let marks: WrittenDigests = serde_json::from_slice(&folder.read(DIGESTS_FILE).ok()?).ok()?;
         (marks.generator == GENERATOR).then_some(marks)
     }
 
     pub(super) fn write(&self, folder: &Folder) -> Result<(), OutputError> {
         let text = serde_json::to_string_pretty(self).unwrap_or_default();
-        folder.write(MARKS, format!("{text}\n").as_bytes())
+        folder.write(DIGESTS_FILE, format!("{text}\n").as_bytes())
     }
 }
 
@@ -59,7 +61,7 @@ impl WrittenDigests {
 /// was not made here, they can be anyone's.
 pub(super) fn strangers(folder: &Folder, texts: &[Text]) -> Result<Vec<String>, OutputError> {
     let mut found = Vec::new();
-    for name in KEPT {
+    for name in EDITABLE_FILES {
         let Some(about) = folder.dir().about(name)? else { continue };
         let ours = texts.iter().find(|text| text.name == name).map(|text| text.text.as_bytes());
         let is_ours = about.kind == Kind::File

@@ -14,16 +14,16 @@ use std::path::Path;
 use copy::complete;
 pub use copy::{copy_scripts, size};
 pub(super) use settings::CurrentSettings;
-pub use settings::{SETTINGS, Settings};
+pub use settings::{SETTINGS_FILE, Settings};
 pub use texts::Requirements;
 
-use super::record::HIDDEN;
+use super::record::HIDDEN_FOLDER;
 use super::{Pace, Quality};
 use crate::output::{self, Folder, OutputError};
 use crate::system::{Dir, Kind};
 
-/// The subfolder of a job folder that contains the scripts.
-pub const SCRIPTS: &str = "scripts";
+/// The name of the subfolder of a job folder that contains the scripts.
+pub const SCRIPTS_FOLDER: &str = "scripts";
 
 /// The job scheduler that distributes the frames to machines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,7 +81,7 @@ impl JobFolder {
     /// # Errors
     /// If the subfolder cannot be opened as an output folder.
     pub fn scripts(&self) -> Result<Folder, OutputError> {
-        Folder::within(self.folder.dir(), SCRIPTS)
+        Folder::within(self.folder.dir(), SCRIPTS_FOLDER)
     }
 
     /// Removes the folder again, if it was empty or missing before. A job without scripts is of no use.
@@ -108,7 +108,7 @@ impl JobFolder {
             }
         }
         // The engine writes logs into `logs`. If that folder is missing, the job fails without a message.
-        for folder in ["logs", "images", &format!("images/{HIDDEN}")] {
+        for folder in ["logs", "images", &format!("images/{HIDDEN_FOLDER}")] {
             self.folder.dir().make_folder(folder)?;
         }
         let edits = edits::write(&self.folder, &texts)?;
@@ -124,7 +124,7 @@ fn refuse_links(folder: &Dir, name: &str) -> Result<(), OutputError> {
         Some(Kind::Folder) => {
             let folder = folder.folder(name)?;
             // The images themselves are only replaced, never written to.
-            let names = if name == "images" { vec![HIDDEN.into()] } else { folder.names()? };
+            let names = if name == "images" { vec![HIDDEN_FOLDER.into()] } else { folder.names()? };
             names.iter().try_for_each(|name| name.to_str().map_or(Ok(()), |name| refuse_links(&folder, name)))
         }
         _ => Ok(()),

@@ -8,9 +8,9 @@ use crate::render::{Format, Pace, Quality};
 use crate::simulate::Selection;
 
 /// The name of the settings file in a job folder.
-pub const SETTINGS: &str = "job.conf";
+pub const SETTINGS_FILE: &str = "job.conf";
 /// The name of the file with the user's own settings. They override those of `job.conf`.
-const OWN: &str = "local.conf";
+const LOCAL_SETTINGS_FILE: &str = "local.conf";
 
 /// The keys that a settings file may contain.
 const KEYS: [&str; 17] = [
@@ -108,14 +108,14 @@ impl CurrentSettings {
     /// # Errors
     /// If a settings file cannot be read or understood.
     pub(crate) fn read(folder: &Path) -> io::Result<Option<CurrentSettings>> {
-        let Some(mut values) = values(folder, SETTINGS)? else { return Ok(None) };
+        let Some(mut values) = values(folder, SETTINGS_FILE)? else { return Ok(None) };
         values.extend(values_of_user(folder)?);
         let wrong = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
         // If several lines set a key, the last one counts.
         let one = |key: &str| {
             let value = values.iter().rev().find(|(set, _)| set == key).map(|(_, value)| value.as_str());
             value.ok_or_else(|| {
-                wrong(format!("its `{SETTINGS}` does not set {key}: run `jabuka batch` again"))
+                wrong(format!("its `{SETTINGS_FILE}` does not set {key}: run `jabuka batch` again"))
             })
         };
         let frames =
@@ -136,7 +136,7 @@ impl CurrentSettings {
 
 /// Reads the user's own settings of a job folder. They are empty if `local.conf` does not exist.
 fn values_of_user(folder: &Path) -> io::Result<Vec<(String, String)>> {
-    Ok(values(folder, OWN)?.unwrap_or_default())
+    Ok(values(folder, LOCAL_SETTINGS_FILE)?.unwrap_or_default())
 }
 
 /// Reads the keys and values of a settings file, by the same rules as `settings.sh`. `None` if the file does not exist.
@@ -257,7 +257,7 @@ pub(super) mod tests {
                 files: vec!["common.inc".to_owned(), format!("assets/{hostile}")],
                 ..settings()
             };
-            fs::write(folder.path().join(SETTINGS), settings.to_text()).unwrap();
+            fs::write(folder.path().join(SETTINGS_FILE), settings.to_text()).unwrap();
             assert_eq!(
                 read_by_bash(folder.path()).unwrap(),
                 format!(
@@ -278,9 +278,12 @@ pub(super) mod tests {
     #[test]
     fn what_the_user_sets_counts() {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
-        fs::write(folder.path().join(OWN), "# mine\r\n\nOPTIONS=\"+W32 +H18\"\r\nLIMIT=010\nPOVRAY=$(x)/a b")
-            .unwrap();
+        fs::write(folder.path().join(SETTINGS_FILE), settings().to_text()).unwrap();
+        fs::write(
+            folder.path().join(LOCAL_SETTINGS_FILE),
+            "# mine\r\n\nOPTIONS=\"+W32 +H18\"\r\nLIMIT=010\nPOVRAY=$(x)/a b",
+        )
+        .unwrap();
         let read = CurrentSettings::read(folder.path()).unwrap().unwrap();
         assert_eq!(read.options, "+W32 +H18");
         let bash = read_by_bash(folder.path()).unwrap();
@@ -299,8 +302,8 @@ pub(super) mod tests {
             ("POVRAY=\"", "line 1: the quote at the start"),
             ("FRAMES=LINENO[$(touch PWNED)]", "FRAMES"),
         ] {
-            fs::write(folder.path().join(SETTINGS), settings().to_text()).unwrap();
-            fs::write(folder.path().join(OWN), line).unwrap();
+            fs::write(folder.path().join(SETTINGS_FILE), settings().to_text()).unwrap();
+            fs::write(folder.path().join(LOCAL_SETTINGS_FILE), line).unwrap();
             let bash = read_by_bash(folder.path()).unwrap_err();
             assert!(bash.starts_with("test: local.conf, line 1") && bash.contains(said), "{bash}");
             let rust = CurrentSettings::read(folder.path()).unwrap_err().to_string();
@@ -310,7 +313,8 @@ pub(super) mod tests {
         for key in
             ["LAST_FRAME", "DIGITS", "CHUNK", "LIMIT", "PROCESSES", "END", "FRAME_RATE", "BLURRED", "TRUST"]
         {
-            fs::write(folder.path().join(OWN), format!("{key}=LINENO[$(touch PWNED)]")).unwrap();
+            fs::write(folder.path().join(LOCAL_SETTINGS_FILE), format!("{key}=LINENO[$(touch PWNED)]"))
+                .unwrap();
             assert!(read_by_bash(folder.path()).unwrap_err().contains(key));
         }
         assert!(!folder.path().join("PWNED").exists());

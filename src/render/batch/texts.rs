@@ -1,7 +1,7 @@
 //! Makes the files of a job folder from the templates in `templates/batch/`.
 
 use super::settings::fill;
-use super::{Engine, SETTINGS, Settings};
+use super::{Engine, SETTINGS_FILE, Settings};
 use crate::simulate::Selection;
 
 /// The computing resources that a job requests. The user can set missing ones by editing the job's files.
@@ -31,7 +31,8 @@ pub(super) struct Text {
     pub(super) runs: bool,
 }
 
-const SLURM: &str = "\
+/// The part of the README that says how to submit a job to Slurm.
+const SLURM_INSTRUCTIONS: &str = "\
 Send it from where Slurm takes jobs, as often as you like; only what is missing is sent:
 
     ./submit
@@ -42,7 +43,8 @@ const SLURM_FILES: &str = "\
 | `render.sbatch`, `video.sbatch` | the jobs, with the lines `#SBATCH` for you to edit |
 | `submit` | sends what is missing |";
 
-const OPENJD: &str = "\
+/// The part of the README that says how to run a job as an Open Job Description.
+const OPENJD_INSTRUCTIONS: &str = "\
 This folder is a bundle of an Open Job Description:
 
     openjd check template.yaml
@@ -59,15 +61,15 @@ pub(super) fn texts(settings: &Settings, engine: Engine, requirements: &Requirem
     let users = |name, text| Text { name, text, users: true, runs: false };
     let frames = settings.frames.iter().copied().collect::<Selection>().to_string();
     let (kept, how, files) = match engine {
-        Engine::Slurm => ("`render.sbatch` and `video.sbatch`", SLURM, SLURM_FILES),
-        Engine::OpenJd => ("`template.yaml` and `asset_references.yaml`", OPENJD, OPENJD_FILES),
+        Engine::Slurm => ("`render.sbatch` and `video.sbatch`", SLURM_INSTRUCTIONS, SLURM_FILES),
+        Engine::OpenJd => ("`template.yaml` and `asset_references.yaml`", OPENJD_INSTRUCTIONS, OPENJD_FILES),
     };
     let readme = fill(
         include_str!("../../../templates/batch/README.md"),
         &[("kept", kept), ("how", how), ("files", files), ("frames", &frames), ("job", &settings.job)],
     );
     let mut texts = vec![
-        own(SETTINGS, settings.to_text(), false),
+        own(SETTINGS_FILE, settings.to_text(), false),
         own("settings.sh", include_str!("../../../templates/batch/settings.sh").to_owned(), false),
         own("render-chunk", include_str!("../../../templates/batch/render-chunk").to_owned(), true),
         own("render-video", include_str!("../../../templates/batch/render-video").to_owned(), true),
@@ -136,8 +138,8 @@ fn modules(requirements: &Requirements) -> String {
 /// Quotes a text as a YAML string, shortened to the largest number of characters that a name may have.
 fn yaml(text: &str) -> String {
     /// The largest number of characters in a name, according to Open Job Description.
-    const MAX: usize = 128;
-    let text: String = text.chars().take(MAX).collect();
+    const MAX_NAME_CHARACTERS: usize = 128;
+    let text: String = text.chars().take(MAX_NAME_CHARACTERS).collect();
     // A JSON string is also a YAML string. Double braces are replaced, since Open Job Description reads them as a variable.
     serde_json::Value::String(text.replace("{{", "(").replace("}}", ")")).to_string()
 }

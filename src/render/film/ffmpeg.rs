@@ -172,13 +172,15 @@ fn count(output: impl Read, frames: &AtomicUsize) {
 
 /// Reads to the end, and returns the last few lines. Long lines are shortened, and characters that control a terminal are removed.
 fn last_lines(mut from: impl Read) -> String {
-    const LINES: usize = 8;
-    const BYTES: usize = 4000;
+    /// The largest number of lines that are returned.
+    const MAX_SHOWN_LINES: usize = 8;
+    /// The number of bytes at the end of the output from which the lines are taken.
+    const MAX_KEPT_BYTES: usize = 4000;
     let mut last = VecDeque::new();
     let mut piece = [0; 4096];
     while let Ok(length @ 1..) = from.read(&mut piece) {
         last.extend(&piece[..length]);
-        last.drain(..last.len().saturating_sub(BYTES));
+        last.drain(..last.len().saturating_sub(MAX_KEPT_BYTES));
     }
     let text: Vec<u8> = last.into();
     let text = String::from_utf8_lossy(&text).replace('\r', "\n");
@@ -187,7 +189,7 @@ fn last_lines(mut from: impl Read) -> String {
         let plain = line.chars().filter(|c| !c.is_control());
         format!("  {}", plain.take(300).collect::<String>())
     };
-    lines[lines.len().saturating_sub(LINES)..].iter().map(shown).collect::<Vec<_>>().join("\n")
+    lines[lines.len().saturating_sub(MAX_SHOWN_LINES)..].iter().map(shown).collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]

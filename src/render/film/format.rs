@@ -51,9 +51,10 @@ impl Format {
     ///
     /// For a palette of all images, ffmpeg would hold all of them in memory: 3.7 MB for each of 1280 × 720 pixels.
     pub(super) fn samples(self, images: usize) -> Vec<usize> {
-        const MOST: usize = 32;
+        /// The largest number of images from which the palette is computed.
+        const MAX_PALETTE_IMAGES: usize = 32;
         match self {
-            Format::Gif => crate::render::contact_sheet::evenly(images, MOST),
+            Format::Gif => crate::render::contact_sheet::evenly(images, MAX_PALETTE_IMAGES),
             Format::Mp4 | Format::Webm => Vec::new(),
         }
     }

@@ -82,14 +82,15 @@ fn light_adds_up() {
 #[test]
 fn a_color_counts_as_much_as_it_covers() {
     let folder = tempfile::tempdir().unwrap();
-    const ALL: u16 = 65535;
+    const MAX_CHANNEL: u16 = 65535;
     // The first pixel is red in one image of four, so its mean is fully red with a quarter of the opacity. The second pixel is red in two
     // images and green in two, so its mean is half of each. The color of a transparent pixel does not count.
-    let red = covering(folder.path(), "0.png", [ALL, 0, 0, ALL, ALL, 0, 0, ALL]);
-    let green = covering(folder.path(), "1.png", [0, ALL, 0, 0, 0, ALL, 0, ALL]);
+    let red =
+        covering(folder.path(), "0.png", [MAX_CHANNEL, 0, 0, MAX_CHANNEL, MAX_CHANNEL, 0, 0, MAX_CHANNEL]);
+    let green = covering(folder.path(), "1.png", [0, MAX_CHANNEL, 0, 0, 0, MAX_CHANNEL, 0, MAX_CHANNEL]);
     let mut images = vec![red, green];
-    images.push(covering(folder.path(), "2.png", [0, 0, ALL, 0, ALL, 0, 0, ALL]));
-    images.push(covering(folder.path(), "3.png", [9, 9, 9, 0, 0, ALL, 0, ALL]));
+    images.push(covering(folder.path(), "2.png", [0, 0, MAX_CHANNEL, 0, MAX_CHANNEL, 0, 0, MAX_CHANNEL]));
+    images.push(covering(folder.path(), "3.png", [9, 9, 9, 0, 0, MAX_CHANNEL, 0, MAX_CHANNEL]));
     let mean = mean(&images).unwrap();
     assert_eq!((mean.alpha, mean.bytes), (true, vec![255, 0, 0, 64, 188, 188, 0, 255]));
 }

@@ -9,11 +9,11 @@ pub(super) struct Axis {
     is_logarithmic: bool,
 }
 
-/// The largest number of intervals between labels.
-const TICKS: f64 = 6.0;
+/// The largest number of intervals between the labels of an axis.
+const MAX_INTERVALS: f64 = 6.0;
 
 /// The smallest value of a logarithmic axis. Smaller values count as zero.
-const LEAST: f64 = 1e-18;
+const MIN_LOGARITHMIC_VALUE: f64 = 1e-18;
 
 impl Axis {
     /// Makes a linear axis from `min` to `max`.
@@ -34,7 +34,9 @@ impl Axis {
 
     /// Makes a logarithmic axis that includes all positive finite values, and begins and ends at whole powers of ten.
     pub(super) fn logarithmic<'v>(values: impl Iterator<Item = &'v f64>) -> Axis {
-        let positive = values.filter(|value| value.is_finite() && **value > LEAST).map(|v| libm::log10(*v));
+        let positive = values
+            .filter(|value| value.is_finite() && **value > MIN_LOGARITHMIC_VALUE)
+            .map(|v| libm::log10(*v));
         let range = positive.fold(None, |range: Option<[f64; 2]>, value| match range {
             Some([min, max]) => Some([min.min(value), max.max(value)]),
             None => Some([value; 2]),
@@ -46,7 +48,7 @@ impl Axis {
 
     /// Returns the position of a value along the axis, as a fraction of its length: 0 at `min`, 1 at `max`.
     pub(super) fn part(&self, value: f64) -> f64 {
-        let place = if self.is_logarithmic { libm::log10(value.max(LEAST)) } else { value };
+        let place = if self.is_logarithmic { libm::log10(value.max(MIN_LOGARITHMIC_VALUE)) } else { value };
         (place - self.min) / (self.max - self.min)
     }
 
@@ -54,15 +56,15 @@ impl Axis {
     pub(super) fn ticks(&self) -> Vec<(f64, String)> {
         let range = self.max - self.min;
         if self.is_logarithmic {
-            let every = (range / TICKS).ceil().max(1.0);
+            let every = (range / MAX_INTERVALS).ceil().max(1.0);
             let first = (self.min / every).ceil() * every;
             return steps(first, every, self.max)
                 .map(|power| (libm::exp10(power), format!("1e{power}")))
                 .collect();
         }
-        let power = libm::exp10(libm::log10(range / TICKS).floor());
+        let power = libm::exp10(libm::log10(range / MAX_INTERVALS).floor());
         let every = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-        let every = every.into_iter().find(|every| range / every <= TICKS).unwrap_or(range);
+        let every = every.into_iter().find(|every| range / every <= MAX_INTERVALS).unwrap_or(range);
         let first = (self.min / every).ceil() * every;
         let rounded = |value: f64| if value.abs() < 1e-9 * every { 0.0 } else { value };
         steps(first, every, self.max).map(rounded).map(|value| (value, digits(value, 6))).collect()

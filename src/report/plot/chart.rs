@@ -1,11 +1,11 @@
 //! Draws charts of several curves with logarithmic axes, such as errors over costs.
 
 use super::axis::Axis;
-use super::{Anchor, FAINT_INK, GRID, INK, Picture, Rgb};
+use super::{Anchor, FAINT_TEXT_COLOR, GRID_COLOR, Picture, Rgb, TEXT_COLOR};
 
 /// The colors of curves. People with red–green color blindness can distinguish them. Source: M. Okabe & K. Ito, *Color Universal Design*
 /// (2008), with a darker yellow.
-const COLORS: [Rgb; 8] = [
+const CURVE_COLORS: [Rgb; 8] = [
     [0, 0, 0],
     [230, 159, 0],
     [86, 180, 233],
@@ -16,16 +16,22 @@ const COLORS: [Rgb; 8] = [
     [204, 121, 167],
 ];
 
-const WIDTH: f64 = 1100.0;
-const TOP: f64 = 92.0;
-const LEFT: f64 = 90.0;
-const GAP: [f64; 2] = [100.0, 96.0];
-const SIZE: [f64; 2] = [430.0, 330.0];
+/// The width of a plot, pixels.
+const PLOT_WIDTH: f64 = 1100.0;
+/// The height of the margin above the first charts, for the title and the legend, pixels.
+const TOP_MARGIN: f64 = 92.0;
+/// The width of the margin at the left of the first chart in a row, pixels.
+const LEFT_MARGIN: f64 = 90.0;
+/// The horizontal and the vertical gap between two charts, pixels.
+const CHART_GAP: [f64; 2] = [100.0, 96.0];
+/// The width and the height of a chart, pixels.
+const CHART_SIZE: [f64; 2] = [430.0, 330.0];
 /// The number of charts in a row.
-const COLUMNS: usize = 2;
-/// The width of a letter in the legend, and of the sample line before a curve's name, pixels.
-const LETTER: f64 = 9.0;
-const SAMPLE: f64 = 26.0;
+const CHARTS_PER_ROW: usize = 2;
+/// The width of a letter in the legend, pixels.
+const LEGEND_LETTER_WIDTH: f64 = 9.0;
+/// The length of the line before a curve's name in the legend, pixels.
+const LEGEND_LINE_LENGTH: f64 = 26.0;
 
 /// A curve of a chart, through points of costs and errors.
 #[derive(Clone, Debug)]
@@ -51,32 +57,40 @@ impl Picture {
     /// Draws charts side by side under a common title, with a legend of the curves' names.
     #[must_use]
     pub fn of_charts(title: &str, charts: &[Chart]) -> Picture {
-        let rows = f64::from(u8::try_from(charts.len().div_ceil(COLUMNS)).unwrap_or(u8::MAX));
-        let height = TOP + rows * (SIZE[1] + GAP[1]);
-        let mut picture = Picture { width: WIDTH, height, items: Vec::new() };
+        let rows = f64::from(u8::try_from(charts.len().div_ceil(CHARTS_PER_ROW)).unwrap_or(u8::MAX));
+        let height = TOP_MARGIN + rows * (CHART_SIZE[1] + CHART_GAP[1]);
+        let mut picture = Picture { width: PLOT_WIDTH, height, items: Vec::new() };
         let mut names: Vec<&str> = Vec::new();
         for curve in charts.iter().flat_map(|chart| &chart.curves) {
             if !names.contains(&curve.name.as_str()) {
                 names.push(&curve.name);
             }
         }
-        picture.text([LEFT, 26.0], title.to_owned(), Anchor::Start, INK, true);
-        let [mut x, mut y] = [LEFT, 52.0];
-        for (name, color) in names.iter().zip(COLORS.iter().cycle()) {
-            let width = SAMPLE + 22.0 + LETTER * f64::from(u8::try_from(name.len()).unwrap_or(u8::MAX));
-            if x + width > WIDTH {
-                [x, y] = [LEFT, y + 22.0];
+        picture.text([LEFT_MARGIN, 26.0], title.to_owned(), Anchor::Start, TEXT_COLOR, true);
+        let [mut x, mut y] = [LEFT_MARGIN, 52.0];
+        for (name, color) in names.iter().zip(CURVE_COLORS.iter().cycle()) {
+            let width = LEGEND_LINE_LENGTH
+                + 22.0
+                + LEGEND_LETTER_WIDTH * f64::from(u8::try_from(name.len()).unwrap_or(u8::MAX));
+            if x + width > PLOT_WIDTH {
+                [x, y] = [LEFT_MARGIN, y + 22.0];
             }
-            picture.line(vec![[x, y], [x + SAMPLE, y]], 3.0, *color);
-            picture.text([x + SAMPLE + 7.0, y], (*name).to_owned(), Anchor::Start, INK, false);
+            picture.line(vec![[x, y], [x + LEGEND_LINE_LENGTH, y]], 3.0, *color);
+            picture.text(
+                [x + LEGEND_LINE_LENGTH + 7.0, y],
+                (*name).to_owned(),
+                Anchor::Start,
+                TEXT_COLOR,
+                false,
+            );
             x += width;
         }
-        let mut corner = [LEFT, TOP + 26.0];
+        let mut corner = [LEFT_MARGIN, TOP_MARGIN + 26.0];
         for (place, chart) in charts.iter().enumerate() {
             picture.chart(chart, corner, &names);
-            corner[0] += SIZE[0] + GAP[0];
-            if place % COLUMNS == COLUMNS - 1 {
-                corner = [LEFT, corner[1] + SIZE[1] + GAP[1]];
+            corner[0] += CHART_SIZE[0] + CHART_GAP[0];
+            if place % CHARTS_PER_ROW == CHARTS_PER_ROW - 1 {
+                corner = [LEFT_MARGIN, corner[1] + CHART_SIZE[1] + CHART_GAP[1]];
             }
         }
         picture
@@ -86,24 +100,30 @@ impl Picture {
         let points = || chart.curves.iter().flat_map(|curve| &curve.points);
         let across = Axis::logarithmic(points().map(|[x, _]| x));
         let up = Axis::logarithmic(points().map(|[_, y]| y));
-        let [right, bottom] = [left + SIZE[0], top + SIZE[1]];
-        let x = |value: f64| left + across.part(value) * SIZE[0];
-        let y = |value: f64| bottom - up.part(value) * SIZE[1];
-        self.text([left, top - 18.0], chart.title.clone(), Anchor::Start, INK, false);
+        let [right, bottom] = [left + CHART_SIZE[0], top + CHART_SIZE[1]];
+        let x = |value: f64| left + across.part(value) * CHART_SIZE[0];
+        let y = |value: f64| bottom - up.part(value) * CHART_SIZE[1];
+        self.text([left, top - 18.0], chart.title.clone(), Anchor::Start, TEXT_COLOR, false);
         for (value, label) in up.ticks() {
-            self.rule(vec![[left, y(value)], [right, y(value)]], GRID);
-            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_INK, false);
+            self.rule(vec![[left, y(value)], [right, y(value)]], GRID_COLOR);
+            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_TEXT_COLOR, false);
         }
         for (value, label) in across.ticks() {
-            self.rule(vec![[x(value), top], [x(value), bottom]], GRID);
-            self.text([x(value), bottom + 16.0], label, Anchor::Middle, FAINT_INK, false);
+            self.rule(vec![[x(value), top], [x(value), bottom]], GRID_COLOR);
+            self.text([x(value), bottom + 16.0], label, Anchor::Middle, FAINT_TEXT_COLOR, false);
         }
-        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_INK);
+        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_TEXT_COLOR);
         let [below, beside] = &chart.axes;
-        self.text([right, bottom + 40.0], format!("{beside}, over {below}"), Anchor::End, FAINT_INK, false);
+        self.text(
+            [right, bottom + 40.0],
+            format!("{beside}, over {below}"),
+            Anchor::End,
+            FAINT_TEXT_COLOR,
+            false,
+        );
         for curve in &chart.curves {
             let number = names.iter().position(|name| *name == curve.name).unwrap_or_default();
-            let color = COLORS[number % COLORS.len()];
+            let color = CURVE_COLORS[number % CURVE_COLORS.len()];
             let points: Vec<[f64; 2]> = curve.points.iter().map(|point| [x(point[0]), y(point[1])]).collect();
             for [x, y] in &points {
                 self.line(vec![[x - 3.0, *y], [x + 3.0, *y]], 6.0, color);
@@ -131,7 +151,7 @@ mod tests {
             .items
             .iter()
             .filter_map(|item| match item {
-                Item::Line { points, color, .. } if points.len() == 3 && *color != FAINT_INK => {
+                Item::Line { points, color, .. } if points.len() == 3 && *color != FAINT_TEXT_COLOR => {
                     Some((points.clone(), *color))
                 }
                 _ => None,
@@ -142,7 +162,10 @@ mod tests {
         // A power law is a straight line between logarithmic axes.
         let points = &curves[0].0;
         assert!((points[0][1] + points[2][1] - 2.0 * points[1][1]).abs() < 1e-9);
-        assert_eq!((points[0], points[2][0] - points[0][0]), ([LEFT, TOP + 26.0], SIZE[0]));
+        assert_eq!(
+            (points[0], points[2][0] - points[0][0]),
+            ([LEFT_MARGIN, TOP_MARGIN + 26.0], CHART_SIZE[0])
+        );
         assert!(svg(&picture).contains("Fall &lt; rise"));
     }
 }

@@ -20,21 +20,33 @@ pub use svg::svg;
 /// A color: red, green and blue, 0 to 255.
 type Rgb = [u8; 3];
 
-const GROUND: Rgb = [255, 255, 255];
-const INK: Rgb = [52, 50, 46];
-const FAINT_INK: Rgb = [122, 118, 110];
-const GRID: Rgb = [228, 226, 221];
-const ENERGY: Rgb = [192, 67, 43];
-const ERROR: Rgb = [38, 98, 158];
-const NEIGHBOURS: Rgb = [46, 125, 79];
+/// The color behind a plot.
+const BACKGROUND_COLOR: Rgb = [255, 255, 255];
+/// The color of titles.
+const TEXT_COLOR: Rgb = [52, 50, 46];
+/// The color of less important texts and lines.
+const FAINT_TEXT_COLOR: Rgb = [122, 118, 110];
+/// The color of grid lines.
+const GRID_COLOR: Rgb = [228, 226, 221];
+/// The color of the curve of the drift of the energy.
+const ENERGY_COLOR: Rgb = [192, 67, 43];
+/// The color of the curve of the error of the worst point.
+const ERROR_COLOR: Rgb = [38, 98, 158];
+/// The color of the curve of the distance between neighboring runs.
+const NEIGHBORS_COLOR: Rgb = [46, 125, 79];
 
-const WIDTH: f64 = 1100.0;
-const LEFT: f64 = 120.0;
-const RIGHT: f64 = 40.0;
-const TOP: f64 = 92.0;
-/// The height of a panel, and the vertical gap between two panels, pixels.
-const HEIGHT: f64 = 220.0;
-const GAP: f64 = 66.0;
+/// The width of a plot, pixels.
+const PLOT_WIDTH: f64 = 1100.0;
+/// The width of the margin at the left of the panels, pixels.
+const LEFT_MARGIN: f64 = 120.0;
+/// The width of the margin at the right of the panels, pixels.
+const RIGHT_MARGIN: f64 = 40.0;
+/// The height of the margin above the first panel, pixels.
+const TOP_MARGIN: f64 = 92.0;
+/// The height of a panel, pixels.
+const PANEL_HEIGHT: f64 = 220.0;
+/// The vertical gap between two panels, pixels.
+const PANEL_GAP: f64 = 66.0;
 
 /// The part of a text that lies at its position: start, middle or end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,8 +99,8 @@ impl Picture {
         let verdict = assessment.verdict.as_ref()?;
         let panels = panels(assessment, verdict);
         let count = f64::from(u8::try_from(panels.len()).unwrap_or(u8::MAX));
-        let height = TOP + count * (HEIGHT + GAP) - GAP + 40.0;
-        let mut picture = Picture { width: WIDTH, height, items: Vec::new() };
+        let height = TOP_MARGIN + count * (PANEL_HEIGHT + PANEL_GAP) - PANEL_GAP + 40.0;
+        let mut picture = Picture { width: PLOT_WIDTH, height, items: Vec::new() };
         let method = match (assessment.timestep, assessment.tolerance) {
             (Some(step), _) => format!("{}, step {} s", assessment.integrator, text::digits(step, 4)),
             (None, tolerance) => {
@@ -96,23 +108,23 @@ impl Picture {
                 format!("{}, tolerance {tolerance}", assessment.integrator)
             }
         };
-        picture.text([LEFT, 28.0], title.to_owned(), Anchor::Start, INK, true);
-        picture.text([WIDTH - RIGHT, 28.0], method, Anchor::End, FAINT_INK, false);
+        picture.text([LEFT_MARGIN, 28.0], title.to_owned(), Anchor::Start, TEXT_COLOR, true);
+        picture.text([PLOT_WIDTH - RIGHT_MARGIN, 28.0], method, Anchor::End, FAINT_TEXT_COLOR, false);
         let times = Axis::linear(0.0, assessment.end);
-        let mut top = TOP;
+        let mut top = TOP_MARGIN;
         for (place, panel) in panels.iter().enumerate() {
             picture.panel(panel, &times, top, place + 1 == panels.len());
             if let (1, Some(until)) = (place, verdict.trusted.until.filter(|_| !verdict.trusted.to_the_end)) {
                 let x = picture.across(&times, until);
-                picture.rule(vec![[x, top], [x, top + HEIGHT]], FAINT_INK);
+                picture.rule(vec![[x, top], [x, top + PANEL_HEIGHT]], FAINT_TEXT_COLOR);
             }
-            top += HEIGHT + GAP;
+            top += PANEL_HEIGHT + PANEL_GAP;
         }
         Some(picture)
     }
 
     fn across(&self, times: &Axis, time: f64) -> f64 {
-        LEFT + times.part(time) * (self.width - LEFT - RIGHT)
+        LEFT_MARGIN + times.part(time) * (self.width - LEFT_MARGIN - RIGHT_MARGIN)
     }
 
     /// Draws a thin line along one axis or both, aligned to pixels.
@@ -130,26 +142,26 @@ impl Picture {
     }
 
     fn panel(&mut self, panel: &Panel<'_>, times: &Axis, top: f64, is_last: bool) {
-        let (left, right, bottom) = (LEFT, self.width - RIGHT, top + HEIGHT);
+        let (left, right, bottom) = (LEFT_MARGIN, self.width - RIGHT_MARGIN, top + PANEL_HEIGHT);
         let axis = match panel.is_logarithmic {
             true => Axis::logarithmic(panel.values.iter().chain(&panel.mark)),
             false => Axis::around(panel.values.iter()),
         };
-        let y = |value: f64| bottom - axis.part(value) * HEIGHT;
-        self.text([left, top - 18.0], panel.title.clone(), Anchor::Start, INK, false);
+        let y = |value: f64| bottom - axis.part(value) * PANEL_HEIGHT;
+        self.text([left, top - 18.0], panel.title.clone(), Anchor::Start, TEXT_COLOR, false);
         for (value, label) in axis.ticks() {
-            self.rule(vec![[left, y(value)], [right, y(value)]], GRID);
-            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_INK, false);
+            self.rule(vec![[left, y(value)], [right, y(value)]], GRID_COLOR);
+            self.text([left - 10.0, y(value)], label, Anchor::End, FAINT_TEXT_COLOR, false);
         }
         for (value, label) in times.ticks() {
             let x = self.across(times, value);
-            self.rule(vec![[x, top], [x, bottom]], GRID);
+            self.rule(vec![[x, top], [x, bottom]], GRID_COLOR);
             let label = if is_last { format!("{label} s") } else { label };
-            self.text([x, bottom + 16.0], label, Anchor::Middle, FAINT_INK, false);
+            self.text([x, bottom + 16.0], label, Anchor::Middle, FAINT_TEXT_COLOR, false);
         }
-        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_INK);
+        self.rule(vec![[left, top], [left, bottom], [right, bottom]], FAINT_TEXT_COLOR);
         if let Some(mark) = panel.mark {
-            self.rule(vec![[left, y(mark)], [right, y(mark)]], FAINT_INK);
+            self.rule(vec![[left, y(mark)], [right, y(mark)]], FAINT_TEXT_COLOR);
         }
         let points = panel.times.iter().zip(&panel.values);
         // A logarithmic axis cannot show zero, so points with the value 0 are left out.
@@ -180,7 +192,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
             values: drift.iter().map(|part| part * 100.0).collect(),
             is_logarithmic: false,
             mark: None,
-            color: ENERGY,
+            color: ENERGY_COLOR,
         },
         Panel {
             title: format!(
@@ -191,7 +203,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
             values: error.clone(),
             is_logarithmic: true,
             mark: Some(assessment.accuracy),
-            color: ERROR,
+            color: ERROR_COLOR,
         },
         Panel {
             title: format!("Distance of a twin that begins a hair elsewhere{parting}"),
@@ -199,7 +211,7 @@ fn panels<'a>(assessment: &Assessment, verdict: &'a Verdict) -> Vec<Panel<'a>> {
             values: neighbours.clone(),
             is_logarithmic: true,
             mark: None,
-            color: NEIGHBOURS,
+            color: NEIGHBORS_COLOR,
         },
     ]
 }

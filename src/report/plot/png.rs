@@ -2,7 +2,7 @@
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
-use super::{Anchor, GROUND, Item, Picture, Rgb};
+use super::{Anchor, BACKGROUND_COLOR, Item, Picture, Rgb};
 
 /// Returns the picture as the bytes of a PNG file.
 ///
@@ -15,12 +15,12 @@ use super::{Anchor, GROUND, Item, Picture, Rgb};
 )]
 pub fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let (width, height) = (picture.width.ceil() as usize, picture.height.ceil() as usize);
-    let mut canvas = Canvas { width, height, rgb: GROUND.repeat(width * height) };
+    let mut canvas = Canvas { width, height, rgb: BACKGROUND_COLOR.repeat(width * height) };
     for item in &picture.items {
         match item {
             Item::Line { points, width, color } => canvas.line(points, *width, *color),
             Item::Text { at, text, anchor, large, color } => {
-                canvas.text(*at, text, (*anchor, *large), *color);
+                canvas.text(*at, text, *anchor, *large, *color);
             }
         }
     }
@@ -91,7 +91,7 @@ impl Canvas {
     }
 
     /// Draws a text in one line. A question mark replaces each character that the font lacks.
-    fn text(&mut self, [x, y]: [f64; 2], text: &str, (anchor, large): (Anchor, bool), color: Rgb) {
+    fn text(&mut self, [x, y]: [f64; 2], text: &str, anchor: Anchor, large: bool, color: Rgb) {
         let letters = if large { RasterHeight::Size20 } else { RasterHeight::Size16 };
         let advance = get_raster_width(FontWeight::Regular, letters) as f64;
         let width = advance * text.chars().count() as f64;

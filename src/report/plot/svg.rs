@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Anchor, GROUND, Item, Picture, Rgb};
+use super::{Anchor, BACKGROUND_COLOR, Item, Picture, Rgb};
 
 /// Returns the picture as the text of an SVG file.
 pub fn svg(picture: &Picture) -> String {
@@ -11,7 +11,7 @@ pub fn svg(picture: &Picture) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\">\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
-        hex(GROUND)
+        hex(BACKGROUND_COLOR)
     );
     for item in &picture.items {
         // Writing to a string cannot fail.

@@ -14,10 +14,10 @@ use crate::scene::source::Table;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
 
 /// The keys for the initial velocities of a body.
-const MOTION: [&str; 2] = ["velocity", "angular_velocity"];
+const VELOCITY_KEYS: [&str; 2] = ["velocity", "angular_velocity"];
 /// The keys for the moments of inertia and the constant loads of a body. They have no effect on a body that is fixed or has a given motion.
 /// [`super::effect`] warns of a mass that has no effect.
-const PUSHING: [&str; 3] = ["inertia", "force", "torque"];
+const INERTIA_AND_LOAD_KEYS: [&str; 3] = ["inertia", "force", "torque"];
 
 /// The parts of the body read before the current one. Copies of a body share these parts.
 struct Last {
@@ -167,7 +167,7 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
         context.diagnostics.push(error.at(span, always));
     }
     if motion.is_some() {
-        for key in MOTION.into_iter().chain(PUSHING).filter(|key| view.has(key)) {
+        for key in VELOCITY_KEYS.into_iter().chain(INERTIA_AND_LOAD_KEYS).filter(|key| view.has(key)) {
             let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
             let why = "its motion is given";
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
@@ -176,14 +176,15 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
     let fixed = scenery.is_some() || given == Some(true);
     if fixed {
         let why = scenery.map_or("it is fixed", |(_, _, always)| always);
-        for key in MOTION.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO)) {
+        for key in VELOCITY_KEYS.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO))
+        {
             let error = Diagnostic::error(
                 Code::FixedMoves,
                 format!("`{name}` is fixed, so its `{key}` must be [0, 0, 0]"),
             );
             context.diagnostics.extend(view.key_span(key).map(|span| error.at(span, why)));
         }
-        for key in PUSHING.into_iter().filter(|key| view.has(key)) {
+        for key in INERTIA_AND_LOAD_KEYS.into_iter().filter(|key| view.has(key)) {
             let message = format!("`{key}` of `{name}` has no effect");
             let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
@@ -232,15 +233,15 @@ fn inertia_of_shape(
 
 /// Reads the moments of inertia (kg·m²) from the key `inertia`. Reports moments that no distribution of mass can have.
 fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVec3> {
-    // The triangle inequality: no moment of inertia exceeds the sum of the other two. A flat body reaches the limit, where a rounding
-    // error may exceed the limit a little.
-    const ROUNDING: f64 = 1e-9;
+    /// The largest relative rounding error in the triangle inequality: no moment of inertia exceeds the sum of the other two. A flat body
+    /// reaches this limit.
+    const RELATIVE_ROUNDING: f64 = 1e-9;
     let inertia = view.vector("inertia")?;
     let mut moments = inertia.to_array();
     moments.sort_unstable_by(f64::total_cmp);
     let [smallest, middle, largest] = moments;
     let others = smallest + middle;
-    if largest > others * (1.0 + ROUNDING) {
+    if largest > others * (1.0 + RELATIVE_ROUNDING) {
         let message = format!("no body has the moments of inertia of `{name}`");
         let label =
             format!("{} is larger than the sum of the other two, {}", figure(largest), figure(others));
@@ -292,10 +293,15 @@ fn euler(angles: DVec3) -> DQuat {
 /// share one material.
 fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
     /// The number of most recent materials that are compared with the new look.
-    const LATEST: usize = 16;
+    const MAX_COMPARED_MATERIALS: usize = 16;
     if let Some(original) = context.groups.original(name) {
         let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);
-        let latest = materials.iter().enumerate().rev().take(LATEST).take_while(|(_, other)| of_copy(other));
+        let latest = materials
+            .iter()
+            .enumerate()
+            .rev()
+            .take(MAX_COMPARED_MATERIALS)
+            .take_while(|(_, other)| of_copy(other));
         if let Some((number, _)) = latest.into_iter().find(|(_, other)| other.look == look) {
             return number;
         }

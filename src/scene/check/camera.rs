@@ -8,7 +8,7 @@ use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, View};
 
 /// The value of `--view` that selects all views. No view can have this name.
-const ALL: &str = "all";
+const ALL_VIEWS: &str = "all";
 
 /// Reads the main camera from `[camera]`.
 pub(super) fn read(
@@ -30,9 +30,10 @@ pub(super) fn views(
     let main = root.table("camera");
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
-        if name.is_empty() || name == ALL || !name.chars().all(plain) {
+        if name.is_empty() || name == ALL_VIEWS || !name.chars().all(plain) {
             let message = format!("`{}` cannot be the name of a view", name.escape_debug());
-            let help = format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL}`");
+            let help =
+                format!("a view names a folder: use letters, digits, `-` and `_`, and not `{ALL_VIEWS}`");
             context.diagnostics.push(Diagnostic::error(Code::BadViewName, message).at(span, "").help(help));
         }
         View { name: name.to_owned(), camera: camera(&[keys, main], simulation, bodies, context) }
@@ -150,8 +151,8 @@ fn nobody(
 /// Returns the error for a shutter that is still open when the next frame begins. `None` if the shutter closes in time. `open` is the time
 /// for which the shutter is open, s.
 fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
-    // The relative tolerance for a rounded number: at 30 frames per second, a user may write the interval as 0.0333 s.
-    const TOLERANCE: f64 = 0.01;
+    /// The relative tolerance for a rounded number. At 30 frames per second, for example, a user may write the interval as 0.0333 s.
+    const SHUTTER_TOLERANCE: f64 = 0.01;
     let interval = simulation.timeline.interval();
     let short = |seconds: f64| figure(format!("{seconds:.2e}").parse().unwrap_or(seconds));
     let message = format!(
@@ -160,7 +161,8 @@ fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
         short(interval)
     );
     let help = format!("half the time between frames is usual: `shutter = {}`", short(interval / 2.0));
-    (open > interval * (1.0 + TOLERANCE)).then(|| Diagnostic::error(Code::LongShutter, message).help(help))
+    (open > interval * (1.0 + SHUTTER_TOLERANCE))
+        .then(|| Diagnostic::error(Code::LongShutter, message).help(help))
 }
 
 /// Warns of camera keys that have no effect without another key, such as `focus` without `aperture`.

@@ -12,13 +12,13 @@ use crate::physics::{Shape, Surface};
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
 /// The keys for the surface properties of a body or of the ground.
-const SURFACE: [&str; 3] = ["restitution", "friction", "rolling_friction"];
+const SURFACE_KEYS: [&str; 3] = ["restitution", "friction", "rolling_friction"];
 /// The keys of a body that have an effect only if `simulation.contacts` is set.
 const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
 
 /// The largest initial depth below the ground that counts as a rounding error, relative to the sum of the body's extent downwards and its
 /// largest coordinate. The dynamics tolerates the same overlap between bodies.
-const BELOW: f64 = 1e-9;
+const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// Reads the contact law from `simulation.contacts`. `None` if the scene has no contacts.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
@@ -49,7 +49,7 @@ pub(super) fn collider(
         return None;
     }
     if collides == Some(false) {
-        has_no_effect(&SURFACE, "it does not collide");
+        has_no_effect(&SURFACE_KEYS, "it does not collide");
         has_no_effect(&["collision_group"], "it does not collide");
         return None;
     }
@@ -70,7 +70,7 @@ pub(super) fn collider(
 
 /// Reads the surface properties of a body or of the ground.
 fn surface(view: &View<'_>) -> Surface {
-    let [restitution, friction, rolling_friction] = SURFACE.map(|key| view.number(key));
+    let [restitution, friction, rolling_friction] = SURFACE_KEYS.map(|key| view.number(key));
     Surface { restitution, friction, rolling_friction }
 }
 
@@ -129,7 +129,7 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
         wrong.extend(span.map(|span| ("collides", span)));
     }
     if let Some(ground) = root.table("environment").variant("ground") {
-        wrong.extend(SURFACE.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
+        wrong.extend(SURFACE_KEYS.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
     }
     let bodies = "without it, bodies pass through each other";
     let mut wrong: Vec<(&str, Span, &str)> =
@@ -158,16 +158,19 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
 
 /// Returns the source span at which the line for `simulation.contacts` is to be inserted, and the text to insert.
 fn insertion(root: &View<'_>, simulation: &View<'_>, at: Span, context: &Context<'_>) -> (Span, String) {
-    const LINE: &str = "contacts = \"event-driven\"";
+    /// The line that turns on event-driven contacts.
+    const CONTACTS_LINE: &str = "contacts = \"event-driven\"";
     let keys = ["duration", "frame_rate", "step", "integrator", "gravity"];
     let mut spans = keys.into_iter().filter_map(|key| simulation.key_span(key));
     if let Some(span) = spans.find(|span| is_file(span.source(), &context.sources)) {
-        return before(span, LINE, context);
+        return before(span, CONTACTS_LINE, context);
     }
     match root.key_span("simulation").filter(|span| is_file(span.source(), &context.sources)) {
         // The `[simulation]` table is empty: insert the line below its header.
-        Some(span) => (span.place_after(context.sources.line_after(span).len()), format!("\n{LINE}")),
-        None => (at.top_of_text(), format!("simulation.{LINE}\n")),
+        Some(span) => {
+            (span.place_after(context.sources.line_after(span).len()), format!("\n{CONTACTS_LINE}"))
+        }
+        None => (at.top_of_text(), format!("simulation.{CONTACTS_LINE}\n")),
     }
 }
 
@@ -181,7 +184,7 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
             continue;
         };
         let lowest = body.start.location.y - reach;
-        if height - lowest <= BELOW * (body.start.location.abs().max_element() + reach.abs()) {
+        if height - lowest <= RELATIVE_ROUNDING * (body.start.location.abs().max_element() + reach.abs()) {
             continue;
         }
         if table.look(|view| view.table("shape").has_unknown()) {

@@ -22,11 +22,11 @@ const MAX_COLLIDING: f64 = 1_000.0;
 const MAX_EARLY_STEPS: f64 = 100_000.0;
 /// The maximum number of births before time 0. With more births, an `f64` cannot distinguish the birth times.
 const MAX_EARLY_BIRTHS: f64 = 1e12;
-/// The number of samples drawn when a formula with random numbers is checked.
-const DRAWS: u64 = 4096;
+/// The number of samples that the check of a formula with random numbers draws.
+const SAMPLES_PER_FORMULA: u64 = 4096;
 
 /// The keys for the surface properties of particles.
-const SURFACE: [&str; 2] = ["restitution", "friction"];
+const SURFACE_KEYS: [&str; 2] = ["restitution", "friction"];
 
 /// Reads one emitter.
 struct Reader<'a, 'c> {
@@ -112,11 +112,11 @@ impl Reader<'_, '_> {
     /// Reads the surface properties of the particles. `None` if the particles do not collide.
     fn surface(&mut self) -> Option<Surface> {
         let view = self.view;
-        let [restitution, friction] = SURFACE.map(|key| view.number(key));
+        let [restitution, friction] = SURFACE_KEYS.map(|key| view.number(key));
         if view.boolean("collides") == Some(true) {
             return Some(Surface { restitution, friction, rolling_friction: None });
         }
-        for key in SURFACE {
+        for key in SURFACE_KEYS {
             let message = format!("`{key}` of `{}` has no effect", self.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             let help = "let bodies stop its particles: `collides = true`";
@@ -242,9 +242,9 @@ impl Reader<'_, '_> {
         let end = births.end.min(self.simulation.timeline.end()).max(births.start);
         let mut largest = f64::MIN_POSITIVE;
         let Some(span) = self.view.span(key) else { return largest };
-        for number in 0..DRAWS {
+        for number in 0..SAMPLES_PER_FORMULA {
             #[allow(clippy::cast_precision_loss, reason = "both are small")]
-            let t = births.start + (end - births.start) * number as f64 / (DRAWS - 1) as f64;
+            let t = births.start + (end - births.start) * number as f64 / (SAMPLES_PER_FORMULA - 1) as f64;
             let value = formula.draw(t, &mut self.random.substream(u64::MAX - number));
             if !value.is_finite() {
                 let error = formula.explain_non_finite(t, &mut self.random.substream(u64::MAX - number));

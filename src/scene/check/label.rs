@@ -29,7 +29,7 @@ pub(super) fn read(
     let read = |(name, _, view): (&str, Span, View<'_>)| {
         let place = place_of(&view, bodies, context);
         let text = view.text("text").zip(view.span("text"));
-        let text = text.map(|(text, span)| pieces(text, span, root, place, (bodies, joints), context));
+        let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, joints, context));
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
@@ -82,7 +82,8 @@ fn pieces(
     span: Span,
     root: &View<'_>,
     place: LabelPlace,
-    (bodies, joints): (&[Body], &[Joint]),
+    bodies: &[Body],
+    joints: &[Joint],
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
     let mut reader = Reader { text, span, root, place, bodies, joints, context, missing: Vec::new() };

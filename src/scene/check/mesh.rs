@@ -33,8 +33,8 @@ const MOST_TRIANGLES: usize = 4_000_000;
 /// Identifies a mesh: the path of its file, and the bits of the settings with which the file is read.
 type MeshKey = (PathBuf, Vec<u64>);
 
-/// The total size of all scripts, in bytes, above which a warning suggests the layout `shared`.
-const LARGE: f64 = 5e8;
+/// The largest total size of all scripts without a warning, bytes. The warning suggests the layout `shared`.
+const MAX_BYTES_WITHOUT_WARNING: f64 = 5e8;
 /// The estimated size of a triangle in a script, in bytes: the indices of its three vertices, and half a vertex with three coordinates.
 const BYTES_OF_A_TRIANGLE: f64 = 45.0;
 
@@ -101,7 +101,7 @@ impl Meshes {
         let message = format!("every script holds the whole mesh: together about {:.1} GB", bytes / 1e9);
         let warning = Diagnostic::warning(Code::LargeScripts, message);
         let help = "`layout = \"shared\"` in [output] writes it once";
-        let large = output.layout == Layout::SelfContained && bytes > LARGE;
+        let large = output.layout == Layout::SelfContained && bytes > MAX_BYTES_WITHOUT_WARNING;
         large.then(|| warning.at(*span, format!("{triangles} triangles, {scripts} times")).help(help))
     }
 }

@@ -165,8 +165,9 @@ impl Context<'_> {
     /// remaining copies.
     fn has_too_many_wrong_copies(&self, name: &str) -> bool {
         /// The number of copies with errors after which the remaining copies are skipped. Each copy may have different errors.
-        const ENOUGH: usize = 1000;
-        let wrong = |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= ENOUGH);
+        const MAX_WRONG_COPIES: usize = 1000;
+        let wrong =
+            |original| self.wrong_copies.get(original).is_some_and(|wrong| *wrong >= MAX_WRONG_COPIES);
         !self.wrong_copies.is_empty() && self.groups.original(name).is_some_and(wrong)
     }
 
@@ -319,7 +320,7 @@ fn build(
     contact::ground(&root, &simulation, &mut environment);
     contact::check(&root, &simulation, &bodies, &environment, context);
     let joints = joint::read(&root, &bodies, &simulation, context);
-    stepping::check_joints(&root, &simulation, (&bodies, &joints), context);
+    stepping::check_joints(&root, &simulation, &bodies, &joints, context);
     let mut bodies = bodies;
     joint::swing(&joints, &mut bodies);
     let spans: HashMap<&str, Span> =

@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::{Body, Force, ForceKind, SimulationSettings};
 
 /// The minimum ratio of the heaviest body's mass to the total mass of the other bodies.
-const HEAVY: f64 = 20.0;
+const MIN_MASS_RATIO: f64 = 20.0;
 
 /// Reports all forces and bodies that a planetary integrator does not support. Does nothing for other integrators.
 pub(super) fn check(
@@ -96,10 +96,10 @@ pub(super) fn check(
     }
     let heaviest = bodies.iter().map(|body| body.start.mass).fold(0.0, f64::max);
     let others = bodies.iter().map(|body| body.start.mass).sum::<f64>() - heaviest;
-    if heaviest < HEAVY * others {
+    if heaviest < MIN_MASS_RATIO * others {
         let message = format!(
             "`{name}` needs a body that is at least {} times as heavy as all others together",
-            figure(HEAVY)
+            figure(MIN_MASS_RATIO)
         );
         wrong(message, "take another integrator: `gauss-radau` is for any masses");
     }

@@ -7,9 +7,9 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Keyframe, Presence};
 use crate::scene::SimulationSettings;
 
-/// If the interval between two rows of a body is longer than the median interval times this factor, the body may be absent between these
-/// rows.
-const GAP: f64 = 1.5;
+/// The largest ratio of an interval between two rows of a body to the median interval at which the body is certainly present. In a longer
+/// interval, it may be absent.
+const MAX_INTERVAL_RATIO: f64 = 1.5;
 
 /// Reads the times at which a body is present from its keys `start` and `end`.
 pub(super) fn read(
@@ -55,8 +55,8 @@ pub(super) fn never(
 /// Returns the times at which a body is present according to its trajectory file: from its first row to its last row, except in gaps. Also
 /// returns the index of each row after a gap.
 ///
-/// A gap is an interval between two rows of the body that is longer than [`GAP`] times the median interval, and in which the file has rows
-/// of other bodies.
+/// A gap is an interval between two rows of the body that is longer than [`MAX_INTERVAL_RATIO`] times the median interval, and in which the
+/// file has rows of other bodies.
 pub(super) fn of_rows(
     keys: &[Keyframe],
     times: &[f64],
@@ -74,7 +74,7 @@ pub(super) fn of_rows(
     let place = |time: f64| times.partition_point(|other| *other < time);
     let is_gap = |i: &usize| {
         let (from, to) = (keys[i - 1].time, keys[*i].time);
-        to - from > GAP * usual && place(to) > place(from) + 1
+        to - from > MAX_INTERVAL_RATIO * usual && place(to) > place(from) + 1
     };
     let gaps: Vec<usize> = (1..keys.len()).filter(is_gap).collect();
 

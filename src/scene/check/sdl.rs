@@ -17,7 +17,7 @@ use crate::scene::source::{Node, Table, Value, file};
 const MAX_BYTES: u64 = 64 << 20;
 
 /// The file extensions of assets that are checked as SDL.
-const ENDINGS: [&str; 4] = ["inc", "pov", "mcr", "map"];
+const SDL_EXTENSIONS: [&str; 4] = ["inc", "pov", "mcr", "map"];
 
 /// The files that the raw SDL of an untrusted scene may name.
 #[derive(Default)]
@@ -115,7 +115,7 @@ fn check_file(name: &str, text: &str, span: Span, context: &mut Context<'_>) {
 /// Reports mistakes in an asset if its file extension shows that it contains SDL.
 pub(super) fn check_asset(name: &str, span: Span, context: &mut Context<'_>) {
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
-    if ending.is_some_and(|ending| ENDINGS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
+    if ending.is_some_and(|ending| SDL_EXTENSIONS.iter().any(|sdl| ending.eq_ignore_ascii_case(sdl))) {
         included(name, span, context);
     }
 }
@@ -157,7 +157,8 @@ fn trusted(text: &str, span: Span, context: &mut Context<'_>) {
     }
 }
 
-const TRUST: &str = "if you know this scene and trust it, say `--trust`";
+/// The help text for SDL that is refused without `--trust`.
+const TRUST_HELP: &str = "if you know this scene and trust it, say `--trust`";
 
 fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
     let untrusted = |message: String, label: &str| {
@@ -166,13 +167,15 @@ fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
     let unbalanced = |message: String| Diagnostic::error(Code::UnbalancedSdl, message).at(at, "");
     match &refusal.why {
         RefusalReason::Word(word) => {
-            untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST)
+            untrusted(format!("the SDL reaches for files: `{word}`"), "").help(TRUST_HELP)
         }
         RefusalReason::Macro(name) => {
-            untrusted(format!("the SDL reaches for files: the macro `{name}` writes one"), "").help(TRUST)
+            untrusted(format!("the SDL reaches for files: the macro `{name}` writes one"), "")
+                .help(TRUST_HELP)
         }
         RefusalReason::WritingInclude(name) => {
-            untrusted(format!("the SDL reaches for files: the macros of `{name}` write them"), "").help(TRUST)
+            untrusted(format!("the SDL reaches for files: the macros of `{name}` write them"), "")
+                .help(TRUST_HELP)
         }
         RefusalReason::Computed(word) => {
             let message = format!("the name of the file that `{word}` reads is computed");
@@ -189,15 +192,15 @@ fn diagnostic(refusal: &Refusal, at: Span) -> Diagnostic {
             let name = name.escape_debug();
             let message = format!("`{name}` is neither an asset of the scene nor a file of POV-Ray's");
             let help = "list it in `povray.assets`, by its path from the scene's folder";
-            untrusted(message, "").help(format!("{help}; or, {TRUST}"))
+            untrusted(message, "").help(format!("{help}; or, {TRUST_HELP}"))
         }
         RefusalReason::InnerInclude => {
             let message = "`#include` cannot stand in a macro, a body or a material";
             let help = "move it to `sdl` or `include` of [povray]";
-            untrusted(message.to_owned(), "").help(format!("{help}; or, {TRUST}"))
+            untrusted(message.to_owned(), "").help(format!("{help}; or, {TRUST_HELP}"))
         }
         RefusalReason::Hash => {
-            untrusted("this `#` has no directive directly behind it".to_owned(), "").help(TRUST)
+            untrusted("this `#` has no directive directly behind it".to_owned(), "").help(TRUST_HELP)
         }
         RefusalReason::NoHash(word) => untrusted(format!("the directive `{word}` needs a `#` before it"), "")
             .help(format!("write `#{word}`")),

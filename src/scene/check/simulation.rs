@@ -11,7 +11,7 @@ use crate::scene::{ContactLaw, SimulationSettings, Timeline};
 
 /// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as
 /// accurate as the motion between them.
-const CONSTRAINED: &str = "velocity-verlet";
+const DEFAULT_CONSTRAINED_INTEGRATOR: &str = "velocity-verlet";
 
 /// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
 /// freely.
@@ -24,7 +24,8 @@ pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
         Some(ContactLaw::EventDriven) => true,
         None => !root.named("joint").is_empty(),
     };
-    let default = Method::by_name(CONSTRAINED).filter(|_| is_constrained).unwrap_or(&METHODS[0]);
+    let default =
+        Method::by_name(DEFAULT_CONSTRAINED_INTEGRATOR).filter(|_| is_constrained).unwrap_or(&METHODS[0]);
     let method = view.text("integrator").and_then(Method::by_name).unwrap_or(default);
     let mut simulation = SimulationSettings {
         timeline: Timeline {

@@ -11,13 +11,13 @@ use crate::physics::{METHODS, Motor, suitable_step};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
-const ELASTIC: f64 = 0.9;
+const MIN_RESTITUTION_TO_WARN: f64 = 0.9;
 
 /// The help text that suggests event-driven contacts.
-const OTHER: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
+const OTHER_SCHEME_HELP: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`";
 
-/// The help text that suggests event-driven contacts, where few bodies need no other scheme.
-const OTHER_OR_FEW: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`; so can time stepping of at most sixty moving bodies, \
+/// The help text that suggests event-driven contacts, or time stepping of few bodies.
+const FEWER_BODIES_HELP: &str = "the other scheme can: `simulation.contacts = \"event-driven\"`; so can time stepping of at most sixty moving bodies, \
                             or twenty where there are joints, and no torus";
 
 /// Chooses a timestep that suits the thinnest colliding body, if the scene does not give `step`.
@@ -72,7 +72,9 @@ pub(super) fn check(
     let mut elastic = None;
     let mut see = |key: &str, span: Span, value: f64| match key {
         "rolling_friction" if value > 0.0 && said.insert(span) => rolling.push(span),
-        "restitution" if value >= ELASTIC && elastic.is_none() => elastic = Some((span, value)),
+        "restitution" if value >= MIN_RESTITUTION_TO_WARN && elastic.is_none() => {
+            elastic = Some((span, value));
+        }
         _ => {}
     };
     for key in ["rolling_friction", "restitution"] {
@@ -87,7 +89,7 @@ pub(super) fn check(
     }
     for span in rolling.into_iter().filter(|_| !is_by_moreau) {
         let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
-        context.diagnostics.push(error.at(span, "").help(OTHER_OR_FEW));
+        context.diagnostics.push(error.at(span, "").help(FEWER_BODIES_HELP));
     }
     // Report this warning only once: it is the same for all bodies. Moreau's scheme keeps the height.
     if let Some((span, value)) = elastic.filter(|_| !is_by_moreau) {
@@ -96,7 +98,7 @@ pub(super) fn check(
         let help = format!(
             "with restitution 1 and steps of 1/240 s, a ball that falls from 1 m has {} m left at its 10th rebound, and lies still after \
              some {}; `contacts = \"event-driven\"` keeps the height",
-            REBOUNDS[0], REBOUNDS[1]
+            MEASURED_REBOUNDS[0], MEASURED_REBOUNDS[1]
         );
         context.diagnostics.push(Diagnostic::warning(Code::LosesHeight, message).at(span, label).help(help));
     }
@@ -104,13 +106,14 @@ pub(super) fn check(
 
 /// The height of the 10th rebound (m), and the number of rebounds until rest, for a ball with restitution 1 that falls from 1 m. A test of
 /// the engine measures both numbers.
-const REBOUNDS: [&str; 2] = ["0.82", "95"];
+const MEASURED_REBOUNDS: [&str; 2] = ["0.82", "95"];
 
 /// Reports joints, motors and joint arrows that time stepping does not support.
 pub(super) fn check_joints(
     root: &View<'_>,
     simulation: &SimulationSettings,
-    (bodies, joints): (&[Body], &[Joint]),
+    bodies: &[Body],
+    joints: &[Joint],
     context: &mut Context<'_>,
 ) {
     let is_by_moreau = is_by_moreau(bodies, !joints.is_empty());
@@ -129,11 +132,16 @@ pub(super) fn check_joints(
             JointKind::Hinge(hinge) => hinge.freedom.motor.as_ref(),
             JointKind::Slider(slider) => slider.freedom.motor.as_ref(),
             JointKind::Pulley(_) if !is_by_moreau => {
-                wrong(format!("time stepping has no pulley, as `{name}` is one"), span, "", OTHER);
+                wrong(
+                    format!("time stepping has no pulley, as `{name}` is one"),
+                    span,
+                    "",
+                    OTHER_SCHEME_HELP,
+                );
                 None
             }
             JointKind::Gear(_) if !is_by_moreau => {
-                wrong(format!("time stepping has no gear, as `{name}` is one"), span, "", OTHER);
+                wrong(format!("time stepping has no gear, as `{name}` is one"), span, "", OTHER_SCHEME_HELP);
                 None
             }
             _ => None,
@@ -150,7 +158,7 @@ pub(super) fn check_joints(
             let place = arrows.as_ref().and_then(|arrows| arrows.key_span(key));
             if let Some(place) = place.filter(|_| joint.arrows.iter().any(Option::is_some)) {
                 let what = format!("time stepping does not know the {key} of the joint `{name}`");
-                wrong(what, place, "", OTHER);
+                wrong(what, place, "", OTHER_SCHEME_HELP);
             }
         }
         context.once(before, name, span);

@@ -104,10 +104,16 @@ pub(super) fn contradiction(
     let columns = origin.columns;
     let of_orientations = || is_turned.then(|| velocities::of_orientations(keys, gaps)).flatten();
     let (found, names, key, of, what) = match velocities::of_places(keys, gaps) {
-        Some(found) => (found, &columns.velocity, "velocity", columns::VELOCITY, "the places change"),
+        Some(found) => (found, &columns.velocity, "velocity", columns::VELOCITY_UNIT, "the places change"),
         None => {
             let what = "the orientations change";
-            (of_orientations()?, &columns.angular_velocity, "angular_velocity", columns::TURNING, what)
+            (
+                of_orientations()?,
+                &columns.angular_velocity,
+                "angular_velocity",
+                columns::ANGULAR_VELOCITY_UNIT,
+                what,
+            )
         }
     };
     let Contradiction { row, axis, column, rows, factor } = found;

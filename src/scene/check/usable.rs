@@ -10,7 +10,7 @@ use crate::scene::source::{self, Override};
 const MAX_BYTES: usize = 32 << 20;
 
 /// The number of preceding errors whose fixes are tried together with one that is of no use alone.
-const NEIGHBORS: usize = 8;
+const MAX_PRECEDING_FIXES: usize = 8;
 
 /// Drops each fix of a report whose edits overlap or are in several texts, and each fix after which its text has more errors of syntax than
 /// before. Such a fix would, for example, add a key that the table has already. In a `--set` argument, it would add a second setting.
@@ -25,7 +25,7 @@ pub(super) fn drop_other(report: &mut Report) {
         let is_syntax = is_syntax(diagnostic);
         let alone = trial.is_usable(&fix, is_syntax).then(|| fix.clone());
         let together = || {
-            let both = good.iter().rev().take(NEIGHBORS).filter_map(|other| fix.with(other));
+            let both = good.iter().rev().take(MAX_PRECEDING_FIXES).filter_map(|other| fix.with(other));
             both.into_iter().find(|both| trial.is_usable(both, is_syntax)).map(Box::new)
         };
         diagnostic.fix = alone.or_else(together);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::repeat::{self, INDICES};
+use super::repeat::{self, INDEX_VARIABLES};
 use super::{Expander, corrections, place};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::physics::random::Stream;
@@ -13,7 +13,7 @@ impl Expander<'_> {
     /// Does not evaluate the formula.
     pub(super) fn check_default_formula(&mut self, text: &str, span: Span) {
         let mut scope = self.scope.clone();
-        INDICES.into_iter().for_each(|index| scope.constant(index, 0.0));
+        INDEX_VARIABLES.into_iter().for_each(|index| scope.constant(index, 0.0));
         if let Some(formula) = self.ok_or_report(Formula::parse(text), text, span) {
             self.ok_or_report(formula.resolve(&scope), text, span);
         }

@@ -103,14 +103,14 @@ impl Expander<'_> {
     /// Replaces a formula by its value, as [`Expander::number`] does, and reports an error if that value is not a whole number.
     pub(super) fn integer(&mut self, node: &mut Node) {
         /// The largest number (2⁵³) up to which an `f64` represents all whole numbers.
-        const LARGEST: f64 = 9_007_199_254_740_992.0;
+        const MAX_EXACT_INTEGER: f64 = 9_007_199_254_740_992.0;
         if !matches!(node.value, Value::String(_)) {
             return;
         }
         self.number(node);
         let Value::Float(value) = node.value else { return };
         #[allow(clippy::cast_possible_truncation, reason = "it is whole, and 64 bits hold it")]
-        if value.trunc() == value && value.abs() <= LARGEST {
+        if value.trunc() == value && value.abs() <= MAX_EXACT_INTEGER {
             node.value = Value::Integer(value as i64);
         } else {
             let message = format!("expected a whole number, found {value}{}", self.in_copy());

@@ -13,6 +13,16 @@ use crate::scene::expression::Formula;
 use crate::scene::grammar::{Collection, Kind, MAX_COPIES, SCENE, TableSpec};
 use crate::scene::source::{Entry, Name, Node, Table, Value};
 
+/// The name of a copied body or joint in `between`, and how many copies it has.
+struct NamedCopies<'a> {
+    /// The position of the name in the scene's text.
+    span: Span,
+    /// The name without the index.
+    name: &'a str,
+    /// The number of copies.
+    copies: usize,
+}
+
 impl Expander<'_> {
     /// Replaces each repeated force and each repeated joint by its copies.
     pub(super) fn repeat_links(&mut self, root: &mut Table) {
@@ -109,12 +119,13 @@ impl Expander<'_> {
             .collect();
         let plain = ends.iter().filter(|(.., formulas)| matches!(&formulas[..], [one] if one.text() == "i"));
         let mut sizes = plain.filter_map(|(node, of, original, _)| {
-            Some((node.span, *original, self.groups.counts(*of, original)?.iter().product::<usize>()))
+            let copies = self.groups.counts(*of, original)?.iter().product();
+            Some(NamedCopies { span: node.span, name: original, copies })
         });
         if let Some(one) = sizes.next()
-            && let Some(other) = sizes.find(|other| other.2 != one.2)
+            && let Some(other) = sizes.find(|other| other.copies != one.copies)
         {
-            self.uneven(one, other);
+            self.uneven(&one, &other);
             return None;
         }
         drop(sizes);
@@ -140,8 +151,10 @@ impl Expander<'_> {
         formulas.len() == counts.len() && formulas.iter().zip(counts).all(is_in_range)
     }
 
-    /// Reports two bodies with different numbers of copies. Each argument is the span of a name, the name, and the number of copies.
-    fn uneven(&mut self, (here, one, many): (Span, &str, usize), (there, other, more): (Span, &str, usize)) {
+    /// Reports two bodies with different numbers of copies.
+    fn uneven(&mut self, first: &NamedCopies<'_>, second: &NamedCopies<'_>) {
+        let NamedCopies { span: here, name: one, copies: many } = *first;
+        let NamedCopies { span: there, name: other, copies: more } = *second;
         let message =
             format!("pairs take as many of each: `{one}` has {many} copies, and `{other}` has {more}");
         let help = format!("to leave the others out, write `repeat = {}`", many.min(more));

@@ -71,15 +71,15 @@ fn variables_may_stand_in_any_order_and_be_set_from_outside() {
 #[test]
 fn a_long_chain_of_variables_and_a_long_cycle_are_no_trouble() {
     use std::fmt::Write as _;
-    const LENGTH: usize = 20_000;
+    const CHAIN_LENGTH: usize = 20_000;
     let mut text = String::from("[body.ball]\nshape.sphere.radius = 'v0'\n[variables]\n");
-    for i in 0..LENGTH {
+    for i in 0..CHAIN_LENGTH {
         writeln!(text, "v{i} = 'v{}'", i + 1).unwrap();
     }
-    let ends = format!("{text}v{LENGTH} = 0.25\n");
+    let ends = format!("{text}v{CHAIN_LENGTH} = 0.25\n");
     let scene = Scene::parse(&ends).unwrap();
     assert_eq!(scene.bodies[0].shape, crate::physics::Shape::Sphere { radius: 0.25 });
-    let cycle = format!("{text}v{LENGTH} = 'v0'\n");
+    let cycle = format!("{text}v{CHAIN_LENGTH} = 'v0'\n");
     let said = errors(&cycle);
     assert_eq!(said.len(), 1);
     assert_eq!(said[0].1, "variables need each other: `v0` → `v1` → `v2` → `v3` → `v4` → `v5` → … → `v0`");

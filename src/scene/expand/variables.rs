@@ -134,7 +134,7 @@ impl Expander<'_> {
     /// Reports a cycle of variables that depend on each other: those on the stack `way` from `first` to the end.
     fn cycle(&mut self, way: &[(usize, usize)], first: usize, variables: &[Variable]) {
         /// The maximum number of a cycle's variables shown in the message.
-        const SHOWN: usize = 6;
+        const MAX_SHOWN_VARIABLES: usize = 6;
         let begin = way.iter().position(|(variable, _)| *variable == first).unwrap_or(0);
         let cycle = &way[begin..];
         if cycle.iter().any(|(variable, _)| self.broken.contains(&variables[*variable].name)) {
@@ -142,8 +142,9 @@ impl Expander<'_> {
             return;
         }
         let name = |variable: usize| format!("`{}`", variables[variable].name);
-        let mut names: Vec<String> = cycle.iter().take(SHOWN).map(|(variable, _)| name(*variable)).collect();
-        if cycle.len() > SHOWN {
+        let mut names: Vec<String> =
+            cycle.iter().take(MAX_SHOWN_VARIABLES).map(|(variable, _)| name(*variable)).collect();
+        if cycle.len() > MAX_SHOWN_VARIABLES {
             names.push("…".to_owned());
         }
         names.push(name(first));
@@ -152,7 +153,7 @@ impl Expander<'_> {
             _ => format!("variables need each other: {}", names.join(" → ")),
         };
         let mut error = Diagnostic::error(Code::CyclicVariables, message);
-        for (variable, seen) in cycle.iter().take(SHOWN) {
+        for (variable, seen) in cycle.iter().take(MAX_SHOWN_VARIABLES) {
             let Variable { span, formula, needs, .. } = &variables[*variable];
             let (next, range) = &needs[seen - 1];
             let place = place::in_string(self.raw(*span), formula.text(), range, *span);

@@ -5,7 +5,8 @@ use super::error::{ExpressionError, syntax};
 /// Returns the error for a symbol that formulas must not contain. `rest` is the text from the symbol on; `start` is the symbol's byte
 /// offset in the formula.
 pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
-    const SYMBOLS: [(&str, &str); 23] = [
+    /// Each symbol of other languages, with the help text for it.
+    const SYMBOL_HELP: [(&str, &str); 23] = [
         ("**", "the power is written `^`"),
         ("<>", "write `!=` for «is not»"),
         ("&&", "write `and`"),
@@ -30,7 +31,8 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
         ("·", "write `*`"),
         ("÷", "write `/`"),
     ];
-    const REPLACED: [(&str, &str); 15] = [
+    /// Each symbol that a fix can replace, with its replacement.
+    const SYMBOL_REPLACEMENTS: [(&str, &str); 15] = [
         ("**", "^"),
         ("<>", "!="),
         ("&&", " and "),
@@ -47,10 +49,10 @@ pub(super) fn symbol(rest: &str, start: usize) -> ExpressionError {
         ("·", "*"),
         ("÷", "/"),
     ];
-    if let Some((symbol, help)) = SYMBOLS.iter().find(|(symbol, _)| rest.starts_with(symbol)) {
+    if let Some((symbol, help)) = SYMBOL_HELP.iter().find(|(symbol, _)| rest.starts_with(symbol)) {
         let range = start..start + symbol.len();
         let error = syntax(range, format!("`{symbol}` is no part of a formula")).label(*help);
-        return match REPLACED.iter().find(|(replaced, _)| replaced == symbol) {
+        return match SYMBOL_REPLACEMENTS.iter().find(|(replaced, _)| replaced == symbol) {
             Some((_, by)) => error.fix(*by),
             None => error,
         };
@@ -88,7 +90,8 @@ pub(super) fn degrees(text: &str, at: usize) -> ExpressionError {
 
 /// Returns advice on how to write a function that other languages know by this name.
 pub(super) fn function(name: &str) -> Option<&'static str> {
-    const FUNCTIONS: [(&str, &str); 22] = [
+    /// Each function of other languages, with the help text for it.
+    const FUNCTION_HELP: [(&str, &str); 22] = [
         ("log", "write `ln` for the natural logarithm, `log10` or `log2`"),
         ("pow", "write `x^y`"),
         ("power", "write `x^y`"),
@@ -112,5 +115,5 @@ pub(super) fn function(name: &str) -> Option<&'static str> {
         ("length", "write `hypot`"),
         ("norm", "write `hypot`"),
     ];
-    FUNCTIONS.iter().find(|(other, _)| *other == name).map(|(_, help)| *help)
+    FUNCTION_HELP.iter().find(|(other, _)| *other == name).map(|(_, help)| *help)
 }

@@ -48,4 +48,4 @@ pub(in crate::scene) use program::Code;
 pub use program::Program;
 pub use resolve::{Draw, Resolved};
 pub use scope::Scope;
-pub(in crate::scene) use wide::{LANES, Output, Wide};
+pub(in crate::scene) use wide::{MAX_LANES, Output, Wide};

@@ -172,12 +172,12 @@ fn modulo(x: f64, y: f64) -> f64 {
 }
 
 /// The largest magnitude of a whole exponent for which a power is computed by repeated multiplication.
-const MOST: f64 = 16.0;
+const MAX_MULTIPLIED_EXPONENT: f64 = 16.0;
 
 /// Returns the exponent as an integer if the power is computed by repeated multiplication: a whole number from -16 to 16.
 #[allow(clippy::cast_possible_truncation, reason = "it is a whole number from -16 to 16")]
 pub(super) fn whole_exponent(y: f64) -> Option<i32> {
-    (y.abs() <= MOST && y.trunc() == y).then_some(y as i32)
+    (y.abs() <= MAX_MULTIPLIED_EXPONENT && y.trunc() == y).then_some(y as i32)
 }
 
 /// Computes x to the power of y. Small whole powers are computed by multiplication, which is faster than `pow`, and exact if all products

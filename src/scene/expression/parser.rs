@@ -109,7 +109,7 @@ fn power(token: Token) -> Option<(u8, u8)> {
         | Token::Greater
         | Token::GreaterEqual
         | Token::Equal
-        | Token::NotEqual => Some((COMPARISON, COMPARISON + 1)),
+        | Token::NotEqual => Some((COMPARISON_BINDING_POWER, COMPARISON_BINDING_POWER + 1)),
         Token::Plus | Token::Minus => Some((9, 10)),
         Token::Star | Token::Slash | Token::Percent => Some((11, 12)),
         // `^` is right-associative: 2^3^2 is 2^9.
@@ -119,11 +119,11 @@ fn power(token: Token) -> Option<(u8, u8)> {
 }
 
 /// The right binding power of `not`.
-const NOT: u8 = 5;
+const NOT_BINDING_POWER: u8 = 5;
 /// The left binding power of comparisons.
-const COMPARISON: u8 = 7;
+const COMPARISON_BINDING_POWER: u8 = 7;
 /// The right binding power of the signs `-` and `+`: higher than that of `*`, lower than that of `^`.
-const SIGN: u8 = 13;
+const SIGN_BINDING_POWER: u8 = 13;
 
 impl<'a> Parser<'a> {
     fn new(text: &'a str) -> Parser<'a> {
@@ -182,7 +182,9 @@ impl<'a> Parser<'a> {
             let right = self.expression(binds_right)?;
             let range = self.nodes[left].range.start..self.nodes[right].range.end;
             left = self.push(combine(operator, left, right), range);
-            if binds_left == COMPARISON && power(self.token).is_some_and(|(next, _)| next == COMPARISON) {
+            if binds_left == COMPARISON_BINDING_POWER
+                && power(self.token).is_some_and(|(next, _)| next == COMPARISON_BINDING_POWER)
+            {
                 let error =
                     syntax(operator_range.start..self.range.end, "comparisons do not follow each other");
                 return Err(error.help("write `a < x and x < b` for «x is between a and b»"));
@@ -209,7 +211,11 @@ impl<'a> Parser<'a> {
                 Ok(inner)
             }
             Token::Minus | Token::Plus | Token::Not => {
-                let inner = self.expression(if token == Token::Not { NOT } else { SIGN })?;
+                let inner = self.expression(if token == Token::Not {
+                    NOT_BINDING_POWER
+                } else {
+                    SIGN_BINDING_POWER
+                })?;
                 let range = range.start..self.nodes[inner].range.end;
                 Ok(match token {
                     Token::Minus => self.push(Part::Unary(Unary::Negate, inner), range),

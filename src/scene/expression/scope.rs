@@ -85,7 +85,7 @@ impl Scope {
     /// The reason why the scene may not define the name.
     pub fn is_free(name: &str) -> Result<(), &'static str> {
         /// The reserved words. `t` is the time; it is reserved even in formulas that do not depend on the time.
-        const WORDS: [&str; 4] = ["and", "or", "not", "t"];
+        const RESERVED_WORDS: [&str; 4] = ["and", "or", "not", "t"];
         let mut bytes = name.bytes();
         let starts_well = bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_');
         if !starts_well || !bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_') {
@@ -95,7 +95,7 @@ impl Scope {
             name if Function::named(name).is_some() => Err("this is a function of all formulas"),
             name if super::function::constant(name).is_some() => Err("this is a constant of all formulas"),
             "t" => Err("in formulas, `t` is the time"),
-            name if WORDS.contains(&name) => Err("this is a word of formulas"),
+            name if RESERVED_WORDS.contains(&name) => Err("this is a word of formulas"),
             _ => Ok(()),
         }
     }
@@ -126,8 +126,8 @@ impl Scope {
 
     /// Returns the text of a suggestion for an unknown name: a similar name, or the list of all names.
     pub(super) fn suggest(&self, name: &str) -> String {
-        /// The most names that a message lists. The quantities of a body and some variables of the scene are fewer.
-        const MOST: usize = 24;
+        /// The maximum number of names that a message lists. The quantities of a body and some variables of the scene are fewer.
+        const MAX_LISTED_NAMES: usize = 24;
         if self.names.is_empty() && self.fields.is_empty() {
             return "the scene declares no variables".to_owned();
         }
@@ -139,10 +139,10 @@ impl Scope {
         names.sort_unstable();
         names.dedup();
         let all = || names.iter().copied().chain(CONSTANTS.iter().map(|(name, ..)| *name));
-        // The names that other programs and textbooks have for the same quantity.
-        const OTHERS: [(&str, &str); 5] =
+        /// Each name that other programs and textbooks use for a quantity, with the name of the quantity here.
+        const QUANTITY_SYNONYMS: [(&str, &str); 5] =
             [("m", "mass"), ("q", "charge"), ("v", "speed"), ("time", "t"), ("velocity", "speed")];
-        let other = OTHERS.iter().find(|(other, _)| *other == name).map(|(_, own)| *own);
+        let other = QUANTITY_SYNONYMS.iter().find(|(other, _)| *other == name).map(|(_, own)| *own);
         if let Some(own) = other.filter(|own| self.has_fields() && names.contains(own)) {
             return format!("did you mean `{own}`?");
         }
@@ -158,7 +158,7 @@ impl Scope {
         match near {
             Some(near) => format!("did you mean `{near}`?"),
             None if names.len() == 1 => format!("there is only `{}`", names[0]),
-            None if names.len() <= MOST => format!("there are `{}`", names.join("`, `")),
+            None if names.len() <= MAX_LISTED_NAMES => format!("there are `{}`", names.join("`, `")),
             None => format!("none of the {} names that formulas know here", names.len()),
         }
     }

@@ -12,9 +12,9 @@ use super::resolve::{Resolved, Value};
 
 /// The maximum number of lanes. A lane is one set of inputs; a program evaluates all lanes at once. With 64 lanes, the columns of most
 /// formulas fit into the first-level cache.
-pub(in crate::scene) const LANES: usize = 64;
+pub(in crate::scene) const MAX_LANES: usize = 64;
 
-pub(in crate::scene) type Column = [f64; LANES];
+pub(in crate::scene) type Column = [f64; MAX_LANES];
 
 thread_local! {
     /// The columns of the current evaluation. The memory is reused, so usually only the first evaluation allocates.
@@ -98,7 +98,7 @@ impl Wide {
         self.uses.get(input).copied().unwrap_or(false)
     }
 
-    /// Evaluates the formulas in `lanes` lanes, at most [`LANES`]. `fill` is called to write the column of each input that the formulas
+    /// Evaluates the formulas in `lanes` lanes, at most [`MAX_LANES`]. `fill` is called to write the column of each input that the formulas
     /// use. `read` receives the values of all formulas.
     pub(in crate::scene) fn run<const N: usize>(
         &self,
@@ -109,7 +109,7 @@ impl Wide {
         COLUMNS.with_borrow_mut(|columns| {
             let needed = self.inputs + self.steps.len();
             if columns.len() < needed {
-                columns.resize(needed, [0.0; LANES]);
+                columns.resize(needed, [0.0; MAX_LANES]);
             }
             let used = self.uses.iter().enumerate().filter(|(_, uses)| **uses);
             used.for_each(|(input, _)| fill(input, &mut columns[input][..lanes]));

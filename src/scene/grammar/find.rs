@@ -7,7 +7,7 @@ use super::{KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::diagnostic::nearest;
 
 /// The part of a path that stands for any name, as in `body.NAME.mass`.
-const NAME: &str = "NAME";
+const NAME_PLACEHOLDER: &str = "NAME";
 
 /// A key of the scene language, and the path that leads to it. It is printed as its explanation.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ pub fn find_keys(words: &str) -> Result<Vec<FoundKey>, Option<String>> {
     let all = all_keys();
     let ending = |end: &[&str]| -> Vec<FoundKey> {
         let ends = |key: &&FoundKey| {
-            let path: Vec<&str> = key.path.split('.').filter(|word| *word != NAME).collect();
+            let path: Vec<&str> = key.path.split('.').filter(|word| *word != NAME_PLACEHOLDER).collect();
             path.ends_with(end)
         };
         all.iter().filter(ends).cloned().collect()
@@ -101,14 +101,14 @@ fn at(words: &[&str]) -> Option<FoundKey> {
                 found = Some(key);
             }
             // A misspelled key is no name: the caller suggests the key.
-            None if words.last() == Some(word) && *word != NAME => return None,
+            None if words.last() == Some(word) && *word != NAME_PLACEHOLDER => return None,
             None => {
                 inside.retain(|(_, is_named)| *is_named);
                 inside.iter_mut().for_each(|(_, is_named)| *is_named = false);
                 if inside.is_empty() {
                     return None;
                 }
-                path = format!("{path}.{NAME}");
+                path = format!("{path}.{NAME_PLACEHOLDER}");
             }
         }
     }
@@ -121,7 +121,7 @@ fn keys_in(path: &str, kind: &'static Kind) -> Vec<FoundKey> {
 }
 
 fn keys_of(path: &str, (table, is_named): Inside) -> Vec<FoundKey> {
-    let name = if is_named { format!(".{NAME}") } else { String::new() };
+    let name = if is_named { format!(".{NAME_PLACEHOLDER}") } else { String::new() };
     let dot = if path.is_empty() { "" } else { "." };
     let key = |spec: &'static KeySpec| FoundKey { path: format!("{path}{name}{dot}{}", spec.name), spec };
     table.keys.iter().map(key).collect()

@@ -17,7 +17,7 @@ pub fn reference() -> String {
     let mut page = Page { text, sections: Vec::new() };
     page.section("", &SCENE);
     page.formulas();
-    page.text.push_str(MANY);
+    page.text.push_str(COPIES);
     page.text.push_str(MOTION);
     page.text.push_str(CONTACTS);
     page.text.push_str(PARTICLES);
@@ -247,7 +247,7 @@ same on every run and machine, and do not change when you add another body.
 ";
 
 /// The documentation section on repeated bodies, defaults and included files.
-const MANY: &str = "
+const COPIES: &str = "
 ## Many from few
 
 ```toml

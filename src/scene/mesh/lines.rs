@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
 /// The maximum length of a line, in bytes. Even a face with hundreds of vertices needs far less.
-const LONGEST: u64 = 1 << 24;
+const MAX_LINE_BYTES: u64 = 1 << 24;
 
 /// The mark that some editors write at the beginning of a text in UTF-8.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -62,7 +62,7 @@ impl<'a> Lines<'a> {
         self.number = self.read + 1;
         loop {
             let start = self.line.len();
-            let most = LONGEST - start as u64;
+            let most = MAX_LINE_BYTES - start as u64;
             let length = (&mut self.file).take(most).read_until(b'\n', &mut self.line)?;
             if length as u64 == most {
                 return Err(io::Error::new(io::ErrorKind::InvalidData, "a line of more than 16 MiB"));

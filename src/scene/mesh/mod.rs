@@ -30,12 +30,13 @@ pub(super) struct MeshError {
 /// The positions of vertices, and triangles given by three indices of vertices.
 type Triangles = (Vec<DVec3>, Vec<[u32; 3]>);
 
-/// The file name extensions of mesh files, in lower case.
-const OBJ: &str = "obj";
-const STL: &str = "stl";
+/// The file name extension of Wavefront OBJ files, in lower case.
+const OBJ_EXTENSION: &str = "obj";
+/// The file name extension of STL files, in lower case.
+const STL_EXTENSION: &str = "stl";
 
 /// The maximum magnitude of a vertex coordinate, m. Moments of inertia contain its fifth power, which must be finite.
-const FARTHEST: f64 = 1e50;
+const MAX_COORDINATE: f64 = 1e50;
 
 /// The maximum size of a mesh file, in bytes: ten million triangles in a binary STL file. The script for a mesh of this size takes about a
 /// gigabyte.
@@ -48,11 +49,11 @@ const MOST_VERTICES: usize = 1 << 31;
 pub(super) fn read(path: &Path) -> Result<Mesh, MeshError> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let (positions, triangles) = match ending.as_deref() {
-        Some(OBJ) => obj::read(file::open(path, MOST_BYTES)?)?,
-        Some(STL) => stl::read(file::open(path, MOST_BYTES)?)?,
+        Some(OBJ_EXTENSION) => obj::read(file::open(path, MOST_BYTES)?)?,
+        Some(STL_EXTENSION) => stl::read(file::open(path, MOST_BYTES)?)?,
         _ => return Err(MeshError::new("its name ends neither with `.obj` nor with `.stl`")),
     };
-    if let Some(far) = positions.iter().find(|p| !p.is_finite() || p.abs().max_element() > FARTHEST) {
+    if let Some(far) = positions.iter().find(|p| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE) {
         return Err(MeshError::new(format!("a vertex is at {far}")));
     }
     if positions.len() >= MOST_VERTICES {

@@ -10,19 +10,19 @@ use super::lines::{BYTE_ORDER_MARK, Lines, Place};
 use super::{MeshError, Triangles};
 
 /// The size of the header of a binary STL file, in bytes. Its last four bytes are the number of triangles.
-const HEAD: usize = 84;
+const HEADER_BYTES: usize = 84;
 /// The size of a triangle in a binary STL file, in bytes.
-const TRIANGLE: u64 = 50;
+const TRIANGLE_BYTES: u64 = 50;
 
 /// Reads the vertices and triangles of an STL file. Each triangle has its own three vertices. Ignores the normals, because they follow
 /// from the vertices.
 pub(super) fn read(mut file: File) -> Result<Triangles, MeshError> {
-    let mut head = Vec::with_capacity(HEAD);
-    (&mut file).take(HEAD as u64).read_to_end(&mut head)?;
+    let mut head = Vec::with_capacity(HEADER_BYTES);
+    (&mut file).take(HEADER_BYTES as u64).read_to_end(&mut head)?;
     file.seek(SeekFrom::Start(0))?;
     let length = file.metadata()?.len();
-    let count = head.get(HEAD - 4..).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
-    let claimed = count.map(|count| HEAD as u64 + TRIANGLE * u64::from(count));
+    let count = head.get(HEADER_BYTES - 4..).and_then(|bytes| bytes.try_into().ok()).map(u32::from_le_bytes);
+    let claimed = count.map(|count| HEADER_BYTES as u64 + TRIANGLE_BYTES * u64::from(count));
     let words = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&head).trim_ascii_start();
     let says_solid = words.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     // A binary file may begin with `solid`, too. Its number of triangles, however, almost always contains a zero byte, unlike text.
@@ -30,7 +30,7 @@ pub(super) fn read(mut file: File) -> Result<Triangles, MeshError> {
         return match (count, claimed) {
             (Some(_), Some(claimed)) if claimed <= length => triangles(&mut Binary(file)),
             (Some(count), Some(_)) => {
-                let there = (length - HEAD as u64) / TRIANGLE;
+                let there = (length - HEADER_BYTES as u64) / TRIANGLE_BYTES;
                 Err(MeshError::new(format!("it is cut off: it has {there} of {count} triangles")))
             }
             _ => Err(MeshError::new("it is too short for a binary STL, and does not begin with `solid`")),

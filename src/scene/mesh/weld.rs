@@ -27,11 +27,12 @@ pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> T
     }
     drop(order);
 
-    const UNUSED: u32 = u32::MAX;
-    let mut number = vec![UNUSED; positions.len()];
+    /// The number of a vertex that no triangle uses.
+    const UNUSED_VERTEX: u32 = u32::MAX;
+    let mut number = vec![UNUSED_VERTEX; positions.len()];
     let corners = || triangles.iter().flatten().map(|&corner| first[corner as usize]);
     corners().for_each(|corner| number[corner as usize] = 0);
-    let used = number.iter_mut().filter(|number| **number != UNUSED);
+    let used = number.iter_mut().filter(|number| **number != UNUSED_VERTEX);
     used.zip(0..).for_each(|(number, next)| *number = next);
     for corner in triangles.iter_mut().flatten() {
         *corner = number[first[*corner as usize] as usize];
@@ -39,7 +40,7 @@ pub(super) fn weld(mut positions: Vec<DVec3>, mut triangles: Vec<[u32; 3]>) -> T
     let mut at = 0;
     positions.retain(|_| {
         at += 1;
-        number[at - 1] != UNUSED
+        number[at - 1] != UNUSED_VERTEX
     });
     positions.shrink_to_fit();
     (positions, triangles)

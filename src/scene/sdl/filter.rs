@@ -17,7 +17,7 @@ use std::ops::Range;
 use super::files::{FileKind, FileName, file};
 use super::standard::{WRITING_MACROS, is_standard, is_writing};
 use super::tokens::{Token, Tokens, Unclosed};
-use super::words::{DIRECTIVES, OTHERS, REFUSED};
+use super::words::{DIRECTIVES, REFUSED_WORDS, UNRESTRICTED_WORDS};
 
 /// The position in the script at which a text of SDL is inserted: at the top level, or within a body or material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,9 +121,9 @@ struct Filter<'a, F> {
 }
 
 /// The directives that need a closing `#end`.
-const OPENING: [&str; 7] = ["for", "if", "ifdef", "ifndef", "macro", "switch", "while"];
+const OPENING_DIRECTIVES: [&str; 7] = ["for", "if", "ifdef", "ifndef", "macro", "switch", "while"];
 /// The directives that are valid only between an opening directive and its `#end`.
-const INNER: [&str; 5] = ["break", "case", "else", "elseif", "range"];
+const INNER_DIRECTIVES: [&str; 5] = ["break", "case", "else", "elseif", "range"];
 
 impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
     fn refuse(&mut self, range: Range<usize>, why: RefusalReason) {
@@ -145,7 +145,7 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
             return;
         };
         let is = |words: &[&str]| words.binary_search(&word).is_ok();
-        if is(&REFUSED) {
+        if is(&REFUSED_WORDS) {
             return self.refuse(range.clone(), RefusalReason::Word(word.to_owned()));
         }
         if WRITING_MACROS.contains(&word) {
@@ -154,7 +154,7 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
         match (behind_hash, is(&DIRECTIVES)) {
             (true, true) => self.directive(word, range),
             (true, false) => return self.refuse(range.clone(), RefusalReason::Hash),
-            (false, true) if !is(&OTHERS) => {
+            (false, true) if !is(&UNRESTRICTED_WORDS) => {
                 return self.refuse(range.clone(), RefusalReason::NoHash(word.to_owned()));
             }
             (false, _) => {}
@@ -165,7 +165,7 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
     }
 
     fn directive(&mut self, word: &str, range: &Range<usize>) {
-        if let Some(opening) = OPENING.into_iter().find(|opening| *opening == word) {
+        if let Some(opening) = OPENING_DIRECTIVES.into_iter().find(|opening| *opening == word) {
             self.open.push((opening, range.clone()));
             self.macros += usize::from(word == "macro");
         } else if word == "end" {
@@ -173,7 +173,7 @@ impl<'a, F: Fn(&str) -> bool> Filter<'a, F> {
                 Some((opening, _)) => self.macros -= usize::from(opening == "macro"),
                 None => self.refuse(range.clone(), RefusalReason::Stray(word.to_owned())),
             }
-        } else if INNER.contains(&word) && self.open.is_empty() {
+        } else if INNER_DIRECTIVES.contains(&word) && self.open.is_empty() {
             self.refuse(range.clone(), RefusalReason::Stray(word.to_owned()));
         } else if word == "include" && (self.place == Where::Inside || self.macros > 0) {
             self.refuse(range.clone(), RefusalReason::InnerInclude);
@@ -314,7 +314,8 @@ mod tests {
 
     #[test]
     fn the_words_are_sorted_and_each_has_one_place() {
-        let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED, &OTHERS];
+        let lists: [&[&str]; 5] =
+            [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED_WORDS, &UNRESTRICTED_WORDS];
         for list in lists {
             assert!(list.is_sorted_by(|a, b| a < b), "{list:?}");
         }

@@ -2,18 +2,18 @@
 
 use std::fmt::Write as _;
 
-use super::standard::{FONT_MACROS, FONTS, IMAGES, INCLUDES, MAPS, WRITING_INCLUDES, WRITING_MACROS};
-use super::words::{DIRECTIVES, FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, OTHERS, REFUSED};
+use super::standard::{COLOR_MAPS, FONT_MACROS, FONTS, IMAGES, INCLUDES, WRITING_INCLUDES, WRITING_MACROS};
+use super::words::{DIRECTIVES, FILE_EXISTS, FILE_TYPES, IMAGE_BLOCKS, REFUSED_WORDS, UNRESTRICTED_WORDS};
 
 /// Returns the page that lists the words allowed without `--trust`, as Markdown.
 pub fn reference() -> String {
-    let mut page = HEAD.to_owned();
+    let mut page = PAGE_INTRODUCTION.to_owned();
     let includes: Vec<&str> =
         INCLUDES.iter().copied().filter(|name| !WRITING_INCLUDES.contains(name)).collect();
     let mut file_words: Vec<&str> = [&IMAGE_BLOCKS[..], &FILE_TYPES[..], &[FILE_EXISTS, "include"]].concat();
     file_words.sort_unstable();
     for (title, text, words) in [
-        ("Words that are allowed everywhere", "They access no file.", &OTHERS[..]),
+        ("Words that are allowed everywhere", "They access no file.", &UNRESTRICTED_WORDS[..]),
         ("Directives", "They follow a `#` directly.", &DIRECTIVES),
         (
             "Words with the name of a file",
@@ -23,7 +23,7 @@ pub fn reference() -> String {
             &FONT_MACROS,
         ),
         ("", "The words:", &file_words),
-        ("Words that need `--trust`", "They open, read or write files.", &REFUSED),
+        ("Words that need `--trust`", "They open, read or write files.", &REFUSED_WORDS),
         (
             "Macros that need `--trust`",
             "They write files. Most macros of `makegrass.inc` and `meshmaker.inc` do so as well, so these two files are \
@@ -31,7 +31,7 @@ pub fn reference() -> String {
             &WRITING_MACROS,
         ),
         ("POV-Ray's include files", "They are allowed in `povray.include` and after `#include`.", &includes),
-        ("", "And these color maps:", &MAPS),
+        ("", "And these color maps:", &COLOR_MAPS),
         ("POV-Ray's fonts and images", "Fonts:", &FONTS),
         ("", "Images and densities:", &IMAGES),
     ] {
@@ -59,7 +59,8 @@ fn lines(words: &[&str]) -> String {
     text
 }
 
-const HEAD: &str = "# SDL that is allowed without `--trust`
+/// The text before the lists of the page.
+const PAGE_INTRODUCTION: &str = "# SDL that is allowed without `--trust`
 
 SDL is POV-Ray's scene language. It can open, overwrite and include any file of the user. A scene from somebody else must
 not do that. So jabuka reads the SDL word by word and allows only what this page lists. All other words are errors at

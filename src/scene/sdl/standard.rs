@@ -47,7 +47,7 @@ pub(crate) const INCLUDES: &[&str] = &[
 pub(crate) const WRITING_INCLUDES: [&str; 2] = ["makegrass.inc", "meshmaker.inc"];
 
 /// The color maps of POV-Ray. They are include files with the extension `.map`.
-pub(super) const MAPS: [&str; 10] = [
+pub(super) const COLOR_MAPS: [&str; 10] = [
     "ash.map",
     "benediti.map",
     "bubinga.map",
@@ -99,7 +99,7 @@ pub(super) const FONT_MACROS: [&str; 5] =
 /// POV-Ray adds it.
 pub(super) fn is_standard(name: &str) -> bool {
     let writes = |file: &str| WRITING_INCLUDES.contains(&file);
-    let mut all = INCLUDES.iter().chain(&MAPS).chain(&FONTS).chain(&IMAGES);
+    let mut all = INCLUDES.iter().chain(&COLOR_MAPS).chain(&FONTS).chain(&IMAGES);
     all.any(|file| is_called(file, name) && !writes(file))
 }
 

@@ -45,7 +45,7 @@ pub(super) const FILE_TYPES: [&str; 15] = [
 pub(super) const FILE_EXISTS: &str = "file_exists";
 
 /// The words that open, read or write files, and words that serve only POV-Ray's developers. They are refused.
-pub(super) const REFUSED: [&str; 16] = [
+pub(super) const REFUSED_WORDS: [&str; 16] = [
     "append",
     "dtag",
     "fclose",
@@ -66,7 +66,7 @@ pub(super) const REFUSED: [&str; 16] = [
 
 #[rustfmt::skip]
 /// The words that access no file. They are allowed everywhere.
-pub(super) const OTHERS: [&str; 439] = [
+pub(super) const UNRESTRICTED_WORDS: [&str; 439] = [
     "aa_level", "aa_threshold", "abs", "absorption", "accuracy", "acos", "acosh", "adaptive", "adc_bailout",
     "agate", "agate_turb", "albedo", "all", "all_intersections", "alpha", "altitude", "always_sample",
     "ambient", "ambient_light", "angle", "anisotropy", "aoi", "aperture", "arc_angle", "area_illumination",
@@ -123,7 +123,7 @@ pub(super) const OTHERS: [&str; 439] = [
 
 /// Returns all reserved words of POV-Ray, sorted.
 pub fn reserved_words() -> Vec<&'static str> {
-    let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED, &OTHERS];
+    let lists: [&[&str]; 5] = [&DIRECTIVES, &IMAGE_BLOCKS, &FILE_TYPES, &REFUSED_WORDS, &UNRESTRICTED_WORDS];
     let mut words = lists.concat();
     words.push(FILE_EXISTS);
     words.sort_unstable();

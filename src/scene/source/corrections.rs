@@ -18,17 +18,18 @@ pub(super) struct Correction {
 /// A corrected value as TOML, and the explanation for the user.
 type CorrectedValue = (String, &'static str);
 
-const UNIT: &str = "numbers stand without units; the page of keys says what each is in";
-const LIST: &str = "a list stands in square brackets, with commas between its values";
-const POINT: &str = "a decimal point is a point, with a digit on either side: `0.5`";
-const QUOTES: &str = "text and formulas stand in quotes";
-const BOOLEAN: &str = "there are `true` and `false`";
-const TABLE: &str = "a table in braces is `{ key = value, key = value }`";
-const ENTRY: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
-const HEADER: &str = "a dot stands between the parts of a header";
-const NAME: &str = "a name is one word; a name with spaces stands in quotes";
-const COMMENT: &str = "`#` begins a comment";
-const PERCENT: &str = "a percentage is a number: 80 % is 0.8";
+// The rules of syntax that explain corrections to the user.
+const UNIT_RULE: &str = "numbers stand without units; the page of keys says what each is in";
+const LIST_RULE: &str = "a list stands in square brackets, with commas between its values";
+const DECIMAL_POINT_RULE: &str = "a decimal point is a point, with a digit on either side: `0.5`";
+const QUOTES_RULE: &str = "text and formulas stand in quotes";
+const BOOLEAN_RULE: &str = "there are `true` and `false`";
+const INLINE_TABLE_RULE: &str = "a table in braces is `{ key = value, key = value }`";
+const ENTRY_RULE: &str = "a line is `key = value`, without a sign at its end; `#` begins a comment";
+const HEADER_RULE: &str = "a dot stands between the parts of a header";
+const NAME_RULE: &str = "a name is one word; a name with spaces stands in quotes";
+const COMMENT_RULE: &str = "`#` begins a comment";
+const PERCENT_RULE: &str = "a percentage is a number: 80 % is 0.8";
 
 /// Corrects a line that is not valid TOML. `None` if the intended text is unclear.
 pub(super) fn correct(line: &str) -> Option<Correction> {
@@ -99,7 +100,7 @@ fn header(content: &str, trimmed: &str) -> Option<Correction> {
     (!parts.is_empty() && parts.iter().all(is_bare) && text != trimmed).then(|| Correction {
         range: start..start + trimmed.len(),
         text,
-        why: if has_spaces { NAME } else { HEADER },
+        why: if has_spaces { NAME_RULE } else { HEADER_RULE },
     })
 }
 
@@ -117,7 +118,7 @@ fn comment(line: &str) -> Option<Correction> {
     Some(Correction {
         range: start..start + trimmed.len(),
         text: format!("# {words}").trim_end().to_owned(),
-        why: COMMENT,
+        why: COMMENT_RULE,
     })
 }
 
@@ -130,20 +131,20 @@ fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
         return None;
     }
     if is_toml(cut) {
-        return Some((cut.to_owned(), ENTRY));
+        return Some((cut.to_owned(), ENTRY_RULE));
     }
     if let Some((number, unit)) = units::quantity(cut) {
-        return Some((units::converted(number, unit, unit_of_key(key).unwrap_or(""))?, UNIT));
+        return Some((units::converted(number, unit, unit_of_key(key).unwrap_or(""))?, UNIT_RULE));
     }
     if let Some(number) = number(cut) {
-        return Some((number, POINT));
+        return Some((number, DECIMAL_POINT_RULE));
     }
     if let Some(number) = units::percentage(cut) {
-        return Some((number, PERCENT));
+        return Some((number, PERCENT_RULE));
     }
     match cut.to_ascii_lowercase().as_str() {
-        "true" | "yes" | "on" => return Some(("true".to_owned(), BOOLEAN)),
-        "false" | "no" | "off" => return Some(("false".to_owned(), BOOLEAN)),
+        "true" | "yes" | "on" => return Some(("true".to_owned(), BOOLEAN_RULE)),
+        "false" | "no" | "off" => return Some(("false".to_owned(), BOOLEAN_RULE)),
         _ => {}
     }
     for (open, close) in [('[', ']'), ('(', ')'), ('<', '>'), ('{', '}')] {
@@ -152,7 +153,7 @@ fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
             let better = if is_table { table(inner) } else { list(inner, key) };
             // If the brackets and commas are right, the fault is in an item.
             let better = better.map(|(text, why)| match open {
-                '[' if why == LIST => (text, why_of_item(inner, key).unwrap_or(why)),
+                '[' if why == LIST_RULE => (text, why_of_item(inner, key).unwrap_or(why)),
                 _ => (text, why),
             });
             // The result must be valid TOML: a formula such as `(1 + 2) * (3 + 4)` begins and ends like a list.
@@ -174,7 +175,8 @@ fn value(raw: &str, key: &str) -> Option<CorrectedValue> {
         text.starts_with(|c: char| c.is_alphabetic() || matches!(c, '#' | '/')) && text.chars().all(is_part)
     };
     let is_formula = || Formula::parse(cut).is_ok();
-    (!cut.contains(['"', '\\']) && (is_word(cut) || is_formula())).then(|| (format!("\"{cut}\""), QUOTES))
+    (!cut.contains(['"', '\\']) && (is_word(cut) || is_formula()))
+        .then(|| (format!("\"{cut}\""), QUOTES_RULE))
 }
 
 /// Rewrites a number that is not valid TOML, such as `.5`, `5.`, `0,5` or `007`.
@@ -225,13 +227,13 @@ pub(in crate::scene) fn list(inner: &str, key: &str) -> Option<CorrectedValue> {
         && spaced.iter().all(decimal)
         && spaced.iter().any(|item| item.trim_end_matches(',').contains(','));
     let (items, why) = if !top_level(inner, &[';']).is_empty() {
-        (split(&[';']), LIST)
+        (split(&[';']), LIST_RULE)
     } else if has_decimal_commas {
-        (spaced, POINT)
+        (spaced, DECIMAL_POINT_RULE)
     } else if !top_level(inner, &[',']).is_empty() {
-        (split(&[',']), LIST)
+        (split(&[',']), LIST_RULE)
     } else {
-        (split(&[' ', '\t']), LIST)
+        (split(&[' ', '\t']), LIST_RULE)
     };
     let items: Vec<String> = corrected(items)?.into_iter().map(|(text, _)| text).collect();
     Some((format!("[{}]", items.join(", ")), why))
@@ -274,7 +276,7 @@ fn table(inner: &str) -> Option<CorrectedValue> {
         let (text, _) = value(raw, key.trim_matches(['"', '\'']))?;
         entries.push(format!("{key} = {text}"));
     }
-    Some((format!("{{ {} }}", entries.join(", ")), TABLE))
+    Some((format!("{{ {} }}", entries.join(", ")), INLINE_TABLE_RULE))
 }
 
 /// Returns the byte offsets of the characters `signs` that are outside of quotes and brackets.

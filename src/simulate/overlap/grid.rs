@@ -35,15 +35,16 @@ impl Cell {
     /// Hashes the cell together with the size class of the bodies and whether forces move them. Different inputs rarely have the same
     /// hash.
     pub(super) fn key(self, size: usize, moves: bool) -> u64 {
-        // Odd numbers with random-looking bits: the golden ratio and the square roots of 2, 3 and 5, each times 2⁶⁴, without the integer
-        // part.
-        const FACTORS: [u64; 4] =
+        /// Odd numbers with random-looking bits: the golden ratio and the square roots of 2, 3 and 5, each times 2⁶⁴, without the integer
+        /// part.
+        const HASH_FACTORS: [u64; 4] =
             [0x9E37_79B9_7F4A_7C15, 0x6A09_E667_F3BC_C909, 0xBB67_AE85_84CA_A73B, 0x3C6E_F372_FE94_F82B];
         let kind = 2 * size as u64 + u64::from(moves);
         let numbers = self.0.map(i64::cast_unsigned).into_iter().chain([kind]);
-        let sum =
-            numbers.zip(FACTORS).fold(0, |sum: u64, (n, factor)| sum.wrapping_add(n.wrapping_mul(factor)));
-        (sum ^ (sum >> 32)).wrapping_mul(FACTORS[0])
+        let sum = numbers
+            .zip(HASH_FACTORS)
+            .fold(0, |sum: u64, (n, factor)| sum.wrapping_add(n.wrapping_mul(factor)));
+        (sum ^ (sum >> 32)).wrapping_mul(HASH_FACTORS[0])
     }
 }
 
@@ -52,20 +53,21 @@ impl Cell {
 pub(super) struct Grid {
     /// The last body in each slot of the hash table. A cell has one slot; several cells may share a slot.
     last: Vec<u32>,
-    /// For each body, the previous body in the same slot of the hash table, or `NONE`.
+    /// For each body, the previous body in the same slot of the hash table, or `NO_BODY`.
     before: Vec<u32>,
 }
 
 impl Grid {
-    const NONE: u32 = u32::MAX;
+    /// The mark that a slot of the hash table holds no further body.
+    const NO_BODY: u32 = u32::MAX;
 
     /// Refills the table: each body with a key goes to the slot of its cell.
     #[allow(clippy::cast_possible_truncation, reason = "a scene has at most a few million bodies")]
     pub(super) fn fill(&mut self, keys: impl ExactSizeIterator<Item = Option<u64>>) {
         let bodies = keys.len();
         self.last.clear();
-        self.last.resize((2 * bodies).next_power_of_two(), Grid::NONE);
-        self.before.resize(bodies, Grid::NONE);
+        self.last.resize((2 * bodies).next_power_of_two(), Grid::NO_BODY);
+        self.before.resize(bodies, Grid::NO_BODY);
         for (body, key) in keys.enumerate() {
             let Some(key) = key else { continue };
             let place = self.place(key);
@@ -76,7 +78,7 @@ impl Grid {
     /// Calls `show` for the bodies in a cell, and for the bodies of other cells that share its slot.
     pub(super) fn each(&self, key: u64, mut show: impl FnMut(usize)) {
         let mut next = self.last[self.place(key)];
-        while next != Grid::NONE {
+        while next != Grid::NO_BODY {
             show(next as usize);
             next = self.before[next as usize];
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::super::Frame;
 use super::grid::{Cell, Grid};
-use super::{DEEP, parts};
+use super::{OVERLAP_TOLERANCE, parts};
 use crate::scene::Scene;
 
 /// A body that is watched for overlaps.
@@ -56,7 +56,7 @@ impl Near {
             let moves = !body.start.fixed && body.motion.is_none();
             let none = Size { level, edge: 0.0, has_moving: false, has_resting: false };
             let size = levels.entry(level).or_insert(none);
-            size.edge = size.edge.max(2.0 * (1.0 + DEEP) * radius);
+            size.edge = size.edge.max(2.0 * (1.0 + OVERLAP_TOLERANCE) * radius);
             size.has_moving |= moves;
             size.has_resting |= !moves;
             bodies.push((Watched { id, radius, size: 0, moves }, level));
@@ -98,7 +98,7 @@ impl Near {
             let Some(here) = frame.body(body.id).map(|body| body.location) else { continue };
             let mut look = |j: usize| {
                 let other = &self.bodies[j];
-                let reach = (body.radius + other.radius) * (1.0 + DEEP);
+                let reach = (body.radius + other.radius) * (1.0 + OVERLAP_TOLERANCE);
                 let Some(there) = frame.body(other.id) else { return };
                 let square = (there.location - here).length_squared();
                 // A slot may contain bodies of unrelated cells, and the searching body itself.

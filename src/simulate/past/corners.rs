@@ -7,14 +7,14 @@ use crate::physics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
 /// The largest number of impacts between two points of a trail. More corners would be too close together to be seen.
-pub(super) const MOST: usize = 4;
+pub(super) const MAX_CORNER_IMPACTS: usize = 4;
 
 /// The time (s) and the state of a body at that time.
 pub(super) type At = (f64, BodySnapshot);
 
 /// Computes the points of a trail at the impacts between two moments. Each impact gives two points at one place, with the velocities
 /// before and after the impact. `impulse` returns the impulse of an impact on the body, N s. Returns no points if there are more than
-/// [`MOST`] impacts.
+/// [`MAX_CORNER_IMPACTS`] impacts.
 ///
 /// An impact has a time, but no position of the body's center. The path is therefore computed forward from the first moment and backward
 /// from the second, with a constant acceleration and the velocity jumps of the impacts. The result is exact under a constant force.
@@ -22,7 +22,8 @@ pub(super) fn between(
     (before, after): (&At, &At),
     impacts: &[Impact],
     impulse: impl Fn(&Impact) -> DVec3,
-    (mass, trail): (f64, Trail),
+    mass: f64,
+    trail: Trail,
 ) -> Vec<TrailPoint> {
     let mut hits: Vec<(f64, DVec3)> = Vec::new();
     for impact in impacts {
@@ -35,7 +36,7 @@ pub(super) fn between(
             None => hits.push((impact.time, jump)),
         }
     }
-    if hits.len() > MOST {
+    if hits.len() > MAX_CORNER_IMPACTS {
         return Vec::new();
     }
     let mut flight = Flight::of(before, mass, trail);

@@ -91,7 +91,7 @@ pub(super) fn stride(trail: Trail, interval: f64, frame: usize) -> usize {
 pub(super) fn thin(path: &mut Vec<(usize, TrailPoint)>) {
     let mut kept = Vec::with_capacity(path.len());
     for run in path.chunk_by(|a, b| a.1.frame.is_none() && b.1.frame.is_none()) {
-        if run[0].1.frame.is_some() || run.len() <= 2 * corners::MOST {
+        if run[0].1.frame.is_some() || run.len() <= 2 * corners::MAX_CORNER_IMPACTS {
             kept.extend_from_slice(run);
         }
     }

@@ -35,26 +35,26 @@ use crate::physics::Accounts;
 use crate::scene::Scene;
 
 /// The number of floating-point values in the header of a moment, before the bodies.
-const HEAD: usize = 14 + Accounts::NAMES.len();
+const NUMBERS_PER_HEADER: usize = 14 + Accounts::NAMES.len();
 /// The number of values that describe a body.
-const NUMBERS: usize = 16;
+const NUMBERS_PER_BODY: usize = 16;
 /// The index of the first value of each column of a body, and the end of the last column.
-const COLUMNS: [usize; 6] = [0, 3, 7, 10, 13, NUMBERS];
+const BODY_COLUMNS: [usize; 6] = [0, 3, 7, 10, 13, NUMBERS_PER_BODY];
 /// The mask of an absent body.
-const ABSENT: u8 = 0x80;
+const ABSENT_BODY_MASK: u8 = 0x80;
 /// The frame number of a moment between frames.
 const NO_FRAME: u32 = u32::MAX;
 
-const AT_REST: [f64; NUMBERS] = {
-    let mut numbers = [0.0; NUMBERS];
+const AT_REST: [f64; NUMBERS_PER_BODY] = {
+    let mut numbers = [0.0; NUMBERS_PER_BODY];
     numbers[6] = 1.0;
     numbers
 };
 
 /// The index of the first value of each column of a joint, and the end of the last column.
-const JOINT_COLUMNS: [usize; 5] = [0, 3, 6, 7, JOINT_NUMBERS];
+const JOINT_COLUMNS: [usize; 5] = [0, 3, 6, 7, NUMBERS_PER_JOINT];
 /// The number of values that describe a joint: force, torque, effort of the motor, angle.
-const JOINT_NUMBERS: usize = 8;
+const NUMBERS_PER_JOINT: usize = 8;
 
 /// The start and the end of the single column of an impact count.
 const COUNT_COLUMNS: [usize; 2] = [0, 1];

@@ -23,9 +23,9 @@ pub use codec::Counts;
 pub use store::{MemoryStore, Store};
 
 /// The number of moments after which a page is full.
-const MOMENTS: usize = 32;
-/// The number of bytes after which a page is full.
-const BYTES: usize = 1 << 20;
+const MOMENTS_PER_PAGE: usize = 32;
+/// The number of bytes from which on a page is full.
+const FULL_PAGE_BYTES: usize = 1 << 20;
 
 /// All recorded moments of a run. One thread appends moments; any number of readers may read them.
 pub struct Recording {
@@ -92,7 +92,7 @@ impl Recording {
             contents.frames.push(u32_of(number));
         }
         contents.open.append(&mut bytes);
-        if number + 1 - contents.first >= MOMENTS || contents.open.len() >= BYTES {
+        if number + 1 - contents.first >= MOMENTS_PER_PAGE || contents.open.len() >= FULL_PAGE_BYTES {
             self.close_page(&mut contents, &mut encoder)?;
         }
         Ok(())

@@ -4,7 +4,7 @@ use super::*;
 use crate::simulate::ImpactCounts;
 
 /// The number of test frames, which fill more than two pages. Body 0 moves and body 1 rests.
-const FRAMES: usize = 2 * MOMENTS + 5;
+const FRAMES: usize = 2 * MOMENTS_PER_PAGE + 5;
 
 fn push(recording: &Recording, frame: usize) {
     let body = |id, x| BodySnapshot { id, location: DVec3::X * x, ..BodySnapshot::default() };

@@ -22,12 +22,14 @@ pub struct Corrected {
 impl Corrected {
     /// Compares the velocities in the first frame with the scene. `None` if the joints changed no velocity.
     pub(super) fn find(scene: &Scene, frame: &Frame) -> Option<Corrected> {
-        // The relative tolerance: rounding errors are far smaller, and larger changes may be visible.
-        const NOTICEABLE: f64 = 1e-6;
+        /// The largest relative change of a velocity that counts as none. Rounding errors are far smaller, and larger changes may be
+        /// visible.
+        const RELATIVE_TOLERANCE: f64 = 1e-6;
         if scene.joints.is_empty() {
             return None;
         }
-        let differs = |now: DVec3, given: DVec3| now.distance(given) > NOTICEABLE * given.length().max(1e-3);
+        let differs =
+            |now: DVec3, given: DVec3| now.distance(given) > RELATIVE_TOLERANCE * given.length().max(1e-3);
         let is_other = |&&BodySnapshot { id, velocity, angular_velocity, .. }: &&BodySnapshot| {
             let body = &scene.bodies[id];
             let is_free = !body.start.fixed && body.motion.is_none();
@@ -55,8 +57,10 @@ impl Corrected {
 /// Sets the components of a vector to 0 that are rounding errors, compared with a speed of the same kind.
 fn without_rounding(vector: DVec3, speed: f64) -> DVec3 {
     /// The largest rounding error, relative to the speed.
-    const ROUNDING: f64 = 1e-12;
-    DVec3::from_array(vector.to_array().map(|part| if part.abs() <= ROUNDING * speed { 0.0 } else { part }))
+    const RELATIVE_ROUNDING: f64 = 1e-12;
+    DVec3::from_array(
+        vector.to_array().map(|part| if part.abs() <= RELATIVE_ROUNDING * speed { 0.0 } else { part }),
+    )
 }
 
 #[cfg(test)]

@@ -108,7 +108,7 @@ impl Falls {
             let Some(reach) = shape.support(body.orientation, -DVec3::Y) else { return false };
             let height = body.location.y - reach;
             if faller.highest == f64::NEG_INFINITY
-                && height < -ROUNDING * (body.location.y.abs() + reach.abs())
+                && height < -RELATIVE_ROUNDING * (body.location.y.abs() + reach.abs())
             {
                 // The body begins below height 0, which is no ground for it.
                 return false;
@@ -136,8 +136,8 @@ impl Falls {
     }
 }
 
-/// The largest rounding error of a height, relative to the coordinates of a body.
-const ROUNDING: f64 = 1e-9;
+/// The largest rounding error of a height, relative to the height of the body's location and its extent downwards.
+const RELATIVE_ROUNDING: f64 = 1e-9;
 
 impl Watched {
     /// Updates the plane with a frame. `free` are the bodies that forces move, and `come` those of them that appear in this frame. Sets
@@ -146,7 +146,8 @@ impl Watched {
         &mut self,
         scene: &Scene,
         frame: &Frame,
-        (free, come): (&[usize], &[&BodySnapshot]),
+        free: &[usize],
+        come: &[&BodySnapshot],
         crossed: &mut [bool],
     ) {
         let was_there =

@@ -5,7 +5,7 @@ use crate::physics::BodyId;
 use crate::scene::{Joint, JointKind, Scene};
 
 /// The largest gap at which a joint still counts as holding well, as a fraction of the size of the joint.
-const ALLOWED: f64 = 0.05;
+const MAX_RELATIVE_GAP: f64 = 0.05;
 
 /// The joint that gives way most, relative to its size, and when it does so.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl Gaps {
     /// Returns the joint that gave way most. `None` if no joint gave way too much.
     pub(super) fn finish(&self, scene: &Scene) -> Option<StretchedJoint> {
         let stretch = |joint: usize| self.largest[joint].0 / self.sizes[joint];
-        let stretched = || (0..self.sizes.len()).filter(|joint| stretch(*joint) > ALLOWED);
+        let stretched = || (0..self.sizes.len()).filter(|joint| stretch(*joint) > MAX_RELATIVE_GAP);
         let joint = stretched().max_by(|one, two| stretch(*one).total_cmp(&stretch(*two)))?;
         let (gap, time) = self.largest[joint];
         Some(StretchedJoint {

@@ -18,17 +18,17 @@ pub(super) type Handle = OwnedFd;
 
 /// On Linux, this opens folders that the user may pass through but not list.
 #[cfg(any(target_os = "linux", target_os = "android"))]
-const PASS: OFlags = OFlags::PATH;
+const FOLDER_OPEN_FLAGS: OFlags = OFlags::PATH;
 #[cfg(not(any(target_os = "linux", target_os = "android")))]
-const PASS: OFlags = OFlags::RDONLY;
+const FOLDER_OPEN_FLAGS: OFlags = OFlags::RDONLY;
 
 /// Opens a folder by its path. Links on the path are followed.
 pub(super) fn open_path(path: &Path) -> io::Result<Handle> {
-    Ok(fs::openat(CWD, path, PASS | OFlags::DIRECTORY | OFlags::CLOEXEC, Mode::empty())?)
+    Ok(fs::openat(CWD, path, FOLDER_OPEN_FLAGS | OFlags::DIRECTORY | OFlags::CLOEXEC, Mode::empty())?)
 }
 
 pub(super) fn open_folder(folder: &Handle, name: &OsStr) -> io::Result<Handle> {
-    let flags = PASS | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+    let flags = FOLDER_OPEN_FLAGS | OFlags::DIRECTORY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
     Ok(fs::openat(folder, name, flags, Mode::empty())?)
 }
 
@@ -78,7 +78,7 @@ pub(super) fn about(folder: &Handle, name: &OsStr) -> io::Result<About> {
 
 pub(super) fn names(folder: &Handle) -> io::Result<Vec<OsString>> {
     let mut names = Vec::new();
-    // A folder that was opened with `PASS` cannot be listed, so it is opened once more.
+    // A folder that was opened with `FOLDER_OPEN_FLAGS` cannot be listed, so it is opened once more.
     let listed =
         fs::openat(folder, ".", OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC, Mode::empty())?;
     for entry in fs::Dir::new(listed)? {

@@ -9,7 +9,7 @@ use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Node, Table, Value};
 
 /// The keys that other programs use for an end of a spring or a joint.
-const ENDS: [&str; 34] = [
+const END_KEYS: [&str; 34] = [
     "from",
     "to",
     "start",
@@ -48,7 +48,7 @@ const ENDS: [&str; 34] = [
 
 /// Returns whether other programs use this key for an end of a spring or a joint.
 pub(super) fn is_end(entry: &Entry) -> bool {
-    ENDS.contains(&entry.name.text.to_lowercase().as_str())
+    END_KEYS.contains(&entry.name.text.to_lowercase().as_str())
 }
 
 /// Reports keys that give the ends one by one, with a fix that replaces them by `between`. `None` if there are no such keys.

@@ -8,10 +8,10 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::TableSpec;
 use crate::scene::source::{Entry, Table, Value};
 
-/// The names of an acceleration of gravity in other programs.
-const NAMES: [&str; 4] = ["gravity", "g", "gravitational_acceleration", "weight"];
+/// The keys that other programs use for the acceleration of gravity.
+const GRAVITY_KEYS: [&str; 4] = ["gravity", "g", "gravitational_acceleration", "weight"];
 /// Further keys that people give to a force of gravity.
-const BESIDE: [&str; 12] = [
+const OTHER_GRAVITY_KEYS: [&str; 12] = [
     "type",
     "kind",
     "on",
@@ -25,8 +25,8 @@ const BESIDE: [&str; 12] = [
     "direction",
     "constant",
 ];
-/// The smallest number that is an acceleration, m/s². Newton's constant is far smaller.
-const SMALLEST: f64 = 1e-3;
+/// The smallest number that counts as an acceleration, m/s². Newton's constant is far smaller.
+const MIN_ACCELERATION: f64 = 1e-3;
 
 /// Returns the error for a force whose keys describe uniform gravity. `None` for other forces. `at` is the span of the force's name.
 pub(in crate::scene::check) fn gravity(
@@ -38,19 +38,21 @@ pub(in crate::scene::check) fn gravity(
 ) -> Option<Diagnostic> {
     let at = at.filter(|_| spec.noun == "a force")?;
     let name = |entry: &Entry| entry.name.text.to_lowercase();
-    let is_number = |entry: &Entry| entry.node.as_number().is_some_and(|number| number.abs() >= SMALLEST);
+    let is_number =
+        |entry: &Entry| entry.node.as_number().is_some_and(|number| number.abs() >= MIN_ACCELERATION);
     let is_value = |entry: &Entry| match &entry.node.value {
         Value::Boolean(is_on) => *is_on,
         Value::Array(items) => items.iter().all(|item| item.as_number().is_some()),
         _ => is_number(entry),
     };
-    let is_gravity = |entry: &Entry| NAMES.contains(&name(entry).as_str()) && is_value(entry);
+    let is_gravity = |entry: &Entry| GRAVITY_KEYS.contains(&name(entry).as_str()) && is_value(entry);
     let is_word = |entry: &Entry| {
         let word = entry.node.as_str().map(str::to_lowercase);
         matches!(name(entry).as_str(), "type" | "kind")
             && matches!(word.as_deref(), Some("gravity" | "uniform_gravity" | "uniform-gravity" | "weight"))
     };
-    let is_beside = |entry: &Entry| BESIDE.contains(&name(entry).as_str()) && entry.node.as_table().is_none();
+    let is_beside =
+        |entry: &Entry| OTHER_GRAVITY_KEYS.contains(&name(entry).as_str()) && entry.node.as_table().is_none();
     let marks = |entry: &&Entry| is_gravity(entry) || is_word(entry);
     let mark = table.entries.iter().find(marks)?;
     if !table.entries.iter().all(|entry| is_gravity(entry) || is_beside(entry)) {

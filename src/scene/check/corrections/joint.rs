@@ -9,13 +9,15 @@ use crate::scene::grammar::{Collection, Kind, SCENE, TableSpec};
 use crate::scene::source::{Entry, Node, Table, Value};
 
 /// The words that other programs use for an end of a joint that is fixed in the world.
-const WORLD: [&str; 10] =
+const WORLD_NAMES: [&str; 10] =
     ["world", "ground", "origin", "ceiling", "wall", "space", "fixed", "static", "anchor", "none"];
 
 /// Corrects the limits of a joint: `limits = 45` or `limits = { min = -45, max = 45 }` becomes `[-45, 45]`.
 pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
-    const LOWEST: [&str; 6] = ["min", "low", "lower", "minimum", "from", "lo"];
-    const HIGHEST: [&str; 6] = ["max", "high", "upper", "maximum", "to", "hi"];
+    /// The keys that other programs use for the lower limit.
+    const LOWER_LIMIT_KEYS: [&str; 6] = ["min", "low", "lower", "minimum", "from", "lo"];
+    /// The keys that other programs use for the upper limit.
+    const UPPER_LIMIT_KEYS: [&str; 6] = ["max", "high", "upper", "maximum", "to", "hi"];
     let both = |one: &Node| {
         let size = raw(one.span, context).trim_start_matches(['-', '+']);
         one.as_number().map(|_| format!("[-{size}, {size}]"))
@@ -27,7 +29,7 @@ pub(super) fn limits(node: &Node, context: &Context<'_>) -> Option<String> {
         },
         // A fix at this span cannot replace a table that has its own header, so require an inline table.
         Value::Table(table) if raw(node.span, context).starts_with('{') => {
-            let [low, high] = [find(table, &LOWEST)?, find(table, &HIGHEST)?];
+            let [low, high] = [find(table, &LOWER_LIMIT_KEYS)?, find(table, &UPPER_LIMIT_KEYS)?];
             Some(format!("[{}, {}]", raw(low.node.span, context), raw(high.node.span, context)))
         }
         _ => both(node),
@@ -86,7 +88,7 @@ pub(super) fn motor_value(table: &Table, spec: &TableSpec) -> Option<String> {
 pub(super) fn world(error: &Diagnostic, node: &Node, kind: &Kind) -> Option<Diagnostic> {
     let Kind::Either(kinds) = kind else { return None };
     let is_point = |kind: &Kind| matches!(kind, Kind::Numbers(3, _));
-    let is_world = WORLD.contains(&node.as_str()?.to_lowercase().as_str());
+    let is_world = WORLD_NAMES.contains(&node.as_str()?.to_lowercase().as_str());
     let takes_points = kind.names(Collection::Body) && kinds.iter().any(is_point);
     (is_world && takes_points && error.code == Code::UnknownName).then(|| {
         Diagnostic { labels: Vec::new(), help: None, fix: None, ..error.clone() }

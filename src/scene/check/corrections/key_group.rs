@@ -2,7 +2,7 @@
 
 use super::super::Context;
 use super::kind::MeantKind;
-use super::launch::{ANGLES, SPEEDS, by_angle, find};
+use super::launch::{ANGLE_KEYS, SPEED_KEYS, by_angle, find};
 use super::text::{operand, raw, removal, whole, whole_line};
 use super::{ends, joint, key_of, quoted_and};
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -86,7 +86,7 @@ fn launch(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) ->
     if table.get(key).is_some() {
         return None;
     }
-    let (speed, angle) = (find(table, &SPEEDS)?, find(table, &ANGLES)?);
+    let (speed, angle) = (find(table, &SPEED_KEYS)?, find(table, &ANGLE_KEYS)?);
     let line = format!("{key} = {}", by_angle(table, context)?);
     joined(&[speed, angle], key, "`velocity` is a vector", line, path, context)
 }
@@ -125,8 +125,11 @@ fn size(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> O
 
 /// Corrects a number of timesteps or frames: computes the timestep or the frame rate from that number and the duration.
 fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
-    const STEPS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
-    const FRAMES: [&str; 5] = ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
+    /// The keys that other programs use for the number of timesteps.
+    const STEP_COUNT_KEYS: [&str; 5] = ["steps", "n_steps", "num_steps", "nsteps", "number_of_steps"];
+    /// The keys that other programs use for the number of frames.
+    const FRAME_COUNT_KEYS: [&str; 5] =
+        ["frames", "n_frames", "num_frames", "frame_count", "number_of_frames"];
     let duration = spec.key("duration").filter(|_| spec.key("integrator").is_some())?.name;
     let number = |entry: &Entry| entry.node.as_number().filter(|number| *number > 0.0);
     let duration = match table
@@ -137,7 +140,7 @@ fn rates(table: &Table, spec: &'static TableSpec, path: &str, context: &Context<
         Some(entry) => number(entry)?,
         None => 10.0,
     };
-    let (entry, key, rate) = match (find(table, &STEPS), find(table, &FRAMES)) {
+    let (entry, key, rate) = match (find(table, &STEP_COUNT_KEYS), find(table, &FRAME_COUNT_KEYS)) {
         (Some(steps), _) => (steps, "step", duration / number(steps)?),
         (None, Some(frames)) if duration > 0.0 => (frames, "frame_rate", number(frames)? / duration),
         _ => return None,
@@ -185,12 +188,15 @@ fn value(entry: &Entry, context: &Context<'_>) -> Option<String> {
 
 /// Replaces a drag coefficient, an area and a density of the air by the key `quadratic` of a drag force.
 fn drag(table: &Table, spec: &TableSpec, path: &str, context: &Context<'_>) -> Option<KeyGroup> {
-    const COEFFICIENTS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
-    const AREAS: [&str; 4] = ["area", "A", "cross_section", "S"];
-    const DENSITIES: [&str; 4] = ["density", "rho", "air_density", "fluid_density"];
+    /// The keys that other programs use for the drag coefficient.
+    const COEFFICIENT_KEYS: [&str; 5] = ["Cd", "cd", "cw", "C_d", "drag_coefficient"];
+    /// The keys that other programs use for the area of the cross section.
+    const AREA_KEYS: [&str; 4] = ["area", "A", "cross_section", "S"];
+    /// The keys that other programs use for the density of the air.
+    const DENSITY_KEYS: [&str; 4] = ["density", "rho", "air_density", "fluid_density"];
     let key = spec.key("quadratic").filter(|key| table.get(key.name).is_none())?.name;
-    let (coefficient, area) = (find(table, &COEFFICIENTS)?, find(table, &AREAS)?);
-    let density = find(table, &DENSITIES);
+    let (coefficient, area) = (find(table, &COEFFICIENT_KEYS)?, find(table, &AREA_KEYS)?);
+    let density = find(table, &DENSITY_KEYS);
     let mut entries = vec![coefficient, area];
     entries.extend(density);
     entries.sort_by_key(|entry| entry.name.span);

@@ -40,7 +40,8 @@ const SLOW_MOTION: &[&str] = &[
     "time_scale",
     "timescale",
 ];
-const SLOWER: &str = "a film is slow if it shows fewer frames per second than the scene has: with `frame_rate = 100` in \
+/// The help text for the words of [`SLOW_MOTION`].
+const SLOW_MOTION_HELP: &str = "a film is slow if it shows fewer frames per second than the scene has: with `frame_rate = 100` in \
                       [simulation] and `video_rate = 25` in [output], it runs at a quarter of the speed";
 
 static NOT_BUILT: &[NotBuilt] = &[
@@ -188,9 +189,27 @@ static NOT_BUILT: &[NotBuilt] = &[
         comes_with: "",
         is_removable: true,
     },
-    NotBuilt { of: "a scene", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
-    NotBuilt { of: "the simulation", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
-    NotBuilt { of: "the output", words: SLOW_MOTION, help: SLOWER, comes_with: "", is_removable: false },
+    NotBuilt {
+        of: "a scene",
+        words: SLOW_MOTION,
+        help: SLOW_MOTION_HELP,
+        comes_with: "",
+        is_removable: false,
+    },
+    NotBuilt {
+        of: "the simulation",
+        words: SLOW_MOTION,
+        help: SLOW_MOTION_HELP,
+        comes_with: "",
+        is_removable: false,
+    },
+    NotBuilt {
+        of: "the output",
+        words: SLOW_MOTION,
+        help: SLOW_MOTION_HELP,
+        comes_with: "",
+        is_removable: false,
+    },
     NotBuilt {
         of: "the output",
         words: &["quality", "antialias", "antialiasing"],

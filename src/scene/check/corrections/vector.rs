@@ -92,10 +92,12 @@ fn by_component(table: &Table, context: &Context<'_>) -> Option<String> {
 
 /// Returns the vector of a table with a direction and a magnitude, such as `{ axis = [0, 1, 0], rate = 100 }`.
 fn by_axis(table: &Table, unit: &str) -> Option<String> {
-    const SIZES: [&str; 8] = ["rate", "speed", "omega", "magnitude", "value", "size", "w", "strength"];
+    /// The keys for the magnitude.
+    const MAGNITUDE_KEYS: [&str; 8] =
+        ["rate", "speed", "omega", "magnitude", "value", "size", "w", "strength"];
     let [one, two] = table.entries.as_slice() else { return None };
     let (axis, size) = if &*one.name.text == "axis" { (one, two) } else { (two, one) };
-    if !matches!(&*axis.name.text, "axis" | "direction") || !SIZES.contains(&&*size.name.text) {
+    if !matches!(&*axis.name.text, "axis" | "direction") || !MAGNITUDE_KEYS.contains(&&*size.name.text) {
         return None;
     }
     let size = match size.node.as_str() {

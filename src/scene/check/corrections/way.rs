@@ -119,7 +119,8 @@ pub(super) fn key_in_other_table(
 
 /// Returns the key of `[simulation]` with this name. `None` for ambiguous names from other programs, such as `length` and `rate`.
 fn of_simulation(word: &str) -> Option<&'static KeySpec> {
-    const PLAIN: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
+    /// The names from other programs that mean only a key of `[simulation]`.
+    const UNAMBIGUOUS_KEYS: [&str; 5] = ["fps", "dt", "timestep", "time_step", "solver"];
     let key = key_of(word, SCENE.key("simulation")?.kind.table()?)?;
-    (key.name == word || PLAIN.contains(&word)).then_some(key)
+    (key.name == word || UNAMBIGUOUS_KEYS.contains(&word)).then_some(key)
 }

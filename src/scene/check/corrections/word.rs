@@ -2,7 +2,8 @@
 
 /// Returns the word in `words` that corresponds to a word from another program. `None` if no word corresponds.
 pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> Option<&'a str> {
-    const OTHERS: [(&str, &[&str]); 21] = [
+    /// Each word of the scene language, with the words for it in other programs.
+    const WORD_SYNONYMS: [(&str, &[&str]); 21] = [
         ("rk4", &["rk", "rk-4", "runge-kutta", "runge-kutta-4"]),
         ("dop853", &["rk45", "ode45", "dopri5", "dopri", "rk8", "dormand-prince", "adaptive", "lsoda"]),
         ("gauss-radau", &["ias15", "radau", "gauss-radau-15", "everhart", "radau15", "ra15"]),
@@ -28,7 +29,7 @@ pub(in crate::scene::check) fn other_word<'a>(word: &str, words: &[&'a str]) -> 
     let folded = word.trim().to_lowercase().replace([' ', '_'], "-");
     let known = |name: &str| words.iter().find(|known| **known == name).copied();
     known(&folded).or_else(|| {
-        let mut meant = OTHERS.iter().filter(|(_, others)| others.contains(&folded.as_str()));
+        let mut meant = WORD_SYNONYMS.iter().filter(|(_, others)| others.contains(&folded.as_str()));
         meant.find_map(|(name, _)| known(name))
     })
 }

@@ -14,10 +14,10 @@ use crate::scene::expression::ExpressionError;
 use crate::scene::law::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 
 /// The maximum number of bodies for which a formula is evaluated in the initial state.
-const SEEN: usize = 1000;
+const MAX_CHECKED_BODIES: usize = 1000;
 /// The largest accepted difference between a force and minus the gradient of its potential, relative to the larger of the two. Derivatives
 /// are exact except for rounding errors, which grow where terms cancel.
-const TOLERANCE: f64 = 1e-6;
+const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// The values of the [`QUANTITIES`] for one body, in the same order.
 type Quantities = [f64; QUANTITIES.len()];
@@ -53,7 +53,7 @@ impl Reader<'_, '_> {
             let body = &bodies[body.index()];
             body.motion.is_none() && !body.start.fixed && body.presence.at(0.0)
         };
-        for id in on.iter().filter(is_there).take(SEEN) {
+        for id in on.iter().filter(is_there).take(MAX_CHECKED_BODIES) {
             let start = &bodies[id.index()].start;
             let here = quantities(start.location, start.velocity, start.mass, start.charge, 0.0);
             if let Some((formula, error)) = law.explain(&here) {
@@ -88,7 +88,7 @@ impl Reader<'_, '_> {
             }
             is_compared = true;
             let (off, most) = (force - gradient, force.length().max(gradient.length()));
-            if off.length() <= TOLERANCE * most {
+            if off.length() <= RELATIVE_TOLERANCE * most {
                 continue;
             }
             let axis = (0..3).max_by(|a, b| off[*a].abs().total_cmp(&off[*b].abs())).unwrap_or(0);
@@ -125,7 +125,7 @@ impl Reader<'_, '_> {
     fn places(&self, law: &FormulaLaw, on: &[BodyId]) -> Vec<Quantities> {
         /// The direction and the length of the offset from the body to each sample point. Lengths are relative to the body's distance from
         /// the origin.
-        const STEPS: [([f64; 3], f64); 6] = [
+        const SAMPLE_OFFSETS: [([f64; 3], f64); 6] = [
             ([0.618, -0.414, 0.732], 0.001),
             ([-0.577, 0.693, 0.302], 0.03),
             ([0.841, 0.540, -0.271], 0.3),
@@ -133,8 +133,9 @@ impl Reader<'_, '_> {
             ([0.416, 0.279, 0.909], 1.0),
             ([-0.731, -0.163, -0.682], 1.0),
         ];
-        const BODIES: usize = 50;
-        let starts = on.iter().take(BODIES).map(|id| {
+        /// The maximum number of bodies around which points are sampled. The same limit applies to emitters.
+        const MAX_SAMPLED_BODIES: usize = 50;
+        let starts = on.iter().take(MAX_SAMPLED_BODIES).map(|id| {
             let start = &self.bodies[id.index()].start;
             (start.location, start.mass, start.charge)
         });
@@ -142,10 +143,10 @@ impl Reader<'_, '_> {
         let end = self.simulation.timeline.end();
         let times: &[f64] = if law.depends_on_time() { &[0.0, 0.37, 0.91] } else { &[0.0] };
         let mut places = Vec::new();
-        for (location, mass, charge) in starts.chain(particles.take(BODIES)) {
+        for (location, mass, charge) in starts.chain(particles.take(MAX_SAMPLED_BODIES)) {
             let far = location.length();
             let far = if far > 0.0 { far } else { 1.0 };
-            for (step, distance) in STEPS {
+            for (step, distance) in SAMPLE_OFFSETS {
                 let place = location + far * distance * DVec3::from_array(step);
                 let at = |time: &f64| quantities(place, DVec3::ZERO, mass, charge, time * end);
                 places.extend(times.iter().map(at));

@@ -22,17 +22,19 @@ struct Words {
     value: &'static str,
 }
 
-const TURNING: Words =
+/// The words for a joint whose coordinate is an angle.
+const ANGLE_WORDS: Words =
     Words { unit: std::f64::consts::PI / 180.0, symbol: "°", strength: "torque", value: "angle" };
-const MOVING: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
+/// The words for a joint whose coordinate is a distance.
+const DISTANCE_WORDS: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
 
 /// A full turn, in degrees.
-const TURN: f64 = 360.0;
+const FULL_TURN: f64 = 360.0;
 
 impl Reader<'_, '_> {
     /// Reads the limits and the motor of a joint with one free coordinate. A motor with a stiffness is returned separately, as a servo.
     pub(super) fn freedom(&mut self, view: &View<'_>, coordinate: Coordinate) -> (Freedom, Option<Servo>) {
-        let words = if coordinate.is_angle() { &TURNING } else { &MOVING };
+        let words = if coordinate.is_angle() { &ANGLE_WORDS } else { &DISTANCE_WORDS };
         let limits = self.limits(view, words);
         let Some(motor) = view.variant("motor") else { return (Freedom { limits, motor: None }, None) };
         if let Some(value) = motor.timed(words.value) {
@@ -108,7 +110,7 @@ impl Reader<'_, '_> {
                     .to_owned(),
             );
         }
-        if words.symbol == "°" && high - low >= TURN {
+        if words.symbol == "°" && high - low >= FULL_TURN {
             return wrong(
                 format!("they are {}° apart, a turn or more", figure(high - low)),
                 "limits span less than 360°; without limits, a hinge turns as often as it likes".to_owned(),

@@ -20,11 +20,11 @@ use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, Simulatio
 
 /// The largest initial error of a joint's constraint that gives no warning, relative to the size of the joint. Rounding of coordinates
 /// with few digits causes larger errors.
-const NEARLY: f64 = 1e-9;
+const MAX_ERROR_WITHOUT_WARNING: f64 = 1e-9;
 
 /// The initial error of a joint's constraint above which the scene is rejected, relative to the size of the joint. Smaller errors give a
 /// warning.
-const TOO_FAR: f64 = 1e-3;
+const MAX_ERROR_WITHOUT_REJECTION: f64 = 1e-3;
 
 pub(super) fn read(
     root: &View<'_>,
@@ -73,11 +73,11 @@ fn about(length: f64) -> String {
 }
 
 /// The keys for the kinds of joints.
-const KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
+const JOINT_KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
 
 /// Returns the inner table for the kind of a joint, such as `hinge`. `None` if the joint has no kind.
 pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
-    KINDS.into_iter().find_map(|kind| joint.variant(kind))
+    JOINT_KINDS.into_iter().find_map(|kind| joint.variant(kind))
 }
 
 /// Reads the arrows that show the reaction force and the reaction torque of a joint.
@@ -215,12 +215,12 @@ impl Reader<'_, '_> {
     /// warning if it is small.
     fn fits(&mut self, missing: f64, size: f64, span: Span, what: &str) {
         let name = self.name;
-        if missing > TOO_FAR * size {
+        if missing > MAX_ERROR_WITHOUT_REJECTION * size {
             let message =
                 format!("the joint `{name}` does not hold at the start: {} m are missing", about(missing));
             let error = Diagnostic::error(Code::JointApart, message).at(span, what);
             self.context.diagnostics.push(error);
-        } else if missing > NEARLY * size {
+        } else if missing > MAX_ERROR_WITHOUT_WARNING * size {
             let message = format!(
                 "the joint `{name}` holds only nearly at the start: {} m are missing",
                 about(missing)

@@ -10,7 +10,7 @@ use crate::scene::source::Value;
 use crate::scene::{Joint, JointKind};
 
 /// The relative tolerance for a `length` that is shorter than the rope's initial length, such as a rounded number.
-const NEARLY: f64 = 1e-9;
+const LENGTH_TOLERANCE: f64 = 1e-9;
 
 impl Reader<'_, '_> {
     pub(super) fn rope(&mut self, view: &View<'_>) -> Option<Rope> {
@@ -62,7 +62,7 @@ impl Reader<'_, '_> {
     /// Reports a rope whose `length` is less than the initial length `needed`, m.
     fn reaches(&mut self, view: &View<'_>, needed: f64, what: &str, whose: &str) {
         let length = view.number("length").unwrap_or(needed);
-        if needed <= length * (1.0 + NEARLY) {
+        if needed <= length * (1.0 + LENGTH_TOLERANCE) {
             return;
         }
         let message =

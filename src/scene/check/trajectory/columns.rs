@@ -45,12 +45,16 @@ impl Columns {
 /// A column of numbers: its index, and the factor that converts its unit to SI units.
 pub(super) type Column = (usize, f64);
 
-/// The SI units of the quantities in columns. Empty for a quantity without a unit.
-pub(super) const TIME: &str = "s";
-pub(super) const LENGTH: &str = "m";
-pub(super) const VELOCITY: &str = "m/s";
-pub(super) const TURNING: &str = "rad/s";
-pub(super) const RATIO: &str = "";
+/// The SI unit of a time.
+pub(super) const TIME_UNIT: &str = "s";
+/// The SI unit of a length.
+pub(super) const LENGTH_UNIT: &str = "m";
+/// The SI unit of a velocity.
+pub(super) const VELOCITY_UNIT: &str = "m/s";
+/// The SI unit of an angular velocity.
+pub(super) const ANGULAR_VELOCITY_UNIT: &str = "rad/s";
+/// The empty unit of a quantity without a unit.
+pub(super) const NO_UNIT: &str = "";
 
 impl Reader<'_> {
     /// Returns the index and the unit of the column `name` in the file's header. The unit is empty if the header gives none.
@@ -77,8 +81,11 @@ impl Reader<'_> {
             self.missing(header, start, name);
             return None;
         };
-        let factor =
-            if unit.is_empty() || of == RATIO && unit == "1" { Some(1.0) } else { units::factor(&unit, of) };
+        let factor = if unit.is_empty() || of == NO_UNIT && unit == "1" {
+            Some(1.0)
+        } else {
+            units::factor(&unit, of)
+        };
         if factor.is_none() {
             let at = self.fields.field(start, i);
             self.error(Code::CsvUnit, format!("the unit `{unit}` is not known here"), at);

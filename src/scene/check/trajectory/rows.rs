@@ -6,7 +6,9 @@ use csv::StringRecord;
 use glam::{DQuat, DVec3};
 
 use super::Recording;
-use super::columns::{Column, Columns, LENGTH, RATIO, TIME, TURNING, VELOCITY};
+use super::columns::{
+    ANGULAR_VELOCITY_UNIT, Column, Columns, LENGTH_UNIT, NO_UNIT, TIME_UNIT, VELOCITY_UNIT,
+};
 use super::fields::Fields;
 use crate::diagnostic::Code;
 use crate::physics::Keyframe;
@@ -27,7 +29,7 @@ pub(super) struct Reader<'a> {
 }
 
 /// The maximum number of mistakes that are reported for one file.
-const SHOWN: usize = 20;
+const MAX_REPORTED_MISTAKES: usize = 20;
 
 impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str) -> Reader<'a> {
@@ -46,15 +48,16 @@ impl<'a> Reader<'a> {
             }
         };
         let start = header.position().map_or(0, |p| usize::try_from(p.byte()).unwrap_or(0));
-        let time = self.column(&header, start, &columns.time, TIME);
+        let time = self.column(&header, start, &columns.time, TIME_UNIT);
         let body = self.find(&header, &columns.body).map(|(i, _)| i);
         if columns.given[0] && body.is_none() {
             self.missing(&header, start, &columns.body);
         }
-        let location = self.columns(&header, start, &columns.location, LENGTH, true);
-        let orientation = self.columns(&header, start, &columns.orientation, RATIO, columns.given[1]);
-        let velocity = self.vector(&header, start, &columns.velocity, VELOCITY, columns.given[2]);
-        let turning = self.vector(&header, start, &columns.angular_velocity, TURNING, columns.given[3]);
+        let location = self.columns(&header, start, &columns.location, LENGTH_UNIT, true);
+        let orientation = self.columns(&header, start, &columns.orientation, NO_UNIT, columns.given[1]);
+        let velocity = self.vector(&header, start, &columns.velocity, VELOCITY_UNIT, columns.given[2]);
+        let turning =
+            self.vector(&header, start, &columns.angular_velocity, ANGULAR_VELOCITY_UNIT, columns.given[3]);
         let (Some(time), Some(location)) = (time, location) else { return None };
         if !self.wrong.is_empty() {
             return None;
@@ -89,7 +92,7 @@ impl<'a> Reader<'a> {
                 Some(columns) => self.orientation(&record, start, columns),
                 None => Some(DQuat::IDENTITY),
             };
-            if self.wrong.len() >= SHOWN {
+            if self.wrong.len() >= MAX_REPORTED_MISTAKES {
                 break;
             }
             let (Some(time), Some(location), Some(orientation)) = (time, place, turned) else { continue };
@@ -166,7 +169,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn error(&mut self, code: Code, message: String, at: Range<usize>) {
-        if self.wrong.len() < SHOWN {
+        if self.wrong.len() < MAX_REPORTED_MISTAKES {
             self.wrong.push(Wrong { code, message, at, label: String::new(), help: None });
         }
     }

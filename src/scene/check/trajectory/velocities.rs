@@ -7,39 +7,42 @@
 //! rows, d. Honest data of a smooth motion is never refused:
 //!
 //! - An oscillation that is sampled n times per period has q / d = (π / n) / tan(π / n): 0.91 for 6 rows, and 0.60 for 3. This is more than
-//!   1 / [`RATIO`]. An error in the unit is a factor of 1.94 (knots) or more, and of 1.76 or more with 6 rows per period.
-//! - An impact between two rows changes q and d by any factor. An interval with an impact adds at most q² / (4 `RATIO`) to the evidence
-//!   Σ (q d − `RATIO` d²), from which every other one takes (`RATIO` − 1) d². Even if half of the intervals have impacts, the sum is negative.
-//!   Where d lies between h v₀ and h v₁, an impact explains the interval. Such intervals alone are no evidence.
-//! - Noise of the velocities that is independent of the places does not change the mean of q d − `RATIO` d², and noise of the places does
-//!   not change that of q d − `RATIO` q². The sums must exceed their standard errors several times.
+//!   1 / r, where r is [`MAX_VELOCITY_RATIO`]. An error in the unit is a factor of 1.94 (knots) or more, and of 1.76 or more with 6 rows per
+//!   period.
+//! - An impact between two rows changes q and d by any factor. An interval with an impact adds at most q² / (4 r) to the evidence
+//!   Σ (q d − r d²), from which every other one takes (r − 1) d². Even if half of the intervals have impacts, the sum is negative. Where d
+//!   lies between h v₀ and h v₁, an impact explains the interval. Such intervals alone are no evidence.
+//! - Noise of the velocities that is independent of the places does not change the mean of q d − r d², and noise of the places does not
+//!   change that of q d − r q². The sums must exceed their standard errors several times.
 //! - If q and d have little to do with each other, one of them is noise or wrong. White noise has no correlation from row to row, and
 //!   differences of places with white noise have a negative one. So if places and velocities both change smoothly, both are signals.
-//!   Noise then leaves their ratio between 1 / `RATIO` and `RATIO`, and their correlation above [`ALIKE`].
+//!   Noise then leaves their ratio between 1 / r and r, and their correlation above [`MIN_CORRELATION`].
 
 use glam::{DQuat, DVec3};
 
 use crate::physics::Keyframe;
 
 /// The largest ratio of velocities and differences of rows, in either direction, that is no contradiction.
-const RATIO: f64 = 1.75;
+const MAX_VELOCITY_RATIO: f64 = 1.75;
 /// The smallest correlation of smooth velocities and smooth differences of rows that is no contradiction.
-const ALIKE: f64 = 0.25;
+const MIN_CORRELATION: f64 = 0.25;
 /// Changes are smooth if the correlation of neighboring rows exceeds this by 1.2 / √n for n intervals.
-const SMOOTH: f64 = 0.4;
-/// The largest correlation of neighboring rows that is asked of a few rows.
-const VERY_SMOOTH: f64 = 0.95;
+const MIN_SMOOTHNESS: f64 = 0.4;
+/// The correlation of neighboring rows from which on changes are smooth, however few the rows are.
+const MAX_REQUIRED_SMOOTHNESS: f64 = 0.95;
 /// An axis counts only if the motion along it is more than this part of the whole motion.
-const SLIGHT: f64 = 0.3;
-/// The tolerance for differences that an impact explains, as a part of the velocities.
-const EXPLAINED: f64 = 0.1;
+const MIN_AXIS_FRACTION: f64 = 0.3;
+/// The tolerance for differences that an impact explains, as a fraction of the velocities.
+const IMPACT_TOLERANCE: f64 = 0.1;
 /// The number of standard errors by which the evidence must exceed what is allowed.
-const SIGMAS: f64 = 5.0;
-/// Of a few intervals, noise may change the ratio by more: n intervals may differ by the factor `RATIO` (1 + `FEW` / n²).
-const FEW: f64 = 5.0;
-/// Fewer intervals than this show no velocities that are too small, and fewer than [`ENOUGH`] no changes that are unlike each other.
-const SOME: f64 = 3.0;
-const ENOUGH: f64 = 5.0;
+const REQUIRED_STANDARD_ERRORS: f64 = 5.0;
+/// If there are few intervals, noise may change the ratio by more: n intervals may differ by the factor
+/// [`MAX_VELOCITY_RATIO`] (1 + `SHORT_DATA_ALLOWANCE` / n²).
+const SHORT_DATA_ALLOWANCE: f64 = 5.0;
+/// With fewer intervals, velocities never count as too small.
+const MIN_INTERVALS_IF_SLOW: f64 = 3.0;
+/// With fewer intervals, smooth changes never count as unlike each other.
+const MIN_INTERVALS_IF_UNLIKE: f64 = 5.0;
 /// Rotations between rows by a larger angle are not compared, rad: a recording may have rotated by any number of turns more.
 const LARGEST_ANGLE: f64 = 2.0;
 
@@ -106,7 +109,7 @@ fn find(intervals: &[Interval], also_unlike: bool) -> Option<Contradiction> {
     let whole: f64 = intervals.iter().map(|interval| interval.way.length_squared()).sum();
     let axis = (0..3).find(|&axis| {
         let sums = Sums::of(intervals, axis);
-        let slight = SLIGHT * SLIGHT * whole;
+        let slight = MIN_AXIS_FRACTION * MIN_AXIS_FRACTION * whole;
         sums.differ(slight) || also_unlike && sums.are_unlike(slight)
     })?;
     let off = |interval: &&Interval| {
@@ -147,7 +150,7 @@ impl Sums {
             let (h, d) = (interval.h, interval.way[axis]);
             let [one, two] = interval.ends.map(|end| end[axis]);
             let q = 0.5 * h * (one + two);
-            let margin = EXPLAINED * h * one.abs().max(two.abs());
+            let margin = IMPACT_TOLERANCE * h * one.abs().max(two.abs());
             let is_explained = (h * one.min(two) - margin..=h * one.max(two) + margin).contains(&d);
             for (k, term) in [q * d, q * q, d * d].into_iter().enumerate() {
                 all[k] += term;
@@ -168,7 +171,7 @@ impl Sums {
 
     /// The largest ratio of velocities and differences of rows that is no contradiction.
     fn most(&self) -> f64 {
-        RATIO * (1.0 + FEW / (self.n * self.n))
+        MAX_VELOCITY_RATIO * (1.0 + SHORT_DATA_ALLOWANCE / (self.n * self.n))
     }
 
     /// Returns true if velocities and differences of rows are proportional to each other, by another factor than 1.
@@ -179,21 +182,24 @@ impl Sums {
             let freedom = (n - 1.0).max(1.0);
             let error =
                 ((own * other - qd * qd).max(0.0) / freedom).sqrt() * (1.0 + 10.0 / (freedom * freedom));
-            own > slight && qd - self.most() * other > SIGMAS * error && qd_of > self.most() * other_of
+            own > slight
+                && qd - self.most() * other > REQUIRED_STANDARD_ERRORS * error
+                && qd_of > self.most() * other_of
         };
-        dd > 0.0 && is_more(qq, dd, dd_of) || n >= SOME && qq > 0.0 && is_more(dd, qq, qq_of)
+        dd > 0.0 && is_more(qq, dd, dd_of) || n >= MIN_INTERVALS_IF_SLOW && qq > 0.0 && is_more(dd, qq, qq_of)
     }
 
     /// Returns true if velocities and differences of rows are smooth, but of different sizes or unlike each other.
     fn are_unlike(&self, slight: f64) -> bool {
         let Sums { n, qd, qq, dd, smoothness, .. } = *self;
-        let [velocities, ways] =
-            smoothness.map(|smoothness| smoothness > (SMOOTH + 1.2 / n.sqrt()).min(VERY_SMOOTH));
+        let [velocities, ways] = smoothness
+            .map(|smoothness| smoothness > (MIN_SMOOTHNESS + 1.2 / n.sqrt()).min(MAX_REQUIRED_SMOOTHNESS));
         let most = self.most() * self.most();
         let is_too_large = velocities && qq > most * (dd + slight);
         let is_too_small = ways && dd > most * qq + slight;
-        let is_other = velocities && ways && qq > slight && dd > slight && qd < ALIKE * (qq * dd).sqrt();
-        n >= ENOUGH && (is_too_large || is_too_small || is_other)
+        let is_other =
+            velocities && ways && qq > slight && dd > slight && qd < MIN_CORRELATION * (qq * dd).sqrt();
+        n >= MIN_INTERVALS_IF_UNLIKE && (is_too_large || is_too_small || is_other)
     }
 }
 

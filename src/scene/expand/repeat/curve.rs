@@ -122,12 +122,13 @@ impl Curve {
     }
 
     pub(super) fn place(&self, n: usize) -> Place {
-        let Place { offset, turn } = self.places.get(n).unwrap_or(&NOWHERE);
+        let Place { offset, turn } = self.places.get(n).unwrap_or(&UNMOVED_PLACE);
         Place { offset: *offset, turn: *turn }
     }
 }
 
-const NOWHERE: Place = Place { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
+/// The place of a copy that is neither moved nor rotated.
+const UNMOVED_PLACE: Place = Place { offset: DVec3::ZERO, turn: DQuat::IDENTITY };
 
 /// A sample of the curve: the parameter `u`, and the arc length from the beginning of the curve to the point at `u`, m.
 struct Sample {
@@ -159,8 +160,9 @@ impl Path {
 
     /// Returns the direction of the curve at `u` as a central difference. Its length is arbitrary.
     fn tangent(&self, u: f64) -> DVec3 {
-        const STEP: f64 = 1e-6;
-        self.at((u + STEP).min(1.0)) - self.at((u - STEP).max(0.0))
+        /// The distance of the two points from `u`, in units of the parameter.
+        const DIFFERENCE_STEP: f64 = 1e-6;
+        self.at((u + DIFFERENCE_STEP).min(1.0)) - self.at((u - DIFFERENCE_STEP).max(0.0))
     }
 }
 

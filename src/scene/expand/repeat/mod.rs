@@ -24,7 +24,7 @@ use crate::scene::timed::TimeFormula;
 use crate::scene::view::View;
 
 /// The variables that hold the indices of a copy along the first, second and third direction of the pattern.
-pub(super) const INDICES: [&str; 3] = ["i", "j", "k"];
+pub(super) const INDEX_VARIABLES: [&str; 3] = ["i", "j", "k"];
 
 /// The maximum cost of all copies with formulas, in units of about ten bytes of memory. Copies of this cost take a few seconds to make, and
 /// fit into the memory of a typical computer.
@@ -165,7 +165,7 @@ impl Expander<'_> {
 
     /// Sets the variables `i`, `j` and `k` of formulas to the indices of a copy.
     pub(super) fn count_as(&mut self, index: &[usize]) {
-        for (letter, number) in INDICES.iter().zip(index) {
+        for (letter, number) in INDEX_VARIABLES.iter().zip(index) {
             #[allow(clippy::cast_precision_loss, reason = "there are few enough of them")]
             self.scope.constant(*letter, *number as f64);
         }
@@ -173,7 +173,7 @@ impl Expander<'_> {
 
     /// Reports variables of the scene that are named `i`, `j` or `k`, like an index of the copies of `name`.
     pub(super) fn collisions(&mut self, counts: &[usize], name: &str, span: Span) {
-        for letter in INDICES.into_iter().take(counts.len()) {
+        for letter in INDEX_VARIABLES.into_iter().take(counts.len()) {
             let Some(&variable) = self.variable_spans.get(letter) else { continue };
             if !self.reported.insert(variable) {
                 continue;
@@ -259,14 +259,14 @@ impl CopyCompressor {
     /// further template.
     fn keep(&mut self, table: Table) -> Value {
         /// The maximum number of templates. Copies that have different keys need different templates.
-        const MOST: usize = 4;
+        const MAX_TEMPLATES: usize = 4;
         if self.templates.iter().any(|template| template.entries.is_same(&table.entries)) {
             return Value::Table(table);
         }
         if let Some(copied) = self.templates.iter().find_map(|template| CopiedTable::new(&table, template)) {
             return Value::Copied(copied);
         }
-        if self.templates.len() < MOST {
+        if self.templates.len() < MAX_TEMPLATES {
             self.templates.push(Arc::new(table.clone()));
         }
         Value::Table(table)

@@ -72,7 +72,7 @@ impl Scatter {
     ) -> Result<Vec<Place>, Full> {
         /// The maximum number of random places tried for each copy. Even when the volume is almost full of equal spheres, about one try in
         /// a hundred succeeds.
-        const TRIES: usize = 20_000;
+        const MAX_TRIES_PER_COPY: usize = 20_000;
         let most = most_looks(sizes.len());
         let mut taken = Taken::default();
         let mut places = Vec::with_capacity(sizes.len());
@@ -84,7 +84,7 @@ impl Scatter {
             let mut stream = stream(placed);
             let turn = if self.turned { any_turn(&mut stream) } else { DQuat::IDENTITY };
             let mut free = None;
-            for _ in 0..TRIES {
+            for _ in 0..MAX_TRIES_PER_COPY {
                 let place = self.volume.point(radius, &mut stream);
                 if taken.is_free(place, radius + self.gap) {
                     free = Some(place);

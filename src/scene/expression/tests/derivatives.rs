@@ -5,13 +5,15 @@ use super::super::{Formula, Scope};
 /// Returns the derivative of a formula at `t`, and the central difference (f(t + h) − f(t − h)) / 2h. The central difference has a
 /// truncation error of h² f'''/6, with h² = 1e-10, and a rounding error of about 1e-16 × |f| / h = 1e-11 × |f|.
 fn both(text: &str, t: f64) -> (f64, f64) {
-    const H: f64 = 1e-5;
+    /// The step h of the central difference.
+    const DIFFERENCE_STEP: f64 = 1e-5;
     let mut scope = Scope::default();
     scope.slot("t");
     let resolved = Formula::parse(text).unwrap().resolve(&scope).unwrap();
     let derivative = resolved.derivative(0).compile().unwrap();
     let formula = resolved.compile().unwrap();
-    let difference = (formula.eval(&[t + H]) - formula.eval(&[t - H])) / (2.0 * H);
+    let difference = (formula.eval(&[t + DIFFERENCE_STEP]) - formula.eval(&[t - DIFFERENCE_STEP]))
+        / (2.0 * DIFFERENCE_STEP);
     (derivative.eval(&[t]), difference)
 }
 

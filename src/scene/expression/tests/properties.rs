@@ -8,7 +8,7 @@ use super::super::function::{FUNCTIONS, Function, Work};
 use super::super::operation::{Binary, Unary};
 use super::super::parser::{Formula, Part};
 use super::super::wide::Wide;
-use super::super::{Constants, LANES, Program, Scope};
+use super::super::{Constants, MAX_LANES, Program, Scope};
 use super::scope;
 
 /// A random formula. It is printed and evaluated without the code under test.
@@ -236,7 +236,7 @@ proptest! {
     #[test]
     fn every_lane_of_a_wide_program_gives_the_bits_of_a_program(
         trees in prop::array::uniform2(trees()),
-        inputs in prop::collection::vec(prop::array::uniform3(-10.0..10.0f64), 1..=LANES)
+        inputs in prop::collection::vec(prop::array::uniform3(-10.0..10.0f64), 1..=MAX_LANES)
     ) {
         let formulas = trees.map(|tree| Formula::parse(&tree.print()).unwrap().resolve(&scope()).unwrap());
         let wide = Wide::new(&formulas.each_ref());

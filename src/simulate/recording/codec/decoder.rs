@@ -9,7 +9,8 @@ use super::super::super::simulation::Entry;
 use super::super::events::{CONTACT_NUMBERS, IMPACT_NUMBERS, LAW_NUMBERS, contact_of, impact_of, law_of};
 use super::last::Last;
 use super::{
-    ABSENT, COLUMNS, COUNT_COLUMNS, Counts, HEAD, JOINT_COLUMNS, JOINT_NUMBERS, NO_FRAME, NUMBERS, damaged,
+    ABSENT_BODY_MASK, BODY_COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS_PER_BODY,
+    NUMBERS_PER_HEADER, NUMBERS_PER_JOINT, damaged,
 };
 use crate::physics::{Accounts, Balance, BodySnapshot, Reaction, Snapshot};
 
@@ -36,17 +37,17 @@ impl Decoder {
     /// Decodes the next moment of the page.
     pub(in super::super) fn decode(&mut self, page: &[u8]) -> io::Result<Entry> {
         let Parts { head, bodies: (runs, mut values), joints, counts, contacts, impacts, laws } =
-            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
+            parts(page, &mut self.at, self.last.joints.len(), self.last.impacts.len())?;
         let mut bodies = Vec::with_capacity(self.last.bodies.len());
         let mut id = 0;
         for (mask, count) in runs {
             let ids = id..id + count;
             id += count;
-            if mask == ABSENT {
+            if mask == ABSENT_BODY_MASK {
                 continue;
             }
             for (id, last) in ids.clone().zip(self.last.bodies.get_mut(ids).ok_or_else(damaged)?) {
-                values = take_changed(values, mask, &COLUMNS, last)?;
+                values = take_changed(values, mask, &BODY_COLUMNS, last)?;
                 bodies.push(body_of(id, last));
             }
         }
@@ -60,7 +61,7 @@ impl Decoder {
             }
         }
         self.take_counts(counts)?;
-        let reaction = |n: &[f64; JOINT_NUMBERS]| Reaction {
+        let reaction = |n: &[f64; NUMBERS_PER_JOINT]| Reaction {
             force: DVec3::new(n[0], n[1], n[2]),
             torque: DVec3::new(n[3], n[4], n[5]),
             motor: n[6],
@@ -89,17 +90,18 @@ impl Decoder {
     /// page, the decoder cannot decode other bodies, joints and contacts.
     pub(in super::super) fn decode_one(&mut self, page: &[u8], wanted: usize) -> io::Result<(Entry, bool)> {
         let Parts { head, bodies: (runs, mut values), counts, .. } =
-            parts(page, &mut self.at, (self.last.joints.len(), self.last.impacts.len()))?;
+            parts(page, &mut self.at, self.last.joints.len(), self.last.impacts.len())?;
         let (mut id, mut found) = (0, false);
         for (mask, count) in runs {
-            if mask != ABSENT && (id..id + count).contains(&wanted) {
-                let skipped = values.get(8 * width(mask, &COLUMNS) * (wanted - id)..).ok_or_else(damaged)?;
+            if mask != ABSENT_BODY_MASK && (id..id + count).contains(&wanted) {
+                let skipped =
+                    values.get(8 * width(mask, &BODY_COLUMNS) * (wanted - id)..).ok_or_else(damaged)?;
                 let last = self.last.bodies.get_mut(wanted).ok_or_else(damaged)?;
-                take_changed(skipped, mask, &COLUMNS, last)?;
+                take_changed(skipped, mask, &BODY_COLUMNS, last)?;
                 found = true;
                 break;
             }
-            values = values.get(8 * width(mask, &COLUMNS) * count..).ok_or_else(damaged)?;
+            values = values.get(8 * width(mask, &BODY_COLUMNS) * count..).ok_or_else(damaged)?;
             id += count;
         }
         let body = if found { vec![body_of(wanted, &self.last.bodies[wanted])] } else { Vec::new() };
@@ -113,7 +115,7 @@ impl Decoder {
 /// The header of a moment: the values before the bodies.
 struct Head {
     frame: Option<usize>,
-    numbers: [f64; HEAD],
+    numbers: [f64; NUMBERS_PER_HEADER],
 }
 
 impl Head {
@@ -138,7 +140,7 @@ impl Head {
                 reactions,
                 angles: Vec::new(),
                 contacts: Vec::new(),
-                penetration: n[HEAD - 1],
+                penetration: n[NUMBERS_PER_HEADER - 1],
                 laws: Vec::new(),
                 balance,
             },
@@ -165,13 +167,13 @@ struct Parts<'a> {
 
 /// Splits the moment at offset `at` of a page into its parts. `joints` and `counts` are the numbers of joints and impact counts in each
 /// moment. Moves the offset to the next moment.
-fn parts<'a>(page: &'a [u8], at: &mut usize, (joints, counts): (usize, usize)) -> io::Result<Parts<'a>> {
+fn parts<'a>(page: &'a [u8], at: &mut usize, joints: usize, counts: usize) -> io::Result<Parts<'a>> {
     let rest = page.get(*at..).ok_or_else(damaged)?;
     let (number, rest) = rest.split_first_chunk::<4>().ok_or_else(damaged)?;
     let number = u32::from_le_bytes(*number);
-    let mut numbers = [0.0; HEAD];
+    let mut numbers = [0.0; NUMBERS_PER_HEADER];
     let rest = take(rest, &mut numbers)?;
-    let (bodies, mut rest) = runs_of(rest, &COLUMNS)?;
+    let (bodies, mut rest) = runs_of(rest, &BODY_COLUMNS)?;
     let mut of_joints = (Vec::new(), &rest[..0]);
     if joints > 0 {
         (of_joints, rest) = runs_of(rest, &JOINT_COLUMNS)?;
@@ -227,7 +229,7 @@ fn runs_of<'a>(bytes: &'a [u8], columns: &[usize]) -> io::Result<Runs<'a>> {
 
 /// The number of values that a mask selects for a body, joint or count.
 fn width(mask: u8, columns: &[usize]) -> usize {
-    if mask == ABSENT {
+    if mask == ABSENT_BODY_MASK {
         return 0;
     }
     columns
@@ -262,7 +264,7 @@ fn take<'a>(bytes: &'a [u8], numbers: &mut [f64]) -> io::Result<&'a [u8]> {
     Ok(rest)
 }
 
-fn body_of(id: usize, n: &[f64; NUMBERS]) -> BodySnapshot {
+fn body_of(id: usize, n: &[f64; NUMBERS_PER_BODY]) -> BodySnapshot {
     BodySnapshot {
         id,
         location: DVec3::new(n[0], n[1], n[2]),

@@ -3,7 +3,9 @@
 use super::super::super::simulation::Entry;
 use super::super::events::{contact_numbers, impact_numbers, law_numbers};
 use super::last::Last;
-use super::{ABSENT, COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS};
+use super::{
+    ABSENT_BODY_MASK, BODY_COLUMNS, COUNT_COLUMNS, Counts, JOINT_COLUMNS, NO_FRAME, NUMBERS_PER_BODY,
+};
 use crate::physics::{Balance, BodySnapshot, Reaction, Snapshot};
 
 /// Encodes the moments of a recording one after another.
@@ -48,12 +50,12 @@ impl Encoder {
         put(bytes, &[snapshot.penetration]);
 
         masks.clear();
-        masks.resize(last.bodies.len(), ABSENT);
+        masks.resize(last.bodies.len(), ABSENT_BODY_MASK);
         let start = bytes.len();
         for body in &snapshot.bodies {
             let numbers = numbers_of(body);
             let last = &mut last.bodies[body.id];
-            masks[body.id] = put_changed(bytes, &COLUMNS, &numbers, last);
+            masks[body.id] = put_changed(bytes, &BODY_COLUMNS, &numbers, last);
             *last = numbers;
         }
         put_runs(bytes, start, masks);
@@ -134,8 +136,8 @@ fn put(bytes: &mut Vec<u8>, numbers: &[f64]) {
     }
 }
 
-fn numbers_of(body: &BodySnapshot) -> [f64; NUMBERS] {
-    let mut numbers = [0.0; NUMBERS];
+fn numbers_of(body: &BodySnapshot) -> [f64; NUMBERS_PER_BODY] {
+    let mut numbers = [0.0; NUMBERS_PER_BODY];
     numbers[0..3].copy_from_slice(&body.location.to_array());
     numbers[3..7].copy_from_slice(&body.orientation.to_array());
     numbers[7..10].copy_from_slice(&body.velocity.to_array());

@@ -77,7 +77,7 @@ fn moments_are_read_as_they_were_written() {
         encoder.encode(entry, &mut page);
         sizes.push(page.len() - before);
     }
-    let head = 4 + 8 * HEAD + 4;
+    let head = 4 + 8 * NUMBERS_PER_HEADER + 4;
     let of_counts = 4 + 3 * 5 + 2 * 8;
     let of_contacts = 4 + 8 * CONTACT_NUMBERS + 4 + 4 + 8 * LAW_NUMBERS;
     let bodies_and_joints = 3 * 5 + 4 + 2 * 5 + 2 * 8;
