@@ -120,6 +120,16 @@ impl PreviewRun {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
+    /// Waits until the run has ended.
+    #[cfg(test)]
+    pub(super) fn wait_for_the_end(&self) {
+        let begun = std::time::Instant::now();
+        while self.outcome().is_none() {
+            assert!(begun.elapsed() < Duration::from_secs(120), "the run has {} frames", self.recorded());
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+
     /// Returns the results after the last frame, or the errors that ended the run early. `None` while the run is being simulated.
     pub(super) fn outcome(&self) -> Option<Result<&Outcome, &Report>> {
         self.outcome.get().map(Result::as_ref)

@@ -75,9 +75,7 @@ mod tests {
         let text = "simulation.duration = 0.4\n[body.a]\nshape.sphere.radius = 1\nstart = 0.2\nvelocity = [1, 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
         let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
-        while run.outcome().is_none() {
-            std::thread::yield_now();
-        }
+        run.wait_for_the_end();
         let bytes = of_body(&run, 0, 0..11).unwrap();
         let numbers: Vec<f64> =
             bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect();
@@ -96,9 +94,7 @@ mod tests {
             [body.far]\nshape.sphere.radius = 0.1\nlocation = [1, 5, 0]\n";
         let scene = Scene::parse(text).unwrap();
         let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
-        while run.outcome().is_none() {
-            std::thread::yield_now();
-        }
+        run.wait_for_the_end();
         let last = |bytes: Vec<u8>, size: usize| -> Vec<f64> {
             let numbers = bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap()));
             numbers.skip(size - 1).step_by(size).collect()
@@ -132,9 +128,7 @@ mod tests {
         )
         .unwrap();
         let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
-        while run.outcome().is_none() {
-            std::thread::yield_now();
-        }
+        run.wait_for_the_end();
         let numbers = |bytes: Vec<u8>| -> Vec<f64> {
             bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect()
         };

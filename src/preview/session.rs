@@ -323,7 +323,9 @@ mod tests {
         };
         let (session, stop) = (fragile(path.clone()), AtomicBool::new(false));
         let wait = |is_so: &dyn Fn(&State) -> bool| {
+            let begun = Instant::now();
             while !is_so(&session.state()) {
+                assert!(begun.elapsed() < Duration::from_secs(120), "the session does not reach the state");
                 thread::sleep(Duration::from_millis(1));
             }
         };

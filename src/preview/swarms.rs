@@ -84,9 +84,7 @@ mod tests {
             [emitter.crowd]\nshape.sphere.radius = 0.1\nrate = 1e5\nfrom.point = [9, 0, 0]\n";
         let scene = Scene::parse(text).unwrap();
         let run = PreviewRun::begin(1, Arc::new(scene), Cache::none(), || {}).unwrap();
-        while run.outcome().is_none() {
-            std::thread::yield_now();
-        }
+        run.wait_for_the_end();
         assert_eq!(thinned(&run), [("crowd".to_owned(), 20)]);
         let numbers = |frame: usize| -> Vec<f64> {
             let bytes = frames(&run, std::iter::once(frame)).unwrap();

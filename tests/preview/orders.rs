@@ -1,7 +1,7 @@
 //! Tests of what a previewed scene, and a request for another method, are allowed to do.
 
 use crate::http::{ask, get};
-use crate::server::Scene;
+use crate::server::{Scene, wait_until};
 use crate::support::stderr;
 
 /// Checks that the preview needs `--trust` for the same scenes as every other command, since a user may preview a scene by somebody else.
@@ -18,9 +18,7 @@ fn what_a_scene_may_do_needs_trust_as_in_every_command() {
         let said = stderr(&compile);
         let error = said.rsplit_once("\nnothing was written").map_or(&*said, |(error, _)| error).trim();
         assert!(error.starts_with("error["), "{error}");
-        while server.said().lines().count() < error.lines().count() {
-            std::thread::yield_now();
-        }
+        wait_until(error, || server.said().lines().count() >= error.lines().count());
         assert!(server.said().contains(error), "{}\n… is not …\n{error}", server.said());
         assert_eq!(get(server.port(), &format!("/api/runs/1?token={}", server.token())).status, 404);
     }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::http::get;
-use crate::server::Scene;
+use crate::server::{Scene, wait_until};
 use crate::support::{jabuka, stderr, stdout};
 
 fn parabola() -> Scene {
@@ -93,7 +93,5 @@ fn it_says_its_address_and_what_is_wrong() {
     assert_eq!(get(server.port(), "/").status, 200);
     let check = server.scene.jabuka(&["check"]).arg(server.scene.path()).output().unwrap();
     let error = stderr(&check).lines().next().unwrap().to_owned();
-    while !server.said().contains(&error) {
-        std::thread::yield_now();
-    }
+    wait_until(&error, || server.said().contains(&error));
 }

@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use crate::http::get;
 use crate::support::{self, jabuka, root, scene};
@@ -92,12 +94,24 @@ impl Scene {
     }
 }
 
+/// Waits until `is_so` returns true.
+///
+/// # Panics
+/// After two minutes.
+pub(crate) fn wait_until(what: &str, is_so: impl Fn() -> bool) {
+    let begun = Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < Duration::from_secs(120), "waited in vain for {what}");
+        thread::sleep(Duration::from_millis(2));
+    }
+}
+
 impl Server {
     /// Waits until the first run of the scene has begun.
     pub(crate) fn wait_for_the_run(&self) {
-        while get(self.port(), &format!("/api/runs/1?token={}", self.token())).status != 200 {
-            std::thread::yield_now();
-        }
+        wait_until("the first run", || {
+            get(self.port(), &format!("/api/runs/1?token={}", self.token())).status == 200
+        });
     }
 
     /// Returns the port from the printed address.
