@@ -1,4 +1,7 @@
 //! The command line: parses the arguments, calls the library, and returns the exit code.
+//!
+//! Only `terminal.rs` writes to standard output: a failed write makes the command fail at its end, except that a closed pipe is no error.
+//! `shell.rs` quotes the paths in suggested commands.
 
 mod average;
 mod batch;
