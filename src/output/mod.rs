@@ -21,6 +21,8 @@
 //!   anew; a file that would count as an edit is refused by name. Only in a folder that was made here are scripts up to date, and are
 //!   `local.conf` and `render.sbatch` kept.
 //! - Frames are read from the recording one after another; each free thread takes the next frame, writes its script, and drops the frame.
+//!
+//! The digests in the manifest are SHA-256, so `sha256sum` can check them.
 
 mod assets;
 mod compare;

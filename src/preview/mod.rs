@@ -41,6 +41,11 @@
 //! 127.0.0.1, where any web page in the user's browser can send requests. So the host must be a name of this machine, the origin must be
 //! this host, and everything except the empty page needs a token that is new at each start (`access`). A content security policy limits the
 //! page to its own files and this server. The page inserts the texts of a scene as text, never as HTML.
+//!
+//! # Dependencies
+//!
+//! The feature `preview`, which is on by default, brings axum and tokio; nothing else needs them. hyper holds the connections; axum uses it,
+//! too. getrandom makes the token.
 
 mod access;
 mod connections;

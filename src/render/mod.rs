@@ -50,6 +50,12 @@
 //! ffmpeg would hold all of them in memory. Colors, rates and their limits are described in `film/mod.rs`; `picture/pace.rs` chooses the
 //! rate. Whether a film can be made is checked before anything is rendered. jabuka draws the contact sheet itself, and shrinks it in linear
 //! light, since a mean of sRGB bytes is too dark.
+//!
+//! # Crates
+//!
+//! `rustix` ends a group of processes, and reads how much CPU time they took. `resize` makes images smaller, by a polynomial filter with the
+//! same result everywhere. The letters of contact sheets and plots are those of `noto-sans-mono-bitmap`: 16 and 20 pixels high, ASCII.
+//! `which` finds POV-Ray and ffmpeg.
 
 pub mod batch;
 mod contact_sheet;

@@ -26,6 +26,8 @@
 //!   jabuka; the first line of its log says so.
 //! - The launcher asks the system for a signal when its parent ends. The system sends it when the parent's thread ends, so the process that
 //!   starts it stays on its thread.
+//!
+//! The crate `landlock` sets the rules, without `unsafe` of our own.
 
 mod confinement;
 mod environment;

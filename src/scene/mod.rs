@@ -13,7 +13,7 @@
 //!
 //! # The four steps
 //!
-//! 1. `source/` opens only regular files, each up to a size limit (`file.rs`), and parses the text into a tree in which every value keeps
+//! 1. `source/` opens only regular files, each up to a size limit (`source/file.rs`), and parses the text into a tree in which every value keeps
 //!    its position. The parser recovers from syntax errors.
 //!
 //! 2. `expand/` applies `--set`, fills in values from included files, and replaces formulas by their values, so that later stages see no

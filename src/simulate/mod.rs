@@ -34,8 +34,8 @@
 //! the pages, so that memory does not grow with the number of frames.
 //!
 //! Impacts are events. Each moment of a recording holds the impacts since the previous moment, its contacts, and the counts of impacts so
-//! far, so that each frame can be read without the others. `impacts.rs` counts them
-//! for the run, for each body, and for the pairs that a label asks for.
+//! far, so that each frame can be read without the others. `impacts.rs` counts them for the run, for each body, and for the pairs that a
+//! label asks for.
 //!
 //! # Frames
 //!

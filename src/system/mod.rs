@@ -1,7 +1,7 @@
 //! What differs between operating systems, and what jabuka knows about the machine that it runs on.
 //!
 //! Every path that is written, renamed or removed is reached by `Dir` (`folder.rs`): an open folder, from which each name is opened without
-//! following a link (`openat` with `O_NOFOLLOW`; `by_path.rs` stands in on systems without it). A link that another program puts in place
+//! following a link (`openat` with `O_NOFOLLOW`; `folder/by_path.rs` stands in on systems without it). A link that another program puts in place
 //! meanwhile changes nothing. POV-Ray and ffmpeg start in the open folder, and write relative to it. The folder that the user names may not
 //! be a link, nor may any part of a relative path; the folders above an absolute path may.
 //!
