@@ -3,6 +3,8 @@
 //!
 //! A file is identified by its device and inode, so symbolic links, hard links, `..`, and names that differ only in case are recognized as
 //! the same file.
+//!
+//! No command replaces a file that it reads, or a script or image in one of jabuka's folders.
 
 use std::ffi::OsStr;
 use std::fmt;

@@ -1,4 +1,6 @@
 //! The scenes that `jabuka new` writes: a first scene, and copies of the examples in `scenes/`.
+//!
+//! `build.rs` puts the scenes into the program.
 
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};

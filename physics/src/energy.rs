@@ -1,4 +1,15 @@
 //! Energy and momentum of a world, and how well a run conserves them.
+//!
+//! A force without a potential reports its power, which is integrated with the motion. So the drift is
+//!
+//! drift = (E − E₀ − all accounts) / largest kinetic energy so far
+//!
+//! The accounts ([`Accounts`]) hold, by name, the energy that forces without a potential, motors, limits, impacts and friction have added so
+//! far. They also hold the work of a guided end of a joint. For an exact method the drift is zero, also with dampers, torques and the work
+//! of guided bodies.
+//!
+//! A guided body has a given motion. It is moved to each time at which a method evaluates forces. Its kinetic energy is in the balance, but
+//! neither in the total nor in the drift, since its guide does the work for it.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

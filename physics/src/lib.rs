@@ -23,6 +23,26 @@
 //! | few bodies, by adaptive methods | [`Method::take_over`], its [`Accuracy`] |
 //! | the interface for the rest of the program | [`Dynamics`] |
 //!
+//! # Ideas
+//!
+//! Physics is separate from drawing. The integrator is chosen at run time. All bodies are the same rigid body, whether a program draws them
+//! as a sphere or as a triad of axes. A body without a force has zero force. A [`World`] does not store its initial state, so a reset builds
+//! the world again, and gives the same bits. [`State`] is a structure of arrays: a method advances all bodies by one step, and [`World`]
+//! holds the time.
+//!
+//! No result depends on the machine. All functions such as sine come from the crate `libm`, sums have a fixed order, and random numbers come
+//! from [`random`].
+//!
+//! # Engines
+//!
+//! A type that implements [`Dynamics`] is an engine: it advances to a time, reports the requested moments before it, returns snapshots, and
+//! fails with an error that names body and time. There are three: [`World`] itself, the methods whose steps do not depend on the requested
+//! moments ([`Method::take_over`]), and `TimeStepping` with the crate rapier. The last two take over a [`World`] with its forces, given
+//! motions, presence of bodies, accounts and expected energy. A new engine is one more type that implements [`Dynamics`]. Everything that
+//! adds or removes energy needs an account in [`Accounts`].
+//!
+//! The motion within a step comes from [`DenseOutput`]. So the steps of a run never depend on the moments that are requested.
+//!
 //! # Tutorial
 //!
 //! The world has two bodies: a sphere and a set of coordinate axes. They differ only in their shapes, and so in their inertia. The sphere

@@ -1,4 +1,7 @@
 //! A counter of pair interactions. It lets progress bars advance within a step.
+//!
+//! With many pairs, the simulation of a frame can take minutes. The forces between pairs count their interactions. The total of a run is
+//! computed beforehand, so that the progress bar can move within a frame.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};

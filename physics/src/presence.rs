@@ -1,4 +1,11 @@
 //! The presence of bodies in time: their births and deaths.
+//!
+//! While a body is absent, it has no mass, charge or inertia, and rests (`model/away.rs`). Most forces need not check this; forces that
+//! depend on positions (springs, pairs) do. A list holds the times at which bodies appear and disappear. Each of these times ends a step.
+//! The accounts include the energy that the body adds or removes, so it does not count as drift.
+//!
+//! If the motion of all bodies is given, there are no steps, and a step for each appearance would make n bodies cost n². Bodies then appear
+//! and disappear at the end of an interval, and moments within it are computed on a copy of the world.
 
 use std::sync::Arc;
 

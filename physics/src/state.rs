@@ -1,4 +1,6 @@
 //! The state of the bodies: all quantities that change with time.
+//!
+//! The state holds angular momentum instead of angular velocity, because a free body conserves angular momentum exactly.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,28 @@
 //! The world: bodies and forces, an integration method, and a clock.
+//!
+//! # Steps in pieces
+//!
+//! A step ends at each event (`world/piece.rs`). A piece also ends where the velocity of a body with a given motion jumps (`world/jump.rs`):
+//! a contact that holds would pull others along.
+//!
+//! Separate groups (`world/apart.rs`) are advanced one after another. First all bodies make the step without contacts. Then each group with
+//! contacts makes the same step in its own pieces. An impact may throw a body so far that it could hit another group. The paths of all
+//! bodies show whether this happens; then the step is repeated with these groups as one. The results of contacts are kept for each group.
+//! For a requested moment within a step, a copy of the world computes all groups together.
+//!
+//! # Rest
+//!
+//! Bodies that have rested on each other for some steps are held in place (`world/rest.rs`), until something touches them or their loads
+//! change. They are held only if the forces on each balance within the cones of friction.
+//!
+//! # Contact policies
+//!
+//! A world has a contact policy (`world/policy.rs`). By default, events are located. With `TimeStepping`, none is: in each step all bodies
+//! that can move are the crowd, and Moreau's scheme advances them (`world/stepped.rs`, `contact/crowd/all.rs`), so free motion is of second
+//! order, and contacts are of first. Contacts that carried a force before get no impulses, which would only take the small rates that
+//! turning leaves; impacts without a rebound are recorded, too, and one for each pair. Joints stay exact. For a snapshot, a copy of the
+//! world gets the last contact forces as loads, and the last forces of limits and motors, so its reactions balance them. Bodies are held at
+//! rest as with events, are obstacles for others then, and wake before something hits them.
 
 mod advance;
 mod apart;

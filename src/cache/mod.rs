@@ -9,6 +9,19 @@
 //! | the file of a cached run | `file` |
 //! | the recorded pages of a run while it is simulated | `spill` |
 //! | the state from which an interrupted run continues | `checkpoint` |
+//!
+//! Runs that took longer than 0.2 s are kept, in the user's cache folder. The key is the digest of everything that moves bodies, of the
+//! moments, and of jabuka's sources. A file is written under another name, locked, and renamed when it is complete. Other programs can write
+//! to this folder, too: a pipe, a device, a folder or a link in the place of a file counts as missing (`system/folder.rs`), so it neither
+//! blocks a command nor leads it elsewhere.
+//!
+//! `spill` keeps the first megabyte of a recording in memory, and all other pages in a temporary file in `/var/tmp` or `TMPDIR`, each with
+//! its digest.
+//!
+//! A long run is saved every 10 s (`checkpoint`). A checkpoint is a separate file with the state from which the dynamics continue with the
+//! same bits (`Dynamics::checkpoint`; so far only the engine with rapier supports it). The process that simulates a run locks its pages, so
+//! unlocked pages belong to a killed run. The next command that needs this run surveys the recorded frames again, and continues. Two
+//! processes have separate files.
 
 mod checkpoint;
 mod digest;

@@ -1,4 +1,10 @@
 //! The command line: parses the arguments, calls the library, and returns the exit code.
+//!
+//! Only `terminal.rs` writes to standard output: a failed write makes the command fail at its end, except that a closed pipe is no error.
+//! `shell.rs` quotes the paths in suggested commands.
+//!
+//! The crate `ctrlc` handles Ctrl-C and other signals that end a program. `signal-hook` makes a file that exceeds `ulimit -f` an error,
+//! instead of a signal that kills jabuka.
 
 mod average;
 mod batch;

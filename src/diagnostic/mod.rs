@@ -1,4 +1,14 @@
 //! Errors and warnings about a scene or a run, with their positions in the scene's text.
+//!
+//! `code.rs` lists the codes of errors and warnings. A `Span` carries its text and hides its offsets: other spans are made relative to it,
+//! so an offset never counts in another text. The arguments of `--set` and included files are separate texts, so messages can point into
+//! them.
+//!
+//! If the intended text can be guessed, the diagnostic contains it as a replacement (`fix.rs`). At the end of the check of a scene, each fix
+//! is tried, and dropped if its text could then not be read (`scene/check/usable.rs`). `tests/language/mistakes.rs` applies the suggestions
+//! and checks again.
+//!
+//! `visible.rs` replaces control characters, and characters that change the direction of writing, in every text for a terminal.
 
 mod code;
 mod fix;

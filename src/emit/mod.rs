@@ -2,6 +2,56 @@
 //!
 //! Only this module translates physics into POV-Ray's language. An [`Emitter`] is made once for a scene. It then turns any frame into its
 //! script, in any order and from several threads at once.
+//!
+//! # Shared part and bodies
+//!
+//! The part that all frames share is rendered once from `templates/common.inc`; the script of a frame is that part and a block of bodies. A
+//! moving camera or light is written into each script instead of into the shared part. The block is planned once (`bodies.rs`): the text of
+//! a body is made once except for its location and orientation, so a frame costs little more than its numbers. Bodies of one plain material
+//! are in a union, which POV-Ray parses in two thirds of the time and with a third of the memory that separate objects need. A single body
+//! of a material is in an `object`, which costs nothing, so that its line stays the same when a second body is added. A sphere of one color
+//! is written by its center. A body that looks different when it turns gets a matrix, and its pattern turns with it.
+//!
+//! Particles (`particles.rs`) are grouped by age into at most 32 unions. POV-Ray is fastest with one line for each ball: macros take four
+//! times as long, arrays twice. To keep lines short, locations are rounded to a hundredth of the particle's radius or finer.
+//!
+//! # Numbers and units
+//!
+//! Numbers have 9 significant digits. More digits would not change a pixel. Names and titles are written as comments and are escaped
+//! (`text.rs`). Scripts of equal pictures differ only in their first line, which has the number and time of the frame.
+//!
+//! POV-Ray's coordinates are left-handed; only `right -x*…` in the camera makes them right-handed. Lengths are divided by a unit. POV-Ray
+//! draws objects thinner than 0.01 or farther than 10⁵ wrongly, so the unit is chosen to avoid such numbers; it is 1 m if possible
+//! (`unit.rs`).
+//!
+//! A mesh is declared once, as `mesh2`, after the shared part, and a body is `object { Mesh_x matrix … }`. Its coordinates are scaled to
+//! about 10 to 100, since POV-Ray drops very small triangles. In the layout `self-contained`, every script contains the mesh; a warning
+//! appears if the scripts become large.
+//!
+//! The haze over the ground is part of its texture. POV-Ray's fog would wash out the bodies of large scenes, and its depth would depend on
+//! the camera.
+//!
+//! # Motion blur
+//!
+//! An image with motion blur is the mean of several moments while the shutter is open. The moments come from dense output, so the run's bits
+//! never depend on them. One script contains all moments of an image, selected by number, so that one process renders them. All other uses
+//! need only the sharp script. The mean is taken in linear light (`render/linear_light.rs`): the mean of black and white is 188 of 255, not
+//! 128.
+//!
+//! # Trails, ghosts, arrows and texts
+//!
+//! They are planned once, like the bodies, and written by `showing/`. A trail is a cubic curve with at most 512 points, from the locations
+//! and velocities of frames; it is exact under a constant force. The choice of its points depends only on the frame's number. A ghost is a
+//! moment of the recording (`simulate/past.rs`). So a frame's past has the same bits for any selection of frames, number of threads or
+//! moment.
+//!
+//! The points of a trail are in an array, which POV-Ray parses faster than literals. In the layout `shared`, each finished section of 32
+//! segments of a trail is in a file `trail_DIGEST.inc`. So scripts do not repeat the trail. The file name identifies the contents, so the
+//! record of an image need not include the file. In the layout `self-contained`, every script holds its whole trail.
+//!
+//! Texts are on a plane just in front of the camera, so they are always legible, never hidden, and equally large in any unit. If the camera
+//! has a lens that blurs, they are on the plane in focus. Only POV-Ray knows the widths of texts, so a macro places them, relative to the
+//! edges of the rendered image. The font comes with POV-Ray; a letter that it lacks is an error.
 
 mod bodies;
 mod distinct;

@@ -3,6 +3,18 @@
 //! A [`Plan`] is made once for a run and a camera. For any frame, in any order and from several threads, the plan computes the camera, the
 //! lights, and everything that is drawn besides the bodies: arrows, axes, springs, joints, ghosts, trails, texts, a grid, a scale bar. All
 //! lengths are in meters and independent of the renderer, so all renderers draw the same picture.
+//!
+//! Texts are placed on a plane in front of the camera (`screen.rs`); their heights are relative to the image. Springs and joints are planned
+//! as parts (`links/`). Each part has a shape, and follows the ends of the spring or joint in the frame. A slack rope is a catenary of its
+//! length (`catenary.rs`), and the rope of a pulley goes around its wheels (`pulley.rs`). Unused features yield empty lists. The widths of
+//! lines, and the lengths of arrows without a scale, follow from the width of the camera's view: at each frame if the camera moves,
+//! otherwise once for the run.
+//!
+//! The camera shows the motion up to the last of several times at which the bodies are still large enough in the picture (`scope.rs`). If
+//! there is a single body over a ground, the camera follows it instead. The default lights are defined here, and again in
+//! `templates/lights.inc`, which a scene may replace. A test in `emit/stage.rs` checks that the two are equal.
+//!
+//! Numbers in scripts and texts are written by `number.rs`: as short as possible, and never as `-0`.
 
 mod arrows;
 mod bar;

@@ -11,6 +11,41 @@
 //! | the server, its connections, its access control, and its errors | `routes`, `connections`, `access`, `failed` |
 //! | a frame rendered by POV-Ray | `render` |
 //! | the page itself | `page`, and the files in the folder of that name |
+//!
+//! # Reading and running
+//!
+//! The page is part of the program (`page/`: plain modules, WebGL2, no library, no build step).
+//!
+//! - A thread reads the scene again whenever the size, time or inode of one of its files changes (`watch`), including files that do not
+//!   exist yet. It polls the files, because the system's notifications do not work over networks, and miss editors that replace a file. A
+//!   valid scene becomes the current run (`session`). For an invalid scene, the page shows the errors and keeps the last valid run. A panic
+//!   while a scene is read, reported or run becomes an error on the page, and the next version is read.
+//! - A thread records a run (`run`), or the run comes from the cache. A recording can be read while it grows. So going back needs no new
+//!   simulation, and memory does not grow. For each frame, `picture` gives all objects besides the bodies, as for scripts.
+//! - Particles are computed when the page requests them (`swarms`), from the bodies of the recorded frames. If there are too many, only
+//!   every n-th is sent.
+//!
+//! # The page
+//!
+//! - Each run has a unique number. The page requests the frames of a run in pieces of at most 2 MB, and keeps 256 MB of them. If the run has
+//!   been replaced, the answer is 404, and the page continues with the run that the server has announced. All that the page remembers of a
+//!   picture belongs to the object of its run, so nothing of an earlier run is drawn.
+//! - The page draws the triangles from `surface`, with the poses in a texture, so a frame costs one upload of numbers. The shaders compute
+//!   in 32 bits, with the size of the scene as unit of length and its center as origin; the simulation uses 64 bits. If there are many
+//!   balls, each is drawn as a square that faces the camera.
+//! - While paused, the page draws a frame once all of it has arrived; while playing, it interpolates places and orientations.
+//!
+//! # Connections and access
+//!
+//! A request must arrive within 5 s, and at most 128 connections are open. axum's own server has no such limits. The server listens on
+//! 127.0.0.1, where any web page in the user's browser can send requests. So the host must be a name of this machine, the origin must be
+//! this host, and everything except the empty page needs a token that is new at each start (`access`). A content security policy limits the
+//! page to its own files and this server. The page inserts the texts of a scene as text, never as HTML.
+//!
+//! # Dependencies
+//!
+//! The feature `preview`, which is on by default, brings axum and tokio; nothing else needs them. hyper holds the connections; axum uses it,
+//! too. getrandom makes the token.
 
 mod access;
 mod connections;

@@ -16,6 +16,30 @@
 //! The error is Richardson's estimate: with a method of order p, a run at the timestep h has an error of about |x_h − x_{h/2}| 2ᵖ/(2ᵖ−1)
 //! (E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.4). The runs are not stored. Only a few numbers
 //! per frame are kept.
+//!
+//! # The runs
+//!
+//! `jabuka report` repeats the run at half and at a quarter of its step. It also simulates a neighboring run, whose initial state differs by
+//! 10⁻⁹ of the size of the scene. All of these runs advance together, frame by frame, so none is recorded. The order p is that of the
+//! method, or the measured order of the three runs if it differs. The error is the largest of any point of a body, so an error in the
+//! rotation counts in proportion to the size of the body. The rotation of a ball does not count. If a momentum changes equally at half the
+//! step, external forces change it. If it changes less at half the step, it should be constant, and its change is an error.
+//!
+//! All steps agree on a mistake of the contacts themselves. So a scene with contacts also runs under the other contact law, at two steps, if
+//! that law can simulate it and if it is small. If the two laws part by more than their errors explain, the report gives no advice, and
+//! calls no estimate good.
+//!
+//! The chaos indicator MEGNO is computed from neighboring runs. It tends to 2 for regular motion and grows with time for chaotic motion, so
+//! a distance that grows as a power of time does not count as chaos.
+//!
+//! # Advice
+//!
+//! The report tries steps and methods (`trials`), each also with half its step, and recommends only a combination that it has tried. The
+//! next step of a method follows from the last error and the order. The number of force evaluations limits the trials, and is the cost in
+//! the table, because seconds would differ from run to run.
+//!
+//! The plot (`plot/`) is a list of lines and texts, from which SVG and PNG are made. A plotting library would depend on the platform's
+//! `log10` and `sin`, or on a font, and would replace only 300 lines.
 
 mod compare;
 mod influence;

@@ -3,6 +3,74 @@
 //! Reading takes four steps. [`source`] parses the text into a tree. `expand` replaces formulas by numbers (with [`expression`]).
 //! `check::validate` checks the tree against the grammar of the scene language in [`grammar`]. `check` makes the [`Scene`]: it resolves
 //! names, fills in defaults, and converts to SI units and radians. One run reports the mistakes that all steps find.
+//!
+//! # The grammar
+//!
+//! `grammar/` describes every key as data: name, kind of value, unit, default, meaning. The validation (`check/validate.rs`) and the
+//! suggestions (`check/suggest.rs`) use this description. `docs/scene-language.md`, the JSON Schema that `jabuka schema` prints, and the
+//! text of `jabuka explain KEY` (`grammar/find.rs`) are generated from it. `scene` imports names from `physics`, such as `Shape` and the
+//! table of methods, so that it can check the names in a scene; it runs no simulation.
+//!
+//! # The four steps
+//!
+//! 1. `source/` opens only regular files, each up to a size limit (`source/file.rs`), and parses the text into a tree in which every value keeps
+//!    its position. The parser recovers from syntax errors.
+//!
+//! 2. `expand/` applies `--set`, fills in values from included files, and replaces formulas by their values, so that later stages see no
+//!    formulas. Each value keeps the position of its formula in the text. `[variables]` are evaluated in the order of their dependencies.
+//!    The random numbers of a formula depend only on the seed and the path of its key. `[defaults]` fill in the missing keys of each body,
+//!    force and so on. A formula in `[defaults]` is evaluated for each of them separately (`expand/merge.rs`).
+//!
+//! 3. `check/validate.rs` compares the tree with the grammar. It finds every error that needs no knowledge of physics.
+//!
+//! 4. `check/` makes the [`Scene`]: it resolves names, fills in defaults, and converts to SI units and radians. Later stages have nothing
+//!    left to check.
+//!
+//! For each kind of value, one function in `read.rs` returns the value or an error. The validation uses the error, the check uses the value.
+//! Serde's derive would stop at the first error and lose positions, so serde is used only for files that jabuka writes. The guesses for TOML
+//! are in `source/corrections.rs` and `source/foreign.rs`, those for formulas in `expand/corrections.rs`, and those for keys and values in
+//! `check/corrections/`, a file for each kind of mistake.
+//!
+//! # Copies
+//!
+//! A body with a `repeat` is replaced by its copies (`expand/repeat/`). Each copy is a table with its own name, such as `brick[3,0]`, which
+//! is part of the paths of its keys. An error that all copies share is reported once. Forces and joints repeat as well (`expand/links.rs`),
+//! and the index of a copy in a name may be a formula (`expand/index.rs`). Copies share equal tables and lists (`source/shared.rs`), so a
+//! copy takes little memory (about 800 bytes), and half a million are possible. The size of the data that copies do not share, mainly from
+//! formulas, is checked before they are made. Scattered copies are placed one after another, each with its own random numbers, so that later
+//! copies do not move earlier ones.
+//!
+//! # Formulas
+//!
+//! `expression/` is the language of formulas: text → tree → program. A program has an accumulator, a small stack, and instructions that hold
+//! most of their operands. When a result is not finite, a second evaluation checks every step to find the cause. A tree is stored as a list
+//! in which operands come before their operations. So only the parser is recursive, and its depth is limited.
+//!
+//! Forces given by formulas are evaluated for 64 bodies at once (`expression/wide.rs`). Each instruction works on columns of numbers, so
+//! decoding it costs little, and the compiler makes vector instructions of the loop. The result for each body has the same bits as an
+//! evaluation for this body alone. `law.rs` gives such formulas to the dynamics as a `ForceLaw`; the check compares the force with the exact
+//! derivative of its potential.
+//!
+//! A number that may depend on time is a `Timed`: a constant, or a formula with its derivative (`expression/derive.rs`), which gives the
+//! velocity.
+//!
+//! # Meshes
+//!
+//! Other crates read meshes (`mesh/`). They get the text line by line, so that an error message can name its line. Lines are rewritten if
+//! other programs write them in a form that these crates do not support. A sort merges vertices at the same place, so touching surfaces are
+//! connected. A surface is closed if every edge belongs to as many triangles in one direction as in the other. Then mass and inertia follow
+//! from the divergence theorem. A heightfield is a mesh as well, because POV-Ray's own `height_field` might interpret the pixels
+//! differently, and jabuka needs the exact heights to place camera and ground.
+//!
+//! # SDL and files of untrusted scenes
+//!
+//! Raw SDL is code. Without `--trust`, SDL is split into POV-Ray's tokens (`sdl/`) and may contain only words that access no file. A file
+//! name must be a plain string: the name of an asset, or of one of POV-Ray's own files. Paths that leave the scene's folder need `--trust`,
+//! too.
+//!
+//! # Presence
+//!
+//! A body with a trajectory from a file is present from its first row to its last, except for gaps (`check/presence.rs`).
 
 mod check;
 mod color;

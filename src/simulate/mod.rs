@@ -15,6 +15,53 @@
 //! | the moments while a shutter is open | `exposure` |
 //! | errors of a run, and their diagnostics | this file, `diverged`, `diagnose` |
 //! | statistics of the whole run | `survey`, `span`, `reach`, `overlap`, `energy_error`, `requested_sizes` |
+//!
+//! # From the scene to the world
+//!
+//! `build.rs` chooses the engine and makes its world: `build/forces.rs` makes the forces of a world from those of the scene,
+//! `build/joints.rs` its joints. It passes the surfaces of the bodies, and the pairs without contacts, to the world. The ground is a plane
+//! that is added to the world after all bodies of the scene, and removed from each snapshot. Frame k is at time k / frame_rate. The timestep
+//! divides the interval between frames evenly. If the motion of every body is given, there are no steps.
+//!
+//! # The recording
+//!
+//! A scene is simulated once. The recording holds every frame, and each moment between frames that a picture shows: for ghosts, motion blur
+//! and stills (`moments.rs`). During the recording, `survey.rs` collects the extent of the motion, the drift, and overlapping bodies.
+//! Drawing, measuring and exporting read the recording, in any order.
+//!
+//! A recording consists of pages of 32 moments or a megabyte (`recording/`). Within a page, a moment holds only the bodies and joints that
+//! changed since the previous moment, so bodies at rest cost nothing. A moving body takes up to 128 bytes in each moment. A `Store` keeps
+//! the pages, so that memory does not grow with the number of frames.
+//!
+//! Impacts are events. Each moment of a recording holds the impacts since the previous moment, its contacts, and the counts of impacts so
+//! far, so that each frame can be read without the others. `impacts.rs` counts them for the run, for each body, and for the pairs that a
+//! label asks for.
+//!
+//! # Frames
+//!
+//! A frame holds the present bodies, in the order of their ids. All code looks bodies up by id: `Frame::body` returns `None` while a body is
+//! absent. An absent body has no line in any script or table, and no arrows, coils or labels; its ghosts and its trail stay. A camera that
+//! follows it stays where it was (`lag.rs`), and in a model it has the size 0.
+//!
+//! A trail has a corner at each impact of its body (`past/corners.rs`): two points at the same time, with the velocities before and after
+//! the impact. The recorded impact does not contain the location of the body's center, which is computed from the neighboring frames.
+//!
+//! `joint_angles.rs` adds servos to the reactions of joints, and counts the full turns of hinges from the rates at successive moments.
+//!
+//! # Particles
+//!
+//! Particles (`particles.rs`) are not recorded. Each depends only on the seed, the name of its emitter, its number, the forces and the
+//! recorded bodies, so particles are computed while frames are read. Reading may begin at a later frame. Then the computation begins at the
+//! birth of the oldest particle that can still exist in that frame; the longest lifetime is known beforehand. The bits are the same. For the
+//! camera, the survey follows about 500 particles of each emitter.
+//!
+//! # Survey and camera
+//!
+//! The default camera must show the tips of arrows, whose scale depends on its view. So the survey stores, for each direction, the reach of
+//! the tips as a function of the scale (`reach.rs`: the upper envelope of lines), and one simulation is enough. It also stores the extents
+//! of the motion up to several times (`span.rs`).
+//!
+//! The total number of pair interactions of a run is computed beforehand (`workload.rs`), so that the progress bar can move within a frame.
 
 mod build;
 mod diagnose;

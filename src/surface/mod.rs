@@ -2,6 +2,10 @@
 //!
 //! A shape consists of [`pieces`]. Each piece is a [`BaseShape`] in a standard size, which is scaled when it is drawn. All balls of a scene
 //! therefore share the same [`Triangles`]. [`appearance`] approximates a material without POV-Ray's patterns and reflections.
+//!
+//! A base shape of a standard size is one set of triangles, shared by all bodies that scale it (`base_shape.rs`). Patterns with plane
+//! borders — checkered, striped, a beach ball — are cut into the triangles (`pattern.rs`), since a texture would need coordinates that fit
+//! every shape; all other patterns become one mean color.
 
 mod angles;
 mod appearance;

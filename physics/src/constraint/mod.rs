@@ -3,6 +3,63 @@
 //! A constraint is a list of equations c(x, q) = 0, one per row. Its forces are Jᵀ λ with the Jacobian J = ∂c/∂(x, φ), where φ are
 //! rotations about the world axes. Sources: for the equations, E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical Integration*, 2nd
 //! ed., VII.1; for the joints, D. Baraff, *Linear-time dynamics using Lagrange multipliers*, SIGGRAPH 96.
+//!
+//! # Solving
+//!
+//! A method works on a `System`, which combines forces and constraints. With A = J M⁻¹ Jᵀ, Runge–Kutta methods solve A λ = −(J a + J̇ v) at
+//! every evaluation of the forces. Splitting methods compute the impulses that move free bodies to c = 0 (SHAKE and RATTLE). After every
+//! step, positions and velocities are projected onto the nearest solution of c = 0 and J v = 0, so joints hold up to rounding.
+//!
+//! A is factorized as L D Lᵀ (`factor.rs`), in minimum-degree order (`structure.rs`), so the cost along chains is linear. The factorization
+//! is our own, because no crate meets both requirements: it must leave out redundant equations while it runs, the same ones during a whole
+//! step, and its sums must not depend on the processor. Motors and gears measure angles from the beginning of the step, so no full turns
+//! need to be counted.
+//!
+//! # Tolerances
+//!
+//! Tolerances of constraints and contacts follow from the sizes of bodies and levers, never from coordinates (`scale.rs`, and `Scale` in
+//! `contact/collider.rs`): the origin of the world is arbitrary. Coordinates only widen a tolerance to the rounding errors that they cause:
+//! 1e-14 of them for joints, 4e-14 for contacts. Rates of angles are compared with rates of lengths by the size of the mechanism. The two
+//! tangents of a contact are arbitrary, too: friction is bounded by a disc, the couplings of its equations count by the norms of their 2 × 2
+//! blocks, and rates are compared with lengths of vectors. `tests/families/` of jabuka changes what is arbitrary in random scenes, and
+//! compares the motion.
+//!
+//! # Laws, modes and events
+//!
+//! Each equation has a [`Law`]. An equality always holds. An inequality (a rope, a limit, a contact) is c ≥ 0 with λ ≥ 0. A speed motor
+//! keeps a speed with |λ| up to its limit. Friction couples two equations with the normal force. The `Mode` of an equation tells whether it
+//! is active and how it exerts force. It does not change within a step, so the right-hand side is smooth there.
+//!
+//! A step ends at each event that changes a mode: a rope becomes taut, a multiplier changes its sign, or a motor reaches its speed.
+//! `world/piece.rs` shortens the step until it ends just after the event, so each method keeps its order. Then `modes.rs` solves two linear
+//! complementarity problems. The first gives the impulses of the inequalities that are hit. The second gives, from the accelerations, the
+//! equations that stay active. The account `limits` holds the energy that these impacts take, the account `motors` the work of motors.
+//!
+//! # Friction at several points
+//!
+//! Bodies that touch at several points can share friction in many ways, and the factorization picks one of them. Where it lies outside a
+//! cone of friction, sweeps look for forces within all cones (`cone.rs`): nothing slips as long as there are any. If they find neither these
+//! nor a slip, Moreau's scheme takes over.
+//!
+//! # Impulses of many contacts
+//!
+//! Moreau's scheme (`contact/crowd/`) needs impulses at all contacts, limits and motors at once. Sweeps find them (`sweep.rs`). If there are
+//! no joints, the contacts form a `Pile` (`pile.rs`): flat arrays of points and bodies, which sweeps pass through quickly, island by island.
+//! The sweeps start from the last forces (`last_forces.rs`), and Anderson acceleration speeds them up (`anderson.rs`). Towers, and heavy
+//! bodies on light ones, would need too many sweeps: where these leave an error, Newton's method solves an island as a whole (`refine.rs`,
+//! `newton.rs`). Bodies that approach stop, or rebound by Poisson's law (`rebound.rs`). Overlapping bodies are moved apart (`separate.rs`),
+//! and the accounts include the energy that this takes.
+//!
+//! # Reactions
+//!
+//! A snapshot holds the reaction of each constraint on its second end (`reaction.rs`): the sum of the forces Jᵀ λ of its equations, and of
+//! their torques about this end. For redundant equations λ is zero, so one hinge of a door may carry the whole load and the other none. The
+//! forces of an impact are not included. The contact forces of a heap are those of its last part; for a resting heap, sweeps find them
+//! (`shown.rs`).
+//!
+//! # A new kind
+//!
+//! A new constraint is a file here and a line in this one.
 
 mod anderson;
 mod ball;

@@ -1,4 +1,18 @@
-//! Forces: their interface, and one file for each kind of force. `dynamics` re-exports all public items.
+//! Forces: their interface, and one file for each kind of force. The crate re-exports all public items.
+//!
+//! Forces between pairs (`pairs.rs`) visit each pair once. So the sum over all pairs conserves momentum up to rounding. Only bodies act on
+//! particles, so no particle depends on other particles.
+//!
+//! # The tree of gravitation
+//!
+//! With an opening angle, gravitation is summed by a tree (`tree/`). A node is split at the middle of its longest edge, but neither part
+//! gets less than an eighth of the bodies, so the tree stays shallow for every distribution of bodies. Groups of 32 bodies traverse the tree
+//! together. The order of the terms in a body's sum depends only on the tree, so rayon may process the groups in any order.
+//!
+//! A node is expanded about its center of mass up to its second moments. The expansion of the softened kernel includes the trace of these
+//! moments. At an opening angle of 0.5, the error of the forces is 4e-4 (root mean square); at 0.3 it is 8e-5, at 1 it is 5e-3. The reported
+//! potential is that of the same tree. The forces are not exactly its gradient, and the two forces of a pair are not exactly opposite. So
+//! energy, momentum and angular momentum drift by less than the error of the forces.
 
 mod buoyancy;
 mod cells;

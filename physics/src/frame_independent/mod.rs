@@ -4,6 +4,10 @@
 //! A step ends where the motion is not smooth — at a birth, a death, or the end of the run — and nowhere else. A requested moment within a
 //! step is computed by a branch: a copy of the bodies at the start of the step makes a shorter step to exactly that moment. The result is
 //! as accurate as the run, and does not affect the run: it is the same, bit for bit, whichever moments are requested.
+//!
+//! The engine takes over a `World` with its forces, given motions, energy accounts and expected energy, and the times at which bodies appear
+//! and disappear. A `Stepper` holds the bodies in its own representation, and chooses its own steps. `Bodies` lists the quantities to
+//! integrate: a body without torques rotates in closed form.
 
 mod advance;
 mod bodies;

@@ -2,6 +2,9 @@
 //!
 //! A new method is one file that implements [`Integrator`], and one line in [`METHODS`]. The tests of order and energy then cover it
 //! automatically.
+//!
+//! Each method has its own dense output for the moments between two steps (`dense.rs`): the drift of a splitting method, or quintic Hermite
+//! polynomials from order 2 up. So the steps never depend on what is drawn. A method gets a `System`, which combines forces and constraints.
 
 mod dense;
 mod euler_cromer;

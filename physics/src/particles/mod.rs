@@ -13,6 +13,19 @@
 //! | the living particles and their motion | [`Cloud`] |
 //! | the bodies that stop particles | [`Scenery`] |
 //! | impacts, and lasting contact | `bounce.rs`, `hold.rs` |
+//!
+//! # How a cloud moves
+//!
+//! A [`Cloud`] advances the living particles of one emitter, 128 at a time, with the world's own methods and forces. Each particle starts at
+//! the exact time of its birth, with a shorter first step. Each has its own random numbers, so no particle depends on another, and any
+//! subset gives the same bits.
+//!
+//! A particle that collides is a small ball. [`Scenery`] holds the convex parts of all obstacles and their paths between two frames. If the
+//! free path of a particle is far from all of them, the particle follows it. For all other particles, `bounce.rs` finds the first contact in
+//! each step, applies an impulse, and repeats the remaining part of the step. A particle that would hardly rebound stays in contact, and
+//! slides or sticks (`hold.rs`).
+//!
+//! Bodies that emit or attract particles are interpolated between frames (`recorded_motion.rs`).
 
 mod births;
 mod bounce;

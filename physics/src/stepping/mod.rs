@@ -7,6 +7,60 @@
 //!
 //! Without contacts and joints, a step gives the same numbers as a step of Euler–Cromer. All forces are evaluated at the start of the
 //! step.
+//!
+//! # Where it is used
+//!
+//! Scenes with `contacts = "time-stepping"` use this engine if forces move more than sixty bodies, or more than twenty where there are
+//! joints, or if a torus collides (`is_by_moreau` in `scene/contact.rs` of jabuka). For fewer bodies, the world's own Moreau scheme is exact
+//! in joints and fast enough.
+//!
+//! The engine takes over a `World`, so forces, given motions, presence, energy accounts and expected energy are the same. One step of jabuka
+//! is one step of rapier with a single iteration that makes more sweeps. So all forces are evaluated for each step, all impulses of a step
+//! can be read, and a step without contacts equals one of Euler–Cromer, up to rounding. jabuka also computes the rotation: a body gets the
+//! angular velocity that leads to the orientation of free rotation (`rotation.rs`), so it conserves its angular momentum. Thin rods on
+//! hinges are an exception (`thin_rods.rs`). The stiffness of contacts follows from the step. All small length tolerances of rapier follow
+//! from the thinnest moving body.
+//!
+//! # Where rapier is corrected
+//!
+//! Each of these files explains one correction of rapier.
+//!
+//! | what | where |
+//! | --- | --- |
+//! | the energy of impulses | `bookkeeping.rs` |
+//! | rotation of round bodies about their axis | `rolling.rs` |
+//! | joints, and velocities that rapier would lose | `mean_velocity.rs`, `mechanisms.rs`, `joint_arcs.rs` |
+//! | friction: its direction, and rotating points | `sliding.rs` |
+//! | impacts of many points | `bounce.rs` |
+//! | rebounds of bodies on joints | `rebound.rs`, `joint_response.rs` |
+//! | contacts that rapier would keep | `fresh_contacts.rs`, `kept_contacts.rs` |
+//! | concave meshes | `convex_parts.rs` |
+//! | planes | `plane.rs` |
+//! | surface properties of pairs | `mixing.rs`, `hooks.rs` |
+//!
+//! - **Energy**: an impulse changes the kinetic energy by its product with the mean of the velocities before and after the step, independent
+//!   of other forces. So the loss at each contact is known, and the drift is only the error of the integration. The remaining impulses on a
+//!   jointed body come from its joints. Those of motors can be told apart, since rapier puts their equation first in a joint. If bodies are
+//!   pushed apart or sink into each other without a velocity, forces do work along this displacement, which the accounts add to the impacts.
+//! - **Silent changes** of rapier are undone: there is no limit on speeds or rotations, no damping and no sleeping. rapier disables a body
+//!   when its position is not finite; this ends the run. Continuous collision detection leaves spheres slightly inside a surface, where
+//!   contacts are soft and a fast sphere would pass through. So such a body is moved to a place just before the surface.
+//! - **Joints**: rapier moves bodies by velocities that correct the joints, and then keeps velocities without that correction. Each step
+//!   would lose a part of the speed, and a pendulum most of its energy. So bodies on joints keep the mean velocity of the step, unless
+//!   something else pushes them. All bodies of a mechanism do, or none. Only corrections that lead joints along their arcs become
+//!   velocities, not those of joints that give way.
+//! - **Friction**: rapier shortens the impulse that would stop the sliding; for a long body, this impulse has another direction than the
+//!   sliding. So a sliding surface gets an additional velocity that leads to the right direction. rapier has a second model, with friction
+//!   at each point of a contact. There, blocks slide 13 % too far, and slide on inclines where they should stay.
+//! - **Rebounds on joints**: if rapier's sweeps have not found the whole impulse of an impact, the solver of `constraint` says what is
+//!   missing.
+//! - **Kept contacts**: rapier also keeps whole contacts in world axes, which makes towers stable. For bodies that slide or rotate, contacts
+//!   are found anew.
+//! - **Concave meshes** that move are cut along their own faces into convex parts, which is exact. rapier's own decomposition, by voxels,
+//!   fills notches; it serves only meshes that would need more than 128 parts.
+//! - **Planes** perpendicular to an axis are blocks, since rapier compares a half-space with every body.
+//! - **Surface properties** of two bodies are combined by rapier's own rules where these suffice, because a pair with a hook is computed
+//!   again at every step.
 
 mod advance;
 mod bodies;
