@@ -8,7 +8,7 @@ use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
-use crate::scene::grammar::{DefaultValue, KeySpec, Kind, TableSpec};
+use crate::scene::grammar::{DefaultValue, KeySpec, Kind, Rule, TableSpec};
 use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
@@ -282,6 +282,17 @@ impl<'a> View<'a> {
     pub(in crate::scene) fn variant(&self, name: &str) -> Option<View<'a>> {
         let view = self.table(name);
         view.table.is_some().then_some(view)
+    }
+
+    /// Returns the name and the view of the variant that the table has, of those of which it must have exactly one. `None` if it has none.
+    pub(in crate::scene) fn chosen(&self) -> Option<(&'static str, View<'a>)> {
+        let Rule::ExactlyOne(names) = &self.spec.rule else { return None };
+        names.iter().find_map(|name| Some((*name, self.variant(name)?)))
+    }
+
+    /// Returns whether the grammar of the table contains a key.
+    pub(in crate::scene) fn takes(&self, name: &str) -> bool {
+        self.spec.key(name).is_some()
     }
 
     /// Returns a view of each table in a list of tables.

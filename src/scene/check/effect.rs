@@ -32,7 +32,11 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             ForceKind::J2(J2 { planet, bodies, .. }) => {
                 bodies.iter().chain([planet]).for_each(|body| attracts[body.index()] = true);
             }
-            _ => {}
+            ForceKind::Constant(_)
+            | ForceKind::Drag(_)
+            | ForceKind::LennardJones(_)
+            | ForceKind::Buoyancy(_)
+            | ForceKind::Spring { .. } => {}
         }
     }
     for (i, (table, body)) in root.bodies().zip(bodies).enumerate() {

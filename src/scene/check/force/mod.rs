@@ -78,37 +78,21 @@ pub(super) fn read(
 
 impl Reader<'_, '_> {
     fn kind(&mut self, view: &View<'_>) -> Option<ForceKind> {
-        if let Some(view) = view.variant("constant") {
-            return Some(self.constant(&view));
+        let (kind, view) = view.chosen()?;
+        match kind {
+            "constant" => Some(self.constant(&view)),
+            "drag" => Some(self.drag(&view)),
+            "spring" => self.spring(&view),
+            "gravitation" => Some(self.gravitation(&view)),
+            "coulomb" => Some(self.coulomb(&view)),
+            "lorentz" => Some(self.lorentz(&view)),
+            "lennard_jones" => self.lennard_jones(&view),
+            "buoyancy" => self.buoyancy(&view),
+            "dipoles" => Some(self.dipoles(&view)),
+            "j2" => self.j2(&view),
+            "formula" => self.formula(&view),
+            kind => unreachable!("a `{kind}` is in the grammar, and nothing reads it"),
         }
-        if let Some(view) = view.variant("drag") {
-            return Some(self.drag(&view));
-        }
-        if let Some(view) = view.variant("gravitation") {
-            return Some(self.gravitation(&view));
-        }
-        if let Some(view) = view.variant("coulomb") {
-            return Some(self.coulomb(&view));
-        }
-        if let Some(view) = view.variant("lorentz") {
-            return Some(self.lorentz(&view));
-        }
-        if let Some(view) = view.variant("lennard_jones") {
-            return self.lennard_jones(&view);
-        }
-        if let Some(view) = view.variant("buoyancy") {
-            return self.buoyancy(&view);
-        }
-        if let Some(view) = view.variant("dipoles") {
-            return Some(self.dipoles(&view));
-        }
-        if let Some(view) = view.variant("j2") {
-            return self.j2(&view);
-        }
-        if let Some(view) = view.variant("formula") {
-            return self.formula(&view);
-        }
-        self.spring(&view.variant("spring")?)
     }
 
     fn constant(&mut self, view: &View<'_>) -> ForceKind {

@@ -12,21 +12,7 @@ impl Reader<'_, '_> {
     /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters if the force has no `on`.
     /// Springs, dipole forces and forces with `between` act on no particles. Electric forces act on charged particles only.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
-        /// The keys for the kinds of forces that can act on particles.
-        const FORCE_KINDS: [&str; 10] = [
-            "constant",
-            "drag",
-            "gravitation",
-            "coulomb",
-            "lorentz",
-            "formula",
-            "lennard_jones",
-            "buoyancy",
-            "j2",
-            "dipoles",
-        ];
-        let Some((kind, view)) = FORCE_KINDS.iter().find_map(|kind| Some((*kind, force.variant(kind)?)))
-        else {
+        let Some((kind, view)) = force.chosen().filter(|(_, view)| view.takes("on")) else {
             return Vec::new();
         };
         let emitters = self.emitters;

@@ -72,12 +72,9 @@ fn about(length: f64) -> String {
     figure(format!("{length:.3e}").parse().unwrap_or(length))
 }
 
-/// The keys for the kinds of joints.
-const JOINT_KINDS: [&str; 8] = ["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"];
-
 /// Returns the inner table for the kind of a joint, such as `hinge`. `None` if the joint has no kind.
 pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
-    JOINT_KINDS.into_iter().find_map(|kind| joint.variant(kind))
+    Some(joint.chosen()?.1)
 }
 
 /// Reads the arrows that show the reaction force and the reaction torque of a joint.
