@@ -3,17 +3,16 @@
 //! Joints need a matrix, contacts alone do not. A pile keeps each contact point and each body in one small record. Bodies that touch form an
 //! island; the sweeps over each island end as soon as its impulses have converged. The laws are those of the general solver.
 
-mod apart;
 mod forces;
 mod impacts;
 mod island;
 mod point;
+mod separate;
 
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
 
-pub(crate) use self::impacts::Strike;
 use self::point::{Point, Roll};
 use super::super::contact::{LastingContact, pose};
 use super::super::sets::Sets;
@@ -40,6 +39,9 @@ pub(crate) struct Pile {
     fastest: f64,
     /// Whether Newton's method is left out at present.
     pause: Pause,
+    /// True if all bodies that can move belong to the pile. Then impacts without a rebound are recorded, too, and contacts that pushed before
+    /// get no impulse.
+    holds_all: bool,
 }
 
 /// Stands for the index of a body that has no contact.
@@ -131,13 +133,8 @@ impl Body {
 
 impl Pile {
     /// Takes the possible contacts of a substep, in the order of their bodies, measured at a state. Contacts that were there in the last
-    /// substep keep their forces. If `keeps_others` is true, the forces between pairs of bodies without contacts at present are kept as well.
-    pub(crate) fn take_contacts(
-        &mut self,
-        contacts: Vec<LastingContact>,
-        keeps_others: bool,
-        (model, state): (&Model, &State),
-    ) {
+    /// substep keep their forces. A pile that does not hold all bodies also keeps the forces of pairs that have no contact at present.
+    pub(crate) fn take_contacts(&mut self, contacts: Vec<LastingContact>, model: &Model, state: &State) {
         let mut known = std::mem::take(&mut self.contacts);
         if !self.others.is_empty() {
             known.append(&mut self.others);
@@ -147,7 +144,7 @@ impl Pile {
         self.lay_out(model, state);
         self.impulses.clear();
         self.impulses.resize(self.points.len(), [0.0; 3]);
-        if keeps_others {
+        if !self.holds_all {
             let has = |pair: &[usize; 2]| {
                 self.contacts.binary_search_by_key(pair, |contact| contact.place.bodies).is_ok()
             };
@@ -161,6 +158,18 @@ impl Pile {
             point.respond(&self.bodies);
         }
         self.respond_to_rolling();
+    }
+
+    /// Lets the pile hold all bodies that can move.
+    pub(crate) fn hold_all(&mut self) {
+        self.holds_all = true;
+    }
+
+    /// Forgets the contacts of these bodies.
+    pub(crate) fn lose(&mut self, bodies: &[usize]) {
+        let stays = |contact: &Contact| !contact.place.bodies.iter().any(|body| bodies.contains(body));
+        self.contacts.retain(stays);
+        self.others.retain(stays);
     }
 
     /// Finds the islands, and creates their points and bodies in the order in which sweeps visit them.

@@ -164,11 +164,12 @@ impl Solver {
         gaps
     }
 
-    /// Returns the indices of the contacts that pushed in the last solution. `joints` is the number of constraints before the contacts.
-    pub(crate) fn pushing_contacts(&self, joints: usize) -> impl Iterator<Item = usize> {
+    /// Returns the pairs of bodies whose contacts pushed in the last solution.
+    pub(crate) fn pushing_pairs(&self) -> Vec<[usize; 2]> {
         let places = self.structure.iter().flat_map(|structure| &structure.places);
         let pushing = places.filter(|place| self.unknown[place.row] > 0.0);
-        pushing.filter_map(move |place| place.constraint.checked_sub(joints))
+        let contacts = pushing.filter_map(|place| place.constraint.checked_sub(self.joints()));
+        contacts.map(|contact| self.contacts[contact].bodies).collect()
     }
 
     /// Returns the two bodies of the contact with the largest normal impulse in the last solution, and the sum of all normal impulses, N s.

@@ -7,6 +7,8 @@
 mod all;
 mod heap;
 mod hits;
+mod impulses;
+mod substep;
 mod substep_motion;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -83,6 +85,8 @@ impl Crowd {
             self.again.remove(body);
             self.heaps.remove(body);
         }
+        self.places.retain(|place| !place.bodies.iter().any(|body| bodies.contains(body)));
+        self.pile.lose(bodies);
         self.course = None;
     }
 

@@ -164,11 +164,7 @@ mod tests {
                 let (mut by_pile, mut by_solver) = (free.clone(), free.clone());
 
                 let mut pile = Pile::default();
-                pile.take_contacts(
-                    places.iter().map(|place| (**place).clone()).collect(),
-                    false,
-                    (model, state),
-                );
+                pile.take_contacts(places.iter().map(|place| (**place).clone()).collect(), model, state);
                 pile.aim(DT, 1e-5);
                 pile.push_all(model, DT, &mut by_pile);
 
@@ -218,7 +214,7 @@ mod tests {
             }
             let before = momenta(&pushed);
             let mut pile = Pile::default();
-            pile.take_contacts(places.clone(), false, (model, state));
+            pile.take_contacts(places.clone(), model, state);
             pile.aim(DT, 1e-5);
             pile.push_all(model, DT, &mut pushed);
             let forces = pile.last_forces(&places, model, state);

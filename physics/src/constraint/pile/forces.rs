@@ -183,7 +183,7 @@ impl Pile {
         }
         let mut pile = Pile { contacts: self.contacts.clone(), ..Pile::default() };
         let shown = places.clone();
-        pile.take_contacts(places, false, (model, &given));
+        pile.take_contacts(places, model, &given);
         pile.measure(model, &given);
         for _ in 0..FORCE_PASSES {
             for point in &mut pile.points {

@@ -26,31 +26,21 @@ struct Rebound {
     impulse: DVec3,
 }
 
-/// How impacts of a substep are found.
-#[derive(Clone, Copy)]
-pub(crate) struct Strike {
-    /// The start of the substep, s, and its length, s.
-    pub(crate) time: f64,
-    pub(crate) part: f64,
-    /// True if impacts without a rebound are recorded, too, and contacts that pushed before get no impulse.
-    pub(crate) counts_soft: bool,
-}
-
 impl Pile {
-    /// Applies the impulses of all contacts that close within the substep. [`aim`](Self::aim) must have set the goals. For a contact that
+    /// Applies the impulses of all contacts that close within `part` seconds after `time`. [`aim`](Self::aim) must have set the goals. For a contact that
     /// rebounds, the goal becomes 0, so its bodies approach no further in this substep.
     pub(crate) fn strike_all(
         &mut self,
         model: &Model,
-        strike: Strike,
+        (time, part): (f64, f64),
         (state, loads): (&mut State, &Loads),
     ) -> Struck {
         self.take_velocities(model, state);
         let limits = self.limits(Purpose::Impact);
         let (mut rebounds, mut velocities) = (Vec::new(), BTreeMap::new());
         self.for_each_island(|pile, island| {
-            if !strike.counts_soft || pile.is_closing(island, strike.part) {
-                let new = pile.strike(island, (model, strike, limits), (state, loads), &mut velocities);
+            if !pile.holds_all || pile.is_closing(island, part) {
+                let new = pile.strike(island, (model, part, limits), (state, loads), &mut velocities);
                 rebounds.extend(new);
             }
         });
@@ -60,8 +50,8 @@ impl Pile {
         }
         let early = self.early(&rebounds, &velocities, state);
         let mut impacts: Vec<Impact> =
-            rebounds.iter().map(|rebound| self.impact(rebound, strike.time, &velocities)).collect();
-        if strike.counts_soft {
+            rebounds.iter().map(|rebound| self.impact(rebound, time, &velocities)).collect();
+        if self.holds_all {
             impacts = of_pairs(impacts);
         }
         impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -83,11 +73,11 @@ impl Pile {
     fn strike(
         &mut self,
         island: &Island,
-        (model, strike, limits): (&Model, Strike, Limits),
+        (model, part, limits): (&Model, f64, Limits),
         (state, loads): (&mut State, &Loads),
         velocities: &mut BTreeMap<usize, DVec3>,
     ) -> Vec<Rebound> {
-        let mut rebounds = self.rebounds(island, (model, loads), strike);
+        let mut rebounds = self.rebounds(island, (model, loads), part);
         for rebound in &rebounds {
             // The loads act until the bodies touch. What they add to the approach is reversed with it.
             self.points[rebound.point].goal.x = -rebound.fall;
@@ -121,8 +111,8 @@ impl Pile {
 
     /// Returns the contacts of an island that close within the substep, and fast enough to rebound. A contact does not rebound if the loads
     /// would undo the rebound within about another substep, unless its restitution is 1.
-    fn rebounds(&self, island: &Island, (model, loads): (&Model, &Loads), strike: Strike) -> Vec<Rebound> {
-        let change = |body: &usize| strike.part * model.inverse_mass()[*body] * loads.force[*body].length();
+    fn rebounds(&self, island: &Island, (model, loads): (&Model, &Loads), part: f64) -> Vec<Rebound> {
+        let change = |body: &usize| part * model.inverse_mass()[*body] * loads.force[*body].length();
         let rebound = |number: usize| {
             let point = &self.points[number];
             let contact = &self.contacts[point.contact];
@@ -135,9 +125,9 @@ impl Pile {
             let slow = if restitution < 1.0 { contact.place.bodies.iter().map(change).sum() } else { 0.0 };
             // A rebound that the loads would undo is none.
             let rebounds = -restitution * rate > slow;
-            let is_new = strike.counts_soft && contact.push <= 0.0;
-            let time = goal / rate * strike.part;
-            let falls = rebounds && strike.counts_soft;
+            let is_new = self.holds_all && contact.push <= 0.0;
+            let time = goal / rate * part;
+            let falls = rebounds && self.holds_all;
             (rebounds || -rate > slow && is_new).then(|| Rebound {
                 point: number,
                 time,

@@ -10,7 +10,8 @@ use super::super::collider::Collider;
 use super::super::lasting_contact::{LastingContact, spoke};
 use super::super::path::pose;
 use super::Crowd;
-use super::substep_motion::{JAMMED_OVERLAP, MAX_CROWD_GAP, MAX_SEPARATION_ATTEMPTS, separate_pile};
+use super::substep::separate;
+use super::substep_motion::{JAMMED_OVERLAP, MAX_CROWD_GAP, MAX_SEPARATION_ATTEMPTS};
 
 impl Collider {
     /// Makes all present bodies that forces move the crowd (the bodies that Moreau's scheme advances).
@@ -20,6 +21,7 @@ impl Collider {
         self.crowd.bodies = (0..model.len()).filter(moves).collect();
         self.crowd.is_all = true;
         self.crowd.solver.count_soft_impacts();
+        self.crowd.pile.hold_all();
     }
 
     /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. Returns a breakdown if this fails.
@@ -93,8 +95,8 @@ impl Collider {
             // What is moved apart must not be moved into its neighbors. Bodies that stay jammed overlap by what those around them allow,
             // which the report of the run says.
             let (all, _) = self.touching_in_crowd(model, state, MAX_CROWD_GAP);
-            self.crowd.pile.take_contacts(all, false, (model, state));
-            separate_pile(&mut self.crowd.pile, model, time, state);
+            self.crowd.pile.take_contacts(all, model, state);
+            separate(&mut self.crowd.pile, model, time, state);
         }
         self.crowd.course = None;
     }

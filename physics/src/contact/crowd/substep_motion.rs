@@ -10,21 +10,18 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::super::super::constraint::{Pile, Purpose, Solver, Strike};
-use super::super::super::energy::mechanical;
-use super::super::super::integrator::drift_body;
 use super::super::super::{BodyId, Breakdown, Impact, Loads, Model, State};
 use super::super::approach::close;
 use super::super::closest_points::nearest;
 use super::super::collider::{Collider, Scale};
 use super::super::lasting_contact::{LastingContact, spoke};
-use super::super::laws::LawResidual;
 use super::super::pairs::{Pair, near};
 use super::super::path::pose;
 use super::super::solid::Solid;
-use super::super::strike::kinetic;
 use super::super::touch::{Touch, touches};
 use super::Crowd;
+use super::impulses::Jointed;
+use super::substep::separate;
 
 /// The smallest and the largest number of substeps in a step.
 const SUBSTEPS_PER_STEP: [f64; 2] = [2.0, 64.0];
@@ -398,17 +395,15 @@ impl Collider {
             jammed = deep;
             // What is moved apart must not be moved into its neighbors.
             let (all, _) = self.touching_in_crowd(model, state, MAX_CROWD_GAP);
-            let Crowd { pile, solver, is_all, .. } = &mut self.crowd;
+            let Crowd { pile, solver, .. } = &mut self.crowd;
             if model.constraints().is_empty() {
-                pile.take_contacts(all, !*is_all, (model, state));
-                separate_pile(pile, model, time, state);
-                continue;
+                pile.take_contacts(all, model, state);
+                separate(pile, model, time, state);
+            } else {
+                let mut jointed = Jointed::of(solver);
+                jointed.take_contacts(all, model, time, state);
+                separate(&mut jointed, model, time, state);
             }
-            solver.find_by_sweeps();
-            solver.take_contacts(all.into_iter().map(Arc::new).collect());
-            solver.forget();
-            solver.hold_joints(model, time, state);
-            separate(solver, model, time, state);
         }
         if self.crowd.is_all {
             // They overlap by what the bodies at them allow, which the report of the run says.
@@ -463,216 +458,5 @@ impl Crowd {
             angular_momentum: self.bodies.iter().map(|&i| state.angular_momentum[i]).collect(),
             accounts: state.accounts,
         }
-    }
-
-    /// Advances the crowd (the bodies that Moreau's scheme advances) by one substep of `part` seconds from time `t`. `closed` holds its
-    /// possible contacts. Returns the energy that the impulses have added, which breaks a law; `None` without impulses.
-    fn advance(
-        &mut self,
-        closed: Vec<LastingContact>,
-        model: &Model,
-        (t, part): (f64, f64),
-        now: &mut State,
-        loads: &mut Loads,
-    ) -> Option<LawResidual> {
-        let joints = model.constraints().len();
-        self.pushing.clear();
-        if joints == 0 && !closed.is_empty() {
-            return self.advance_pile(closed, model, (t, part), (now, loads));
-        }
-        if joints == 0 {
-            self.pile.take_contacts(closed, !self.is_all, (model, now));
-            self.fly(model, 0.5 * part, now);
-            if self.is_all {
-                model.place(t + 0.5 * part, now);
-            }
-            model.sum(t + 0.5 * part, now, loads);
-            if model.does_work() || self.is_all && model.has_guided() {
-                let mut middle = now.clone();
-                self.kick(model, 0.5 * part, &mut middle, loads);
-                now.accounts.add(part, self.power(model, t + 0.5 * part, &middle));
-            }
-            self.kick(model, part, now, loads);
-            self.fly(model, 0.5 * part, now);
-            return None;
-        }
-        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
-        let pairs: Vec<[usize; 2]> = closed.iter().map(|place| place.bodies).collect();
-        let solver = &mut self.solver;
-        solver.find_by_sweeps();
-        solver.take_contacts(closed.into_iter().map(Arc::new).collect());
-        solver.forget();
-        // Bodies may approach only so fast that their gap does not close before the end of the substep.
-        solver.prepare_sweeps(model, t, now);
-        let mut goals: Vec<f64> =
-            solver.gaps(PUSHING_CONTACT_TOLERANCE).iter().map(|gap| -gap / part).collect();
-        model.sum(t, now, loads);
-        let struck = solver.strike_all(model, (t, part), &mut goals, (now, loads));
-        self.impacts.extend(struck.impacts);
-        let rates = self.solver.rates_now();
-        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
-        self.fly(model, 0.5 * part, now);
-        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
-        model.place(t + 0.5 * part, now);
-        // The joints have opened a little on the way. Their ends are brought together while the impulses are found: reactions that act at
-        // two places instead of one would change the angular momentum.
-        let flown: Vec<_> = self.bodies.iter().map(|&i| (now.location[i], now.orientation[i])).collect();
-        if joints > 0 {
-            self.solver.hold_joints(model, t + 0.5 * part, now);
-            self.solver.settle_places(t + 0.5 * part, now);
-        }
-        model.sum(t + 0.5 * part, now, loads);
-        let until_middle = now.accounts;
-        self.solver.prepare_sweeps(model, t + 0.5 * part, now);
-        let open = self.solver.widest_joint();
-        let goals = self.solver.middle(&goals, &rates);
-        self.kick(model, 0.5 * part, now, loads);
-        let kicked = self.kinetic(model, now);
-        let solver = &mut self.solver;
-        solver.push_all(model, &goals, Purpose::Forces(0.5 * part), now);
-        // The second half of the substep repeats the impulses, at the same velocities.
-        let booked = now.accounts;
-        now.accounts.add(1.0, booked);
-        now.accounts.add(-1.0, until_middle);
-        gain += self.given(model, 0.5 * part, (&first, now), loads);
-        let power = self.power(model, t + 0.5 * part, now);
-        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
-        now.accounts.add(part, power);
-        let mut residual = None;
-        if let Some((bodies, impulses)) = self.solver.hardest_contact() {
-            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
-            // An open joint between the bodies turns the impulses by their moments about its width.
-            let size = self.solver.least_size();
-            self.laws.note_moment(open * impulses, size * impulses, bodies, t);
-        }
-        for (&i, (location, orientation)) in self.bodies.iter().zip(flown) {
-            (now.location[i], now.orientation[i]) = (location, orientation);
-        }
-        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
-            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
-            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
-        }
-        self.pushing.extend(self.solver.pushing_contacts(joints).map(|contact| pairs[contact]));
-        self.pushing.sort_unstable();
-        self.fly(model, 0.5 * part, now);
-        model.place(t + part, now);
-        shift(struck.early, model, t + part, now);
-        separate(&mut self.solver, model, t + part, now);
-        residual
-    }
-
-    /// Advances the crowd (the bodies that Moreau's scheme advances) as [`advance`](Self::advance) does, if there are no joints.
-    fn advance_pile(
-        &mut self,
-        closed: Vec<LastingContact>,
-        model: &Model,
-        (t, part): (f64, f64),
-        (now, loads): (&mut State, &mut Loads),
-    ) -> Option<LawResidual> {
-        let (energy, accounts) = (self.kinetic(model, now), now.accounts);
-        self.pile.take_contacts(closed, !self.is_all, (model, now));
-        self.pile.aim(part, PUSHING_CONTACT_TOLERANCE);
-        model.sum(t, now, loads);
-        let strike = Strike { time: t, part, counts_soft: self.is_all };
-        let struck = self.pile.strike_all(model, strike, (now, loads));
-        self.impacts.extend(struck.impacts);
-        let mut gain = self.kinetic(model, now) - energy + struck.fallen;
-        self.pile.aim_at_middle();
-        self.fly(model, 0.5 * part, now);
-        let first: Vec<_> = self.bodies.iter().map(|&i| (now.velocity[i], now.angular_momentum[i])).collect();
-        model.place(t + 0.5 * part, now);
-        model.sum(t + 0.5 * part, now, loads);
-        self.pile.measure(model, now);
-        let until_middle = now.accounts;
-        self.kick(model, 0.5 * part, now, loads);
-        let kicked = self.kinetic(model, now);
-        self.pile.push_all(model, 0.5 * part, now);
-        // The second half of the substep repeats the impulses, at the same velocities.
-        let booked = now.accounts;
-        now.accounts.add(1.0, booked);
-        now.accounts.add(-1.0, until_middle);
-        gain += self.given(model, 0.5 * part, (&first, now), loads);
-        let power = self.power(model, t + 0.5 * part, now);
-        let [work, motors] = [now.accounts.work - accounts.work, now.accounts.motors - accounts.motors];
-        now.accounts.add(part, power);
-        let mut residual = None;
-        if let Some((bodies, impulses)) = self.pile.hardest_contact() {
-            residual = Some(self.laws.weigh(gain - work - motors, energy.max(kicked), bodies, t));
-            self.laws.note_moment(0.0, self.pile.least_size() * impulses, bodies, t);
-        }
-        for (&i, (velocity, angular_momentum)) in self.bodies.iter().zip(first) {
-            now.velocity[i] = 2.0 * now.velocity[i] - velocity;
-            now.angular_momentum[i] = 2.0 * now.angular_momentum[i] - angular_momentum;
-        }
-        self.pushing.extend(self.pile.pushing());
-        self.fly(model, 0.5 * part, now);
-        model.place(t + part, now);
-        shift(struck.early, model, t + part, now);
-        separate_pile(&mut self.pile, model, t + part, now);
-        residual
-    }
-
-    /// Computes the kinetic energy of the crowd (the bodies that Moreau's scheme advances), J.
-    fn kinetic(&self, model: &Model, now: &State) -> f64 {
-        self.bodies.iter().map(|&body| kinetic(body, model, now)).sum()
-    }
-
-    /// Computes the work of all impulses but those of the loads in a substep, J. `first` holds the momenta at the start of the substep, as
-    /// velocities and angular momenta, and `now` those in the middle, `half` seconds later.
-    fn given(
-        &self,
-        model: &Model,
-        half: f64,
-        (first, now): (&[(DVec3, DVec3)], &State),
-        loads: &Loads,
-    ) -> f64 {
-        let work = |(&i, (velocity, angular_momentum)): (&usize, &(DVec3, DVec3))| {
-            let inverse_mass = model.inverse_mass()[i];
-            let impulse = (now.velocity[i] - *velocity) / inverse_mass - half * loads.force[i];
-            let turn = now.angular_momentum[i] - *angular_momentum - half * loads.torque[i];
-            2.0 * (impulse.dot(now.velocity[i]) + turn.dot(model.angular_velocity(i, now)))
-        };
-        self.bodies.iter().zip(first).map(work).sum()
-    }
-
-    /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
-    fn fly(&self, model: &Model, time: f64, now: &mut State) {
-        self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
-    }
-
-    /// Changes the momenta of the crowd (the bodies that Moreau's scheme advances) by the loads, acting for `time` seconds.
-    fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
-        for &i in &self.bodies {
-            now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];
-            now.angular_momentum[i] += time * loads.torque[i];
-        }
-    }
-}
-
-/// Subtracts from the positions of bodies the displacements, m, that impulses caused before the bodies touched. The change of energy is
-/// booked as work of impacts.
-fn shift(ways: Vec<(usize, DVec3)>, model: &Model, t: f64, state: &mut State) {
-    if !ways.is_empty() {
-        let before = mechanical(model, t, state);
-        ways.into_iter().for_each(|(body, way)| state.location[body] -= way);
-        state.accounts.impacts += mechanical(model, t, state) - before;
-    }
-}
-
-/// Moves overlapping bodies apart. The change of energy is booked as work of impacts.
-fn separate(solver: &mut Solver, model: &Model, t: f64, state: &mut State) {
-    if solver.are_within(t, state) {
-        let before = mechanical(model, t, state);
-        solver.separate(state);
-        state.accounts.impacts += mechanical(model, t, state) - before;
-    }
-}
-
-/// Moves overlapping bodies of a pile apart. The change of energy is booked as work of impacts.
-pub(super) fn separate_pile(pile: &mut Pile, model: &Model, t: f64, state: &mut State) {
-    if pile.are_within(model, state) {
-        let before = mechanical(model, t, state);
-        pile.separate(model, state);
-        state.accounts.impacts += mechanical(model, t, state) - before;
     }
 }
