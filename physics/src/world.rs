@@ -78,8 +78,7 @@ pub struct World {
     policy: ContactPolicy,
     /// The bodies held at rest, with their contacts.
     rest: Rest,
-    /// The contacts of bodies in the crowd (the bodies that Moreau's scheme advances). Filled only in the copy of the world that is made
-    /// for a snapshot.
+    /// The contacts of bodies in the crowd. Filled only in the copy of the world that is made for a snapshot.
     crowd: Vec<ContactSnapshot>,
     steps: u64,
     /// Working memory for the forces and torques at one moment.

@@ -5,7 +5,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{Contents, ExportError, FORMATS, Format};
+use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format};
 use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
@@ -80,23 +80,25 @@ impl Arguments {
             "joints" => self.joints,
             "particles" => self.particles,
             "events" => self.events.is_some(),
-            _ => false,
+            option => unreachable!("the command has no option `--{option}`"),
         };
         let extension = output.extension().unwrap_or_default();
-        let mut formats = FORMATS.into_iter();
-        if let Some((format, option)) =
-            formats.find_map(|format| Some((format, format.option().filter(|option| is_given(option))?)))
-        {
-            return if extension.eq_ignore_ascii_case(format.extension()) {
-                Ok(format)
-            } else {
-                Err(Failure::Usage(format!("`--{option}` makes a table, `.{}`", format.extension())))
-            };
+        let has_extension =
+            |format: &dyn Format| extension.eq_ignore_ascii_case(format.file_kind().extension);
+        if let Some(format) = FORMATS.into_iter().find(|format| format.option().is_some_and(is_given)) {
+            let FileKind { noun, extension } = format.file_kind();
+            let option = format.option().unwrap_or_default();
+            let other = || Failure::Usage(format!("`--{option}` makes {noun}, `.{extension}`"));
+            return if has_extension(format) { Ok(format) } else { Err(other()) };
         }
-        let mut formats = FORMATS.into_iter().filter(|format| format.option().is_none());
-        formats.find(|format| extension.eq_ignore_ascii_case(format.extension())).ok_or_else(|| {
+        let formats = FORMATS.into_iter().filter(|format| format.option().is_none());
+        formats.clone().find(|format| has_extension(*format)).ok_or_else(|| {
+            let kinds = formats.map(Format::file_kind);
+            let kinds: Vec<_> =
+                kinds.map(|FileKind { noun, extension }| format!("{noun}, `.{extension}`")).collect();
             Failure::Usage(format!(
-                "what is exported is a table, `.csv`, or a model, `.glb`, and `{}` ends in neither",
+                "what is exported is {}, and `{}` ends in neither",
+                kinds.join(", or "),
                 visible_path(output)
             ))
         })

@@ -11,10 +11,6 @@ use crate::simulate::{Recorded, Selection};
 pub(super) struct Bodies;
 
 impl Format for Bodies {
-    fn extension(&self) -> &'static str {
-        "csv"
-    }
-
     fn without_particles(&self) -> Option<&'static str> {
         Some("`--particles` makes a table of them")
     }

@@ -13,8 +13,10 @@ use crate::simulate::{Recorded, Selection};
 
 /// A format of an export: what it contains, and how it is written.
 pub trait Format: Sync {
-    /// Returns the extension of its files, such as `csv`.
-    fn extension(&self) -> &'static str;
+    /// Returns the kind of its files.
+    fn file_kind(&self) -> &'static FileKind {
+        &TABLE
+    }
 
     /// Returns the option of `jabuka export` that selects the format, without its dashes. `None` if the extension alone selects it.
     fn option(&self) -> Option<&'static str> {
@@ -26,7 +28,8 @@ pub trait Format: Sync {
         None
     }
 
-    /// Explains where the particles of a scene are, if this format leaves them out. `None` if that needs no word.
+    /// Returns what the summary says about the particles of a scene: why this format leaves them out, or what writes them. `None` if it says
+    /// nothing.
     fn without_particles(&self) -> Option<&'static str> {
         None
     }
@@ -42,6 +45,20 @@ pub trait Format: Sync {
         out: &mut dyn Write,
     ) -> Result<Contents, ExportError>;
 }
+
+/// A kind of files.
+#[derive(Debug, PartialEq, Eq)]
+pub struct FileKind {
+    /// The kind in messages, such as "a table".
+    pub noun: &'static str,
+    /// The extension of file names, without the dot.
+    pub extension: &'static str,
+}
+
+/// Tables of numbers, separated by commas.
+pub static TABLE: FileKind = FileKind { noun: "a table", extension: "csv" };
+/// Animated models in binary glTF.
+pub static MODEL: FileKind = FileKind { noun: "a model", extension: "glb" };
 
 /// What a written file contains.
 #[derive(Clone, Debug, PartialEq)]

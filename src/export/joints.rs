@@ -13,10 +13,6 @@ use crate::simulate::{Recorded, Selection};
 pub(super) struct Joints;
 
 impl Format for Joints {
-    fn extension(&self) -> &'static str {
-        "csv"
-    }
-
     fn option(&self) -> Option<&'static str> {
         Some("joints")
     }

@@ -27,7 +27,7 @@ mod table;
 pub use self::bodies::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::events::{EVENT_HEADER, write_events};
-pub use self::format::{Contents, FORMATS, Format};
+pub use self::format::{Contents, FORMATS, FileKind, Format, MODEL, TABLE};
 pub use self::glb::{Exported, write_glb};
 pub use self::joints::{JOINT_HEADER, write_joints};
 pub use self::particles::{PARTICLE_HEADER, write_particles};

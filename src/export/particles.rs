@@ -12,10 +12,6 @@ use crate::simulate::{Recorded, Selection};
 pub(super) struct Particles;
 
 impl Format for Particles {
-    fn extension(&self) -> &'static str {
-        "csv"
-    }
-
     fn option(&self) -> Option<&'static str> {
         Some("particles")
     }

@@ -1,4 +1,4 @@
-//! The crowd: bodies that have too many contact events in a step, so Moreau's scheme advances them.
+//! The crowd: the bodies that Moreau's scheme advances, because they have too many contact events in a step.
 //!
 //! Some bodies hit, grip and release each other so often that it would take too long to follow each event: a chain that falls on a floor, a
 //! heap that settles. Moreau's scheme advances such bodies to the end of the step. Bodies to which this happens repeatedly stay in the
@@ -22,8 +22,8 @@ use super::collider::{Collider, Touching};
 use super::lasting_contact::LastingContact;
 use super::laws::LawBook;
 
-/// The largest number of further steps for which a body stays in the crowd (the bodies that Moreau's scheme advances). Without further
-/// steps, a settling heap would collect thousands of events in each step before it joins the crowd again.
+/// The largest number of further steps for which a body stays in the crowd. Without further steps, a settling heap would collect thousands of
+/// events in each step before it joins the crowd again.
 const MAX_FURTHER_STEPS: u32 = 16;
 
 /// The set of bodies that Moreau's scheme advances, with their contacts and computed motion.
@@ -33,15 +33,15 @@ pub(crate) struct Crowd {
     /// Finds the impulses if there are joints. `pile` finds them otherwise.
     solver: Solver,
     pile: Pile,
-    /// The motion of the crowd (the bodies that Moreau's scheme advances) until the end of the step; `None` until it is computed.
+    /// The motion of the crowd until the end of the step; `None` until it is computed.
     course: Option<SubstepMotion>,
-    /// The contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
+    /// The contacts of the crowd at the end of the last step.
     places: Vec<Arc<LastingContact>>,
     /// The impacts in the last substep of Moreau's scheme.
     impacts: Vec<Impact>,
     /// The pairs of bodies with contact forces between them in the last substep, in ascending order.
     pushing: Vec<[usize; 2]>,
-    /// For each body that joined the crowd (the bodies that Moreau's scheme advances) recently, for how many further steps it stays there.
+    /// For each body that joined the crowd recently, for how many further steps it stays there.
     again: BTreeMap<usize, Again>,
     /// How well the laws that no contact can break have been kept.
     laws: LawBook,
@@ -51,10 +51,10 @@ pub(crate) struct Crowd {
     heaps: BTreeSet<usize>,
 }
 
-/// How long a body stays in the crowd (the bodies that Moreau's scheme advances).
+/// How long a body stays in the crowd.
 #[derive(Clone, Copy, Default)]
 struct Again {
-    /// The remaining number of further steps in the crowd (the bodies that Moreau's scheme advances).
+    /// The remaining number of further steps in the crowd.
     left: u32,
     /// The number of further steps that the body got when it last joined. It doubles if the body has to join again right after these
     /// steps.
@@ -64,12 +64,12 @@ struct Again {
 }
 
 impl Crowd {
-    /// Returns true if no bodies are in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns true if no bodies are in the crowd.
     pub(crate) fn is_empty(&self) -> bool {
         self.bodies.is_empty()
     }
 
-    /// Returns a copy of the crowd (the bodies that Moreau's scheme advances) without its computed motion.
+    /// Returns a copy of the crowd without its computed motion.
     pub(super) fn without_course(&self) -> Crowd {
         Crowd { course: None, ..self.clone() }
     }
@@ -78,7 +78,7 @@ impl Crowd {
         self.bodies.iter()
     }
 
-    /// Removes these bodies from the crowd (the bodies that Moreau's scheme advances).
+    /// Removes these bodies from the crowd.
     pub(super) fn lose(&mut self, bodies: &[usize]) {
         for body in bodies {
             self.bodies.remove(body);
@@ -90,8 +90,7 @@ impl Crowd {
         self.course = None;
     }
 
-    /// Restricts the crowd (the bodies that Moreau's scheme advances) to the given bodies, whose indices are in ascending order. Returns
-    /// the bodies that are set aside.
+    /// Restricts the crowd to the given bodies, whose indices are in ascending order. Returns the bodies that are set aside.
     pub(super) fn focus(&mut self, bodies: &[usize]) -> BTreeSet<usize> {
         let is_here = |body: &usize| bodies.binary_search(body).is_ok();
         let (here, others) = std::mem::take(&mut self.bodies).into_iter().partition(is_here);
@@ -100,15 +99,14 @@ impl Crowd {
         others
     }
 
-    /// Ends the restriction by `focus`: the bodies that were set aside join the crowd (the bodies that Moreau's scheme advances) again.
+    /// Ends the restriction by `focus`: the bodies that were set aside join the crowd again.
     pub(super) fn unfocus(&mut self, others: BTreeSet<usize>) {
         self.bodies.extend(others);
         self.course = None;
     }
 
-    /// Returns true if Moreau's scheme handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or
-    /// immovable. A body held at rest is not immovable: whatever hits it releases it.
-    /// `is_in` tells whether a body is in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns true if Moreau's scheme handles the contacts between two bodies: one is in the crowd, and the other is in the crowd or immovable.
+    /// A body held at rest is not immovable: whatever hits it releases it. `is_in` tells whether a body is in the crowd.
     pub(super) fn holds(&self, bodies: [usize; 2], is_in: impl Fn(usize) -> bool, model: &Model) -> bool {
         let is_immovable = |body: usize| {
             if self.is_all { model.inverse_mass()[body] == 0.0 } else { !model.can_move(body) }
@@ -116,25 +114,24 @@ impl Crowd {
         bodies.iter().any(|&body| is_in(body)) && bodies.iter().all(|&body| is_in(body) || is_immovable(body))
     }
 
-    /// Returns true if a body is in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns true if a body is in the crowd.
     pub(super) fn has(&self, body: usize) -> bool {
         self.bodies.contains(&body)
     }
 }
 
 impl Collider {
-    /// Returns the indices of the bodies in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns the indices of the bodies in the crowd.
     pub(crate) fn crowded(&self) -> &BTreeSet<usize> {
         &self.crowd.bodies
     }
 
-    /// Returns true if at least one of two bodies is in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns true if at least one of two bodies is in the crowd.
     pub(crate) fn is_in_crowd(&self, bodies: [usize; 2]) -> bool {
         bodies.iter().any(|body| self.crowd.bodies.contains(body))
     }
 
-    /// Returns true if all bodies of the crowd (the bodies that Moreau's scheme advances) remain in it for the next step. `places` are the
-    /// contacts of the crowd.
+    /// Returns true if all bodies of the crowd remain in it for the next step. `places` are the contacts of the crowd.
     pub(crate) fn crowd_stays(&self, places: &[Arc<LastingContact>]) -> bool {
         let stays = |body: &usize| self.crowd.again.get(body).is_some_and(|again| again.left > 0);
         is_heap(places) || self.crowd.bodies.iter().all(stays)
@@ -167,19 +164,18 @@ impl Collider {
         self.crowd.solver.forces_at_rest(places.to_vec(), model, (t, state), loads)
     }
 
-    /// Returns true if a body is in the crowd (the bodies that Moreau's scheme advances), has just left it, or has been in it as part of a
-    /// heap.
+    /// Returns true if a body is in the crowd, has just left it, or has been in it as part of a heap.
     pub(crate) fn was_in_crowd(&self, body: usize) -> bool {
         self.crowd.again.contains_key(&body) || self.crowd.heaps.contains(&body)
     }
 
-    /// Removes all bodies from the crowd (the bodies that Moreau's scheme advances). The number of further steps of each body is kept.
+    /// Removes all bodies from the crowd. The number of further steps of each body is kept.
     pub(crate) fn dissolve(&mut self) {
         self.crowd.bodies.clear();
     }
 
-    /// Adds bodies to the crowd (the bodies that Moreau's scheme advances) for this step and some further steps, with all bodies that
-    /// touch them or are joined to them. Returns true if the crowd has grown.
+    /// Adds bodies to the crowd for this step and some further steps, with all bodies that touch them or are joined to them. Returns true if the
+    /// crowd has grown.
     pub(crate) fn join(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let before = self.crowd.bodies.clone();
         let has_grown = self.gather(model, state, seeds);
@@ -187,8 +183,8 @@ impl Collider {
         has_grown
     }
 
-    /// Sets the number of further steps for the bodies that have joined the crowd (the bodies that Moreau's scheme advances) since its set
-    /// of bodies was `before`. All of them get the largest number among them.
+    /// Sets the number of further steps for the bodies that have joined the crowd since its set of bodies was `before`. All of them get the
+    /// largest number among them.
     fn let_stay(&mut self, before: &BTreeSet<usize>) {
         let mut longest = 0;
         for body in self.crowd.bodies.difference(before) {
@@ -203,8 +199,7 @@ impl Collider {
         }
     }
 
-    /// Adds the bodies `seeds` to the crowd (the bodies that Moreau's scheme advances), with all bodies that touch them or are joined to
-    /// them. Returns true if the crowd has grown.
+    /// Adds the bodies `seeds` to the crowd, with all bodies that touch them or are joined to them. Returns true if the crowd has grown.
     pub(crate) fn gather(&mut self, model: &Model, state: &State, seeds: &[usize]) -> bool {
         let can_move = |body: &usize| model.inverse_mass()[*body] != 0.0;
         let mut links: Vec<Vec<usize>> =
@@ -227,9 +222,8 @@ impl Collider {
         has_grown
     }
 
-    /// Updates the crowd (the bodies that Moreau's scheme advances) at the beginning of a step of `dt` seconds. Counts down the further
-    /// steps of the bodies being advanced, drops bodies in free flight, and adds bodies that touch the remaining ones or may hit them.
-    /// Returns true if bodies were added to the remaining ones.
+    /// Updates the crowd at the beginning of a step of `dt` seconds. Counts down the further steps of the bodies being advanced, drops bodies in
+    /// free flight, and adds bodies that touch the remaining ones or may hit them. Returns true if bodies were added to the remaining ones.
     pub(crate) fn stay(&mut self, model: &Model, state: &State, dt: f64) -> bool {
         let Collider { crowd, focus, .. } = self;
         let is_here =
@@ -244,8 +238,7 @@ impl Collider {
         }
         let mut held = self.leaning(model, state);
         held.extend(model.constraints().iter().flat_map(|joint| joint.bodies()).map(BodyId::index));
-        // Bodies in free flight leave the crowd (the bodies that Moreau's scheme advances), so that they rebound from the bodies that they
-        // hit.
+        // Bodies in free flight leave the crowd, so that they rebound from the bodies that they hit.
         let seeds: Vec<usize> = std::mem::take(&mut self.crowd.bodies).intersection(&held).copied().collect();
         let longest = |crowd: &Crowd| {
             seeds.iter().filter_map(|body| crowd.again.get(body)).map(|again| again.left).max()
@@ -259,12 +252,12 @@ impl Collider {
         self.crowd.bodies.len() > seeds.len()
     }
 
-    /// Forgets for how many further steps bodies stay in the crowd (the bodies that Moreau's scheme advances).
+    /// Forgets for how many further steps bodies stay in the crowd.
     pub(crate) fn release(&mut self) {
         self.crowd.again.clear();
     }
 
-    /// Returns all contact points of touching bodies, including those in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns all contact points of touching bodies, including those in the crowd.
     pub(super) fn touching_all(&mut self, model: &Model, state: &State) -> Vec<Touching> {
         let bodies = std::mem::take(&mut self.crowd.bodies);
         let touching = self.touching(model, state);

@@ -48,7 +48,7 @@ pub(super) struct Focus {
     pub(super) bodies: Vec<usize>,
     /// The distance that each body of the group has moved in this step, m.
     taken: Vec<f64>,
-    /// The bodies of other groups that are in the crowd (the bodies that Moreau's scheme advances). They are set aside meanwhile.
+    /// The bodies of other groups that are in the crowd. They are set aside meanwhile.
     others: BTreeSet<usize>,
 }
 

@@ -1,8 +1,8 @@
 //! Laws that no contact and no joint can break, and how well a run keeps them.
 //!
-//! Impulses between bodies conserve angular momentum. Friction, and restitution of at most 1, take energy and never add any. Each impact
-//! each part of a step in Moreau's scheme, and the friction of each other part is checked, in time proportional to the number of contacts. The worst residual of each law
-//! stays on record.
+//! Impulses between bodies conserve angular momentum. Friction, and restitution of at most 1, take energy and never add any. Three things
+//! are checked: each impact, each substep of Moreau's scheme, and the friction of every other part of a step. A check takes time
+//! proportional to the number of contacts. The worst residual of each law stays on record.
 
 use super::super::{BodyId, Breakdown, Model, State};
 use super::collider::Collider;

@@ -6,7 +6,7 @@ use super::event::Event;
 use crate::energy::mechanical;
 
 impl World {
-    /// Returns true if two bodies touch in this event and at least one of them is in the crowd (the bodies that Moreau's scheme advances).
+    /// Returns true if two bodies touch in this event and at least one of them is in the crowd.
     pub(super) fn is_in_crowd(&self, event: Event) -> bool {
         let Event::Touch(bodies) = event else { return false };
         self.collider.as_ref().is_some_and(|collider| collider.is_in_crowd(bodies))
@@ -127,9 +127,9 @@ mod tests {
     use super::super::super::{Contacts, Dynamics, RigidBody, Shape, Surface, UniformGravity};
     use super::*;
 
-    /// A ball in the crowd (the bodies that Moreau's scheme advances) approaches a wall at 1 m/s and hits it within a part of the step. It
-    /// rebounds at that moment, with the speed that Newton's law of restitution gives, and the impact is recorded. Without forces, the
-    /// result equals the closed form to within rounding errors.
+    /// A ball in the crowd approaches a wall at 1 m/s and hits it within a part of the step. It rebounds at that moment, with the speed that
+    /// Newton's law of restitution gives, and the impact is recorded. Without forces, the result equals the closed form to within rounding
+    /// errors.
     #[test]
     fn what_is_advanced_by_time_stepping_rebounds() {
         for (restitution, gap) in [(1.0, 0.002), (0.8, 0.002), (0.8, 0.003), (0.0, 0.001)] {

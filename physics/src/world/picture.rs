@@ -3,8 +3,7 @@
 use super::rest::Rest;
 use crate::{Balance, BodySnapshot, ContactSnapshot, LawResidual, Loads, Model, Snapshot, State, System};
 
-/// Creates the snapshot of a state at `time`, s. `crowd` holds the contacts of bodies in the crowd (the bodies that Moreau's scheme
-/// advances). `loads` is working memory.
+/// Creates the snapshot of a state at `time`, s. `crowd` holds the contacts of bodies in the crowd. `loads` is working memory.
 pub(super) fn picture(
     system: &mut System<'_>,
     time: f64,
@@ -29,7 +28,7 @@ pub(super) fn picture(
     Snapshot { time, bodies, reactions, contacts, laws: laws.to_vec(), balance, ..Snapshot::default() }
 }
 
-/// Adds the contact forces on bodies in the crowd (the bodies that Moreau's scheme advances) to their loads.
+/// Adds the contact forces on bodies in the crowd to their loads.
 pub(super) fn push_crowd(contacts: &[ContactSnapshot], model: &Model, loads: &mut Loads) {
     for contact in contacts {
         let force = contact.force + contact.friction;

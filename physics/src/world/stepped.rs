@@ -31,7 +31,7 @@ impl World {
         }
     }
 
-    /// Makes all bodies that can move the crowd (the bodies that Moreau's scheme advances), except those held at rest.
+    /// Makes all bodies that can move the crowd, except those held at rest.
     fn begin_crowd(&mut self) {
         let collider = self.collider.get_or_insert_with(|| Collider::new(Contacts::default()));
         collider.crowd_all(&self.model);

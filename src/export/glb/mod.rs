@@ -37,15 +37,15 @@ use std::io::Write;
 use self::cameras_and_lights::CamerasAndLights;
 use self::motion::SampledMotion;
 use super::ExportError;
-use super::format::{Contents, Format, count_of_bodies};
+use super::format::{Contents, FileKind, Format, MODEL, count_of_bodies};
 use crate::simulate::{Recorded, Selection};
 
 /// An animated model.
 pub(super) struct Model;
 
 impl Format for Model {
-    fn extension(&self) -> &'static str {
-        "glb"
+    fn file_kind(&self) -> &'static FileKind {
+        &MODEL
     }
 
     fn without_particles(&self) -> Option<&'static str> {

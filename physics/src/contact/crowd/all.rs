@@ -14,7 +14,7 @@ use super::substep::separate;
 use super::substep_motion::{JAMMED_OVERLAP, MAX_CROWD_GAP, MAX_SEPARATION_ATTEMPTS};
 
 impl Collider {
-    /// Makes all present bodies that forces move the crowd (the bodies that Moreau's scheme advances).
+    /// Makes all present bodies that forces move the crowd.
     pub(crate) fn crowd_all(&mut self, model: &Model) {
         self.meet_bodies(model);
         let moves = |body: &usize| model.inverse_mass()[*body] != 0.0;
@@ -24,7 +24,7 @@ impl Collider {
         self.crowd.pile.hold_all();
     }
 
-    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. Returns a breakdown if this fails.
+    /// Advances the crowd from time `t` by `dt` seconds. Returns a breakdown if this fails.
     pub(crate) fn advance_all(
         &mut self,
         model: &Model,
@@ -45,22 +45,21 @@ impl Collider {
         self.follow(model, ends, dt);
     }
 
-    /// Puts the crowd (the bodies that Moreau's scheme advances) where it was at `time`, s, within the last step.
+    /// Puts the crowd where it was at `time`, s, within the last step.
     pub(crate) fn crowd_at(&mut self, time: f64, model: &Model, state: &mut State, loads: &mut Loads) {
         let Some(mut course) = self.crowd.course.take() else { return };
         let now = self.moment(&mut course, time, model, loads);
         self.crowd.put(&now, state);
     }
 
-    /// Returns the largest overlap of two bodies at the contacts of the crowd (the bodies that Moreau's scheme advances), m; 0 if none
-    /// overlap.
+    /// Returns the largest overlap of two bodies at the contacts of the crowd, m; 0 if none overlap.
     pub(crate) fn penetration(&self, model: &Model, state: &State) -> f64 {
         let overlap = |place: &LastingContact| -place.gap(place.bodies.map(|body| pose(body, model, state)));
         let of_pile = self.crowd.pile.contacts().map(overlap);
         of_pile.chain(self.crowd.places.iter().map(|place| overlap(place))).fold(0.0, f64::max)
     }
 
-    /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of the last step.
+    /// Returns the contacts of the crowd at the end of the last step.
     pub(crate) fn last_places(&self, model: &Model, state: &State) -> Vec<Arc<LastingContact>> {
         let mut all = self.crowd.places.clone();
         if self.crowd.is_all {
@@ -101,7 +100,7 @@ impl Collider {
         self.crowd.course = None;
     }
 
-    /// Stores the contacts of the crowd (the bodies that Moreau's scheme advances) at the end of a step, and returns them.
+    /// Stores the contacts of the crowd at the end of a step, and returns them.
     pub(super) fn accept_places(&mut self, all: Vec<LastingContact>) -> Vec<Arc<LastingContact>> {
         let all: Vec<_> = all.into_iter().map(Arc::new).collect();
         self.crowd.pushing.clear();
@@ -117,8 +116,8 @@ impl Collider {
         self.crowd.solver.joint_forces()
     }
 
-    /// Returns the bodies held at rest that a body of the crowd (the bodies that Moreau's scheme advances) touches, or may hit within
-    /// `dt` seconds. Only bodies for which `moves` is true count.
+    /// Returns the bodies held at rest that a body of the crowd touches, or may hit within `dt` seconds. Only bodies for which `moves` is true
+    /// count.
     pub(crate) fn may_be_hit(
         &self,
         model: &Model,
@@ -149,8 +148,7 @@ impl Collider {
 }
 
 impl Crowd {
-    /// Computes the power of the loads without a potential on the crowd (the bodies that Moreau's scheme advances), W: the power that these
-    /// loads would lose if the bodies stood still.
+    /// Computes the power of the loads without a potential on the crowd, W: the power that these loads would lose if the bodies stood still.
     pub(super) fn power(&self, model: &Model, t: f64, now: &State) -> Accounts {
         if self.is_all {
             // The crowd is all that moves, and its motion is all of the step.
@@ -175,7 +173,7 @@ impl Crowd {
         loads.power
     }
 
-    /// Copies the bodies of the crowd (the bodies that Moreau's scheme advances) and the energy accounts into a state of all bodies.
+    /// Copies the bodies of the crowd and the energy accounts into a state of all bodies.
     pub(super) fn put(&self, from: &State, into: &mut State) {
         for (at, &body) in self.bodies.iter().enumerate() {
             into.location[body] = from.location[at];

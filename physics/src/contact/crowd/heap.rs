@@ -25,8 +25,8 @@ impl Collider {
         heap
     }
 
-    /// Adds touching bodies to the crowd (the bodies that Moreau's scheme advances) again if they were advanced as a heap before. `places`
-    /// are the lasting contacts. A body that has just been hit has no lasting contacts yet, since it rebounds first.
+    /// Adds touching bodies to the crowd again if they were advanced as a heap before. `places` are the lasting contacts. A body that has just
+    /// been hit has no lasting contacts yet, since it rebounds first.
     pub(crate) fn crowd_known_heaps(&mut self, model: &Model, state: &State, places: &[Arc<LastingContact>]) {
         if !is_heap(places) || self.crowd.heaps.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! Adds bodies to the crowd (the bodies that Moreau's scheme advances) at the beginning of a step if they may hit it within the step.
+//! Adds bodies to the crowd at the beginning of a step if they may hit it within the step.
 
 use super::super::super::{Model, State};
 use super::super::closest_points::nearest;
@@ -17,8 +17,8 @@ const PATH_MARGIN_FACTOR: f64 = 2.0;
 const SIZE_MARGIN_FRACTION: f64 = 0.02;
 
 impl Collider {
-    /// Adds bodies that may hit the crowd (the bodies that Moreau's scheme advances) within `dt` seconds, then bodies that may hit these,
-    /// and so on. The motion of a large crowd is then computed once in a step, not after each hit.
+    /// Adds bodies that may hit the crowd within `dt` seconds, then bodies that may hit these, and so on. The motion of a large crowd is then
+    /// computed once in a step, not after each hit.
     pub(super) fn expect_hits(&mut self, model: &Model, state: &State, dt: f64) {
         if self.crowd.bodies.len() <= SMALL_CROWD_BODIES {
             return;
@@ -43,7 +43,7 @@ impl Collider {
         pairs.retain(|pair| pair.bodies.iter().all(|body| is_here(body) && can_move(body)));
         loop {
             let is_in = |body: &usize| self.crowd.bodies.contains(body);
-            // `halves` are pairs with one body in the crowd (the bodies that Moreau's scheme advances), `others` pairs with none.
+            // `halves` are pairs with one body in the crowd, `others` pairs with none.
             let (halves, others): (Vec<Pair>, Vec<Pair>) = pairs
                 .into_iter()
                 .filter(|pair| !pair.bodies.iter().all(is_in))

@@ -117,7 +117,7 @@ impl Crowd {
         residual
     }
 
-    /// Computes the kinetic energy of the crowd (the bodies that Moreau's scheme advances), J.
+    /// Computes the kinetic energy of the crowd, J.
     fn kinetic(&self, model: &Model, now: &State) -> f64 {
         self.bodies.iter().map(|&body| kinetic(body, model, now)).sum()
     }
@@ -140,12 +140,12 @@ impl Crowd {
         self.bodies.iter().zip(first).map(work).sum()
     }
 
-    /// Moves the crowd (the bodies that Moreau's scheme advances) freely for `time` seconds.
+    /// Moves the crowd freely for `time` seconds.
     fn fly(&self, model: &Model, time: f64, now: &mut State) {
         self.bodies.iter().for_each(|&i| drift_body(model, time, now, i));
     }
 
-    /// Changes the momenta of the crowd (the bodies that Moreau's scheme advances) by the loads, acting for `time` seconds.
+    /// Changes the momenta of the crowd by the loads, acting for `time` seconds.
     fn kick(&self, model: &Model, time: f64, now: &mut State, loads: &Loads) {
         for &i in &self.bodies {
             now.velocity[i] += time * model.inverse_mass()[i] * loads.force[i];

@@ -40,8 +40,8 @@ pub(super) const JAMMED_OVERLAP: f64 = 0.01;
 /// The largest number of attempts to separate jammed bodies. After them, the run fails.
 pub(super) const MAX_SEPARATION_ATTEMPTS: usize = 50;
 
-/// Bodies stay in the crowd (the bodies that Moreau's scheme advances) while their gap to another body is below this fraction of the
-/// smaller body's size. Lower bounces do not count as free flight.
+/// Bodies stay in the crowd while their gap to another body is below this fraction of the smaller body's size. Lower bounces do not count as
+/// free flight.
 pub(super) const MAX_CROWD_GAP: f64 = 0.01;
 
 /// The largest number of times that a substep is halved because its impulses add energy. If they still do, the run fails.
@@ -53,18 +53,16 @@ const TIME_TOLERANCE: f64 = 1e-12;
 /// Bodies count as touching if their gap is below this fraction of their size.
 const CONTACT_TOLERANCE: f64 = 1e-9;
 
-/// The motion of the crowd (the bodies that Moreau's scheme advances) through a step, sampled at the ends of equal substeps.
+/// The motion of the crowd through a step, sampled at the ends of equal substeps.
 #[derive(Clone, Default)]
 pub(super) struct SubstepMotion {
     /// The time at which the motion begins, s.
     start: f64,
     /// The length of each substep, s.
     part: f64,
-    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd (the bodies that Moreau's
-    /// scheme advances).
+    /// The states at the beginning and at the end of each substep, with one entry for each body of the crowd.
     states: Vec<State>,
-    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd (the bodies
-    /// that Moreau's scheme advances), m/s.
+    /// The state of all bodies at the beginning of the motion. `velocity` holds the velocities of bodies outside the crowd, m/s.
     first: State,
     velocity: Vec<DVec3>,
     /// The pairs of bodies that can meet during the motion.
@@ -77,7 +75,7 @@ pub(super) struct SubstepMotion {
 }
 
 impl SubstepMotion {
-    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at the end of the motion.
+    /// Returns the state of the crowd at the end of the motion.
     pub(super) fn last(&self) -> &State {
         self.states.last().unwrap_or(&self.first)
     }
@@ -88,9 +86,8 @@ impl SubstepMotion {
 }
 
 impl Collider {
-    /// Advances the crowd (the bodies that Moreau's scheme advances) from time `t` by `dt` seconds. `rest` is the time from `t` + `dt` to
-    /// the end of the step, s. All other bodies have already been advanced from `before` to `after`. Returns a breakdown if the motion
-    /// fails.
+    /// Advances the crowd from time `t` by `dt` seconds. `rest` is the time from `t` + `dt` to the end of the step, s. All other bodies have
+    /// already been advanced from `before` to `after`. Returns a breakdown if the motion fails.
     pub(crate) fn advance_crowd(
         &mut self,
         model: &Model,
@@ -103,8 +100,7 @@ impl Collider {
         }
         let known = self.crowd.course.take().and_then(|mut course| {
             let now = self.moment(&mut course, t, model, loads);
-            // The computed motion is invalid if other bodies have hit the crowd (the bodies that Moreau's scheme advances) in the
-            // meantime.
+            // The computed motion is invalid if other bodies have hit the crowd in the meantime.
             let is_here = State { accounts: now.accounts, ..self.crowd.part_of(before) } == now;
             is_here.then_some((course, now.accounts))
         });
@@ -112,8 +108,8 @@ impl Collider {
             Some(known) => known,
             None => (self.course(model, (t, dt + rest), (before, after), loads), before.accounts),
         };
-        // The loads have worked along the motion that the integration method gave the crowd (the bodies that Moreau's scheme advances).
-        // The motion of the crowd takes its place, and so does its work.
+        // The loads have worked along the motion that the integration method gave the crowd. The motion of the crowd takes its place, and so
+        // does its work.
         for power in [self.crowd.power(model, t, before), self.crowd.power(model, t + dt, after)] {
             after.accounts.add(-0.5 * dt, power);
         }
@@ -131,8 +127,8 @@ impl Collider {
         failure
     }
 
-    /// Computes the motion of the crowd (the bodies that Moreau's scheme advances) from the state `before`, for `span` seconds. Bodies
-    /// outside the crowd move at their velocities in `after`.
+    /// Computes the motion of the crowd from the state `before`, for `span` seconds. Bodies outside the crowd move at their velocities in
+    /// `after`.
     pub(super) fn course(
         &mut self,
         model: &Model,
@@ -160,7 +156,7 @@ impl Collider {
         course
     }
 
-    /// Reports the impacts of the crowd (the bodies that Moreau's scheme advances) up to `time`, s, to which the crowd has been advanced.
+    /// Reports the impacts of the crowd up to `time`, s, to which the crowd has been advanced.
     pub(crate) fn note_rebounds(&mut self, time: f64) {
         let Collider { crowd, impacts, laws, .. } = self;
         laws.note_all(&crowd.laws);
@@ -169,7 +165,7 @@ impl Collider {
         impacts.extend(course.impacts.drain(..passed));
     }
 
-    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) at `time`, s.
+    /// Returns the state of the crowd at `time`, s.
     pub(super) fn moment(
         &mut self,
         course: &mut SubstepMotion,
@@ -198,8 +194,7 @@ impl Collider {
         found
     }
 
-    /// Returns the state of the crowd (the bodies that Moreau's scheme advances) `part` seconds after the beginning of substep `k`, at or
-    /// before its end.
+    /// Returns the state of the crowd `part` seconds after the beginning of substep `k`, at or before its end.
     fn advance_from(
         &mut self,
         course: &SubstepMotion,
@@ -214,7 +209,7 @@ impl Collider {
         let time = course.start + passed;
         let mut now = course.first.clone();
         for (location, velocity) in now.location.iter_mut().zip(&course.velocity) {
-            // Bodies outside the crowd (the bodies that Moreau's scheme advances) move on at constant velocity.
+            // Bodies outside the crowd move on at constant velocity.
             *location += passed * *velocity;
         }
         for (at, &body) in crowd.bodies.iter().enumerate() {
@@ -230,8 +225,8 @@ impl Collider {
         part
     }
 
-    /// Advances the crowd (the bodies that Moreau's scheme advances) by `part` seconds from `time`. A substep whose impulses add energy,
-    /// which no contact can, is repeated in two halves. `halvings` is the number of halvings so far.
+    /// Advances the crowd by `part` seconds from `time`. A substep whose impulses add energy, which no contact can, is repeated in two halves.
+    /// `halvings` is the number of halvings so far.
     fn advance_part(
         &self,
         crowd: &mut Crowd,
@@ -273,8 +268,7 @@ impl Collider {
         }
     }
 
-    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd (the bodies that Moreau's scheme
-    /// advances) handles.
+    /// Returns the pairs of bodies that can meet within `dt` seconds and whose contacts the crowd handles.
     pub(super) fn crowd_pairs(&self, model: &Model, state: &State, dt: f64) -> Vec<Pair> {
         let mut is_in = vec![false; self.solids.len()];
         self.crowd.bodies.iter().for_each(|&body| is_in[body] = true);
@@ -298,8 +292,7 @@ impl Collider {
         }
     }
 
-    /// Returns the bodies of the crowd (the bodies that Moreau's scheme advances) that are not in free flight, because they are close to
-    /// other bodies of the crowd or to fixed bodies.
+    /// Returns the bodies of the crowd that are not in free flight, because they are close to other bodies of the crowd or to fixed bodies.
     pub(super) fn leaning(&self, model: &Model, state: &State) -> BTreeSet<usize> {
         let mut all = BTreeSet::new();
         for pair in self.crowd_pairs(model, state, 0.0) {
@@ -328,8 +321,8 @@ impl Collider {
         counted.map(way).fold(SUBSTEPS_PER_STEP[0], f64::max).min(SUBSTEPS_PER_STEP[1]).ceil()
     }
 
-    /// Returns the possible contacts of the crowd (the bodies that Moreau's scheme advances) within `part` seconds. If all bodies are in
-    /// the crowd, no other search finds what approaches fast, so contacts of any distance count.
+    /// Returns the possible contacts of the crowd within `part` seconds. If all bodies are in the crowd, no other search finds what approaches
+    /// fast, so contacts of any distance count.
     fn crowd_places(
         &self,
         model: &Model,
@@ -374,8 +367,7 @@ impl Collider {
         touches(x, &p, y, &q, within).into_iter().map(closed).collect()
     }
 
-    /// Separates bodies of the crowd (the bodies that Moreau's scheme advances) that overlap too deeply at the end of a step. Returns the
-    /// contacts of the crowd.
+    /// Separates bodies of the crowd that overlap too deeply at the end of a step. Returns the contacts of the crowd.
     ///
     /// # Errors
     ///
@@ -414,8 +406,8 @@ impl Collider {
         Err(Breakdown::Jammed { bodies, time })
     }
 
-    /// Returns the contacts of the crowd (the bodies that Moreau's scheme advances), and two bodies that overlap too deeply, if there are
-    /// any. Points with a gap below `near`, as a fraction of the smaller body's size, count as contacts, too.
+    /// Returns the contacts of the crowd, and two bodies that overlap too deeply, if there are any. Points with a gap below `near`, as a
+    /// fraction of the smaller body's size, count as contacts, too.
     pub(super) fn touching_in_crowd(
         &self,
         model: &Model,
@@ -449,7 +441,7 @@ impl Collider {
 }
 
 impl Crowd {
-    /// Extracts the part of a state that belongs to the crowd (the bodies that Moreau's scheme advances), with one entry for each body.
+    /// Extracts the part of a state that belongs to the crowd, with one entry for each body.
     fn part_of(&self, state: &State) -> State {
         State {
             location: self.bodies.iter().map(|&i| state.location[i]).collect(),
