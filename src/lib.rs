@@ -72,6 +72,7 @@ pub mod diagnostic;
 pub mod emit;
 pub mod explain;
 pub mod export;
+pub mod font;
 pub mod motion_warnings;
 mod not_drawn;
 #[cfg(feature = "render")]

@@ -81,9 +81,9 @@ impl ProtectedFiles {
     /// Protects all inputs of a scene: its file, included files, tables, meshes, heightfields, assets and templates, and the files that
     /// its SDL reads, as far as their names can be found in the SDL.
     pub fn of_scene(scene: &Scene) -> ProtectedFiles {
-        let asset = |asset: &crate::scene::Asset| (asset.name.clone(), Identity::of(&asset.path));
+        let asset = |asset: &crate::scene::Asset| Some((asset.name.clone(), Identity::of(asset.path()?)));
         let protected = ProtectedFiles {
-            assets: scene.povray.assets.iter().map(asset).collect(),
+            assets: scene.povray.assets.iter().filter_map(asset).collect(),
             named: scene.povray.reads.clone(),
             ..ProtectedFiles::default()
         };

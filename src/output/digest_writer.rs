@@ -1,7 +1,6 @@
 //! Computes the digest and the length of a file while it is written or read.
 
-use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 
 use sha2::{Digest, Sha256};
 
@@ -21,10 +20,10 @@ impl DigestWriter {
         self.bytes += piece.len() as u64;
     }
 
-    /// Reads a file to its end.
-    pub(super) fn of_file(mut file: File) -> io::Result<DigestWriter> {
+    /// Reads contents to their end.
+    pub(super) fn of(mut contents: impl Read) -> io::Result<DigestWriter> {
         let mut writer = DigestWriter::default();
-        io::copy(&mut file, &mut writer)?;
+        io::copy(&mut contents, &mut writer)?;
         Ok(writer)
     }
 

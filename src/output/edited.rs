@@ -96,7 +96,7 @@ fn is_edited(dir: &Dir, entry: &Entry) -> Result<bool, FolderError> {
         Some(found) if found.kind != Kind::File => Ok(false),
         Some(found) if found.bytes != entry.bytes => Ok(true),
         Some(_) => {
-            let read = DigestWriter::of_file(dir.open_file(&entry.name)?);
+            let read = DigestWriter::of(dir.open_file(&entry.name)?);
             let read = read.map_err(|error| FolderError::Io(dir.path().join(&entry.name), error))?;
             Ok(read.entry(entry.frame, entry.name.clone()) != *entry)
         }

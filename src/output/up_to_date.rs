@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::fs::File;
+use std::io::Read;
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
@@ -34,7 +35,12 @@ pub fn up_to_date(
             && (shutter.is_none() || listed.contains(&*shutter_name(frame, frames)))
     };
     let all = (0..frames).filter(|frame| selection.contains(*frame)).all(is_listed);
-    let as_written = |entry: &Entry| folder.dir().open_file(&entry.name).is_ok_and(|file| is_of(file, entry));
+    let has_length =
+        |file: &File, entry: &Entry| file.metadata().is_ok_and(|metadata| metadata.len() == entry.bytes);
+    let as_written = |entry: &Entry| {
+        let file = folder.dir().open_file(&entry.name);
+        file.is_ok_and(|file| has_length(&file, entry) && is_of(file, entry))
+    };
     let unchanged = all && manifest.files.par_iter().all(as_written) && same_assets(scene, &manifest);
     unchanged.then_some(manifest)
 }
@@ -47,13 +53,12 @@ fn same_assets(scene: &Scene, manifest: &Manifest) -> bool {
         manifest
             .files
             .iter()
-            .any(|entry| entry.name == name && File::open(&asset.path).is_ok_and(|file| is_of(file, entry)))
+            .any(|entry| entry.name == name && asset.open().is_ok_and(|contents| is_of(contents, entry)))
     })
 }
 
-/// Returns true if a file has the length and the digest of a manifest entry.
-fn is_of(file: File, entry: &Entry) -> bool {
-    let length = file.metadata().map(|metadata| metadata.len());
-    let writer = || DigestWriter::of_file(file).map(|writer| writer.entry(entry.frame, entry.name.clone()));
-    length.is_ok_and(|length| length == entry.bytes) && writer().is_ok_and(|found| found == *entry)
+/// Returns true if contents have the length and the digest of a manifest entry.
+fn is_of(contents: impl Read, entry: &Entry) -> bool {
+    let writer = DigestWriter::of(contents).map(|writer| writer.entry(entry.frame, entry.name.clone()));
+    writer.is_ok_and(|found| found == *entry)
 }

@@ -20,11 +20,11 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
     UNITS.iter().find(fits).copied().unwrap_or((1e-15, "fm"))
 }
 
-/// Formats a number with at most six significant digits and a typographic minus sign.
-pub(super) fn value(number: f64) -> String {
+/// Formats a number with at most six significant digits and a minus sign.
+pub(super) fn value(length: f64) -> String {
     let mut out = String::new();
-    number::write(&mut out, number, 6);
-    out.replace('-', "–")
+    number::write(&mut out, length, 6);
+    number::typeset(&out)
 }
 
 #[cfg(test)]

@@ -21,6 +21,27 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     layout(out, decimals, exponent, digits);
 }
 
+/// Sets a number as printed texts show it: with a minus sign, and with a power of ten in place of an exponent: `7.5·10⁻⁶`.
+pub(super) fn typeset(number: &str) -> String {
+    let with_minus = |text: &str| text.replace('-', "−");
+    let Some((digits, exponent)) = number.split_once('e') else { return with_minus(number) };
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        '9' => '⁹',
+        other => other,
+    };
+    format!("{}·10{}", with_minus(digits), exponent.chars().map(raised).collect::<String>())
+}
+
 /// Returns a number as text, rounded to three significant digits, as messages show it.
 pub(crate) fn rounded(number: f64) -> String {
     text(number, 3)

@@ -352,7 +352,7 @@ fn a_label_tells_what_a_joint_does() {
     ));
     let frame = frames(&scene).nth(20).unwrap();
     let [ref note] = plan.texts(&frame)[..] else { panic!("there is one") };
-    assert_eq!(note.says, "30.000 30.0 10.00 –4");
+    assert_eq!(note.says, "30.000 30.0 10.00 −4");
 }
 
 /// The force on the bob is along its rod. The arrow of this force has the common scale of all forces.

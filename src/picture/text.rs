@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::occupancy::Rectangle;
+use crate::font;
 use crate::scene::{Color, Corner, Output};
 
 /// The distance of texts from the edges of the picture, which has a width of 2.
@@ -82,17 +83,9 @@ pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
 }
 
-/// Estimates the width of a text for a line height, from the rounded advance widths of Times.
+/// Returns the width of a text for a line height.
 pub(super) fn width(says: &str, height: f64) -> f64 {
-    let em = |letter: char| match letter {
-        'i' | 'j' | 'l' | 't' | 'f' | '\'' | '|' | '.' | ',' | ':' | ';' | ' ' => 0.27,
-        'r' | 's' | 'I' | '(' | ')' | '[' | ']' | '/' | '-' | '!' | '°' | '²' | '³' | '·' => 0.35,
-        'm' | 'M' | 'W' | '@' | '%' | '—' | '…' => 0.88,
-        'w' | '=' | '+' | '<' | '>' | '×' | '±' | '~' => 0.62,
-        letter if letter.is_uppercase() => 0.68,
-        _ => 0.49,
-    };
-    height * says.chars().map(em).sum::<f64>()
+    height * font::width(says)
 }
 
 /// The horizontal position of a text in a corner, and its alignment.
@@ -112,23 +105,6 @@ pub(super) fn is_top(corner: Corner) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn widths_are_about_those_of_the_font() {
-        // The widths were measured by `max_extent` in POV-Ray 3.7 with `timrom.ttf`.
-        for (says, measured) in [
-            ("t = 1.20 s", 3.81),
-            ("0.2", 1.24),
-            ("potential 9.53 J", 6.27),
-            ("Angular momentum is constant", 12.92),
-            ("the left ball is at y = –4.65 m", 11.82),
-            ("Two balls are thrown upward with the same velocity of 9 m/s", 24.95),
-            ("WWW MMM", 5.85),
-        ] {
-            let estimated = width(says, 1.0);
-            assert!((estimated / measured - 1.0).abs() < 0.1, "{says}: {estimated}");
-        }
-    }
 
     #[test]
     fn heights_are_from_the_middle_and_from_the_edges() {

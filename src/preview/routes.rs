@@ -39,6 +39,7 @@ use super::render::{Renderer, Wanted};
 use super::run::{PreviewRun, RunId};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
+use crate::font;
 
 /// The data that the server answers requests from.
 #[derive(Clone)]
@@ -50,7 +51,7 @@ pub(super) struct Server {
 
 /// The content security policy of the page: it can load its own files and send requests to this server, nothing else.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; \
-    img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    img-src 'self' blob:; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// The headers that the server adds to its responses. They restrict what a browser does with a response.
 const SECURITY_HEADERS: [(HeaderName, &str); 6] = [
@@ -80,6 +81,8 @@ pub(super) fn router(server: Server) -> Router {
     let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, text)| {
         router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *text) }))
     });
+    let letters = || async { ([(header::CONTENT_TYPE, "font/ttf")], font::BYTES) };
+    let page = page.route("/DejaVuSans.ttf", get(letters));
     let all = api.merge(page).layer(middleware::from_fn(connections::with_whole_body));
     all.layer(middleware::from_fn(guarded)).with_state(server)
 }

@@ -1,13 +1,12 @@
 //! The look of a scene: materials, cameras, lights, environment, and settings for POV-Ray.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::sdl::FileKind;
 use super::timed::{Timed, TimedVector};
-use super::{Color, LibraryMaterial, Pattern, Preset};
+use super::{Asset, Color, LibraryMaterial, Pattern, Preset};
 use crate::physics::Surface;
 
 /// A named material that bodies can have.
@@ -339,15 +338,6 @@ pub struct PovRay {
     pub digits: usize,
     /// The user's templates. They replace the built-in templates with the same names.
     pub templates: Vec<OwnTemplate>,
-}
-
-/// A file that the scripts read. jabuka places a copy of the file beside the scripts.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Asset {
-    /// The path of the copy in scripts, relative to the folder of all copies, with `/` as separator.
-    pub name: String,
-    /// The path of the original file, from which the copy is made.
-    pub path: PathBuf,
 }
 
 /// A script template of the user.

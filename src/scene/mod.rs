@@ -72,6 +72,7 @@
 //!
 //! A body with a trajectory from a file is present from its first row to its last, except for gaps (`check/presence.rs`).
 
+mod asset;
 mod check;
 mod color;
 mod color_names;
@@ -104,6 +105,7 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+pub use asset::{Asset, AssetSource};
 pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use contact::{Collider, ContactLaw, is_by_moreau};
@@ -117,8 +119,8 @@ pub use label::{
 };
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
-    Asset, Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light,
-    LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
+    Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
+    Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};

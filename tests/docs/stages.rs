@@ -7,12 +7,13 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 23] = [
+const STAGES: [&str; 24] = [
     "physics",
     "threads",
     "system",
     "diagnostic",
     "explain",
+    "font",
     "scene",
     "surface",
     "starter",

@@ -129,7 +129,7 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
     }
 }
 
-/// Formats a number for a label, with a typographic minus sign. Non-finite numbers become `?`.
+/// Formats a number for a label, with a minus sign. Non-finite numbers become `?`.
 fn written(value: f64, format: Format) -> String {
     if !value.is_finite() {
         return "?".to_owned();
@@ -145,7 +145,7 @@ fn written(value: f64, format: Format) -> String {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,
     };
-    text.replace('-', "–")
+    number::typeset(&text)
 }
 
 fn short_of(value: f64) -> String {
@@ -163,12 +163,12 @@ mod tests {
     fn numbers_are_written_as_asked_for() {
         for (value, format, expected) in [
             (0.5, Format::Decimals(2), "0.50"),
-            (-1.25, Format::Decimals(1), "–1.2"),
+            (-1.25, Format::Decimals(1), "−1.2"),
             (-0.001, Format::Decimals(2), "0.00"),
             (12345.678, Format::Short, "12300"),
-            (-0.012345, Format::Short, "–0.0123"),
-            (1.5e-9, Format::Scientific(1), "1.5e–9"),
-            (1e300, Format::Decimals(1), "1.0e300"),
+            (-0.012345, Format::Short, "−0.0123"),
+            (1.5e-9, Format::Scientific(1), "1.5·10⁻⁹"),
+            (1e300, Format::Decimals(1), "1.0·10³⁰⁰"),
             (f64::NAN, Format::Short, "?"),
         ] {
             assert_eq!(written(value, format), expected);

@@ -1,19 +1,28 @@
 //! Reads `povray.assets`, the list of files in the scene's folder that the scene's raw SDL (POV-Ray code) reads.
 
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::Asset;
+use crate::font;
 use crate::scene::source::{Node, file};
+use crate::scene::{Asset, AssetSource};
+
+/// A file that a scene names.
+#[derive(PartialEq, Eq)]
+pub(super) struct FileOfScene {
+    /// The path that its copy has among the assets.
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+}
 
 /// Reads the list of assets. Reports two assets that would be copied to the same path.
 pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
-    let mut assets: Vec<(Asset, &Node)> = Vec::new();
+    let mut assets: Vec<(FileOfScene, &Node)> = Vec::new();
     for item in povray.list("assets").unwrap_or_default() {
         let Ok(asset) = asset(item, context.folder, context.trust) else { continue };
-        let clashes = |other: &Asset| {
+        let clashes = |other: &FileOfScene| {
             let below = |a: &str, b: &str| b.strip_prefix(a).is_some_and(|rest| rest.starts_with('/'));
             other.name == asset.name || below(&other.name, &asset.name) || below(&asset.name, &other.name)
         };
@@ -29,7 +38,16 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
             None => assets.push((asset, item)),
         }
     }
-    assets.into_iter().map(|(asset, _)| asset).collect()
+    let asset =
+        |(file, _): (FileOfScene, &Node)| Asset { name: file.name, source: AssetSource::File(file.path) };
+    assets.into_iter().map(asset).collect()
+}
+
+/// Adds the font of texts, unless the scene lists a file of this name itself.
+pub(super) fn add_font(assets: &mut Vec<Asset>) {
+    if assets.iter().all(|asset| asset.name != font::NAME) {
+        assets.push(Asset { name: font::NAME.to_owned(), source: AssetSource::BuiltIn(font::BYTES) });
+    }
 }
 
 /// Checks the name of an asset and finds its file.
@@ -38,7 +56,7 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
 ///
 /// Returns an error if the name is unusable, or if the file is missing, not a regular file, or outside the scene's folder. With `trust`, a
 /// file outside the folder is allowed.
-pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<Asset, Diagnostic> {
+pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<FileOfScene, Diagnostic> {
     let name = node.as_str().unwrap_or_default();
     let error = |code, message: String| Diagnostic::error(code, message).at(node.span, "");
     // The SDL contains the name as a string literal, so the name must not contain quotes or backslashes.
@@ -76,7 +94,7 @@ pub(super) fn asset(node: &Node, folder: Option<&Path>, trust: bool) -> Result<A
         let message = format!("`{name}` is {what}, and only regular files are read");
         return Err(error(Code::MissingAsset, message));
     }
-    Ok(Asset { name: copied_to, path })
+    Ok(FileOfScene { name: copied_to, path })
 }
 
 /// Removes each component `.` from a relative path. Returns an empty string for the path `.`, and `None` for an absolute path or a path

@@ -9,6 +9,7 @@ use super::Context;
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::font;
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::quoted;
@@ -162,7 +163,7 @@ struct Reader<'a, 'b, 'c> {
     bodies: &'a [Body],
     joints: &'a [Joint],
     context: &'a mut Context<'c>,
-    /// The letters that POV-Ray's font does not have, each once, with its first range in the text.
+    /// The letters that the font does not have, each once, with its first range in the text.
     missing: Vec<(char, Range<usize>)>,
 }
 
@@ -179,7 +180,7 @@ impl Reader<'_, '_, '_> {
 
     fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
-        for (at, letter) in words.char_indices().filter(|(_, letter)| letter_of(*letter).is_none()) {
+        for (at, letter) in words.char_indices().filter(|(_, letter)| !font::has(*letter)) {
             if self.missing.iter().all(|(known, _)| *known != letter) {
                 let here = range.start + at..range.start + at + letter.len_utf8();
                 self.missing.push((letter, here));
@@ -198,10 +199,10 @@ impl Reader<'_, '_, '_> {
                 warning
             });
         }
-        (!words.is_empty()).then(|| Piece::Words(words.chars().filter_map(letter_of).collect()))
+        (!words.is_empty()).then(|| Piece::Words(words.to_owned()))
     }
 
-    /// Reports all letters of the text that POV-Ray's font does not have.
+    /// Reports all letters of the text that the font does not have.
     fn report_missing(&mut self) {
         let missing = std::mem::take(&mut self.missing);
         let Some((_, first)) = missing.first() else { return };
@@ -212,7 +213,7 @@ impl Reader<'_, '_, '_> {
             1 => ("letter", "it would be an empty box"),
             _ => ("letters", "each would be an empty box"),
         };
-        let message = format!("POV-Ray's font has no {noun} {}", quoted(&letters));
+        let message = format!("the font has no {noun} {}", quoted(&letters));
         self.report(Diagnostic::error(Code::LabelLetter, message), first.clone(), label);
     }
 
@@ -319,33 +320,6 @@ impl Reader<'_, '_, '_> {
             });
         }
         None
-    }
-}
-
-/// Returns the character of POV-Ray's font for a character: the same, or a similar one, such as a dash for a minus sign. `None` if the
-/// font has no such character.
-fn letter_of(letter: char) -> Option<char> {
-    match letter {
-        '−' => Some('–'),
-        '·' => Some('∙'),
-        ' '..='~'
-        | '¡'..='§'
-        | '©'..='¶'
-        | '¹'..='¿'
-        | '–'
-        | '—'
-        | '‘'..='‚'
-        | '“'..='„'
-        | '†'
-        | '‡'
-        | '•'
-        | '…'
-        | '‰'
-        | '‹'
-        | '›'
-        | '™'
-        | '∙' => Some(letter),
-        _ => None,
     }
 }
 

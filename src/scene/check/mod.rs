@@ -334,6 +334,11 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
+    let labels = label::read(&root, &bodies, &joints, context);
+    let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
+    if !labels.is_empty() || scale_bar.is_some() || grid.is_some() {
+        asset::add_font(&mut povray.assets);
+    }
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table("output"));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
@@ -345,9 +350,9 @@ fn build(
         lights: look::lights(&root, &simulation, context),
         simulation,
         environment,
-        labels: label::read(&root, &bodies, &joints, context),
-        scale_bar: label::scale_bar(&root),
-        grid: label::grid(&root),
+        labels,
+        scale_bar,
+        grid,
         pairs: std::mem::take(&mut context.pairs),
         output,
         digest: digest(input, options, included, &povray, context),
