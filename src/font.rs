@@ -8,7 +8,7 @@ use ttf_parser::Face;
 pub const NAME: &str = "DejaVuSans.ttf";
 
 /// The contents of the font's file.
-pub static BYTES: &[u8] = include_bytes!("../templates/fonts/DejaVuSans.ttf");
+pub static BYTES: &[u8] = include_bytes!("../templates/assets/DejaVuSans.ttf");
 
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(BYTES, 0).ok());
 

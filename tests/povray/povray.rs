@@ -28,11 +28,13 @@ impl Said {
     }
 }
 
-/// Runs POV-Ray in a folder, and writes `warnings.txt` and `errors.txt` there.
+/// Runs POV-Ray in a folder, and writes `warnings.txt` and `errors.txt` there. Scripts without a folder `assets` of their own find the font of
+/// texts in jabuka's templates.
 pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Said {
     let status = Command::new("povray")
         .current_dir(folder)
         .args(arguments)
+        .arg(concat!("+L", env!("CARGO_MANIFEST_DIR"), "/templates"))
         // Turn off the progress output, which takes megabytes. In files, lines of warnings and errors are not wrapped.
         .args(["-D", "-V", "-GA", "+GWwarnings.txt", "+GFerrors.txt"])
         .stdin(Stdio::null())

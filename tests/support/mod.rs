@@ -64,15 +64,19 @@ pub(crate) fn signal(name: &str, process: u32) {
     assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
 }
 
-/// Returns the names and bytes of all files of a folder, sorted by name.
+/// Returns the names and bytes of all files in a folder and its subfolders, sorted by name.
 pub(crate) fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut files: Vec<(String, Vec<u8>)> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| {
-            let entry = entry.unwrap();
-            (entry.file_name().into_string().unwrap(), std::fs::read(entry.path()).unwrap())
-        })
-        .collect();
+    fn add(folder: &Path, before: &str, files: &mut Vec<(String, Vec<u8>)>) {
+        for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+            let name = format!("{before}{}", entry.file_name().into_string().unwrap());
+            match entry.file_type().unwrap().is_dir() {
+                true => add(&entry.path(), &format!("{name}/"), files),
+                false => files.push((name, std::fs::read(entry.path()).unwrap())),
+            }
+        }
+    }
+    let mut files = Vec::new();
+    add(folder, "", &mut files);
     files.sort();
     files
 }
