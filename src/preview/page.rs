@@ -1,5 +1,7 @@
 //! The files of the page. They are built into the program.
 
+use crate::font;
+
 /// The content type of the page.
 const HTML_TYPE: &str = "text/html; charset=utf-8";
 /// The content type of style sheets.
@@ -7,31 +9,32 @@ const CSS_TYPE: &str = "text/css; charset=utf-8";
 /// The content type of scripts.
 const JAVASCRIPT_TYPE: &str = "text/javascript; charset=utf-8";
 
-/// The files of the page: path, content type and text of each.
-pub(super) const FILES: &[(&str, &str, &str)] = &[
-    ("/", HTML_TYPE, include_str!("page/index.html")),
-    ("/style.css", CSS_TYPE, include_str!("page/style.css")),
-    ("/icon.svg", "image/svg+xml", include_str!("page/icon.svg")),
-    ("/main.js", JAVASCRIPT_TYPE, include_str!("page/main.js")),
-    ("/controls.js", JAVASCRIPT_TYPE, include_str!("page/controls.js")),
-    ("/gl.js", JAVASCRIPT_TYPE, include_str!("page/gl.js")),
-    ("/hook.js", JAVASCRIPT_TYPE, include_str!("page/hook.js")),
-    ("/lines.js", JAVASCRIPT_TYPE, include_str!("page/lines.js")),
-    ("/math.js", JAVASCRIPT_TYPE, include_str!("page/math.js")),
-    ("/painter.js", JAVASCRIPT_TYPE, include_str!("page/painter.js")),
-    ("/panel.js", JAVASCRIPT_TYPE, include_str!("page/panel.js")),
-    ("/parts.js", JAVASCRIPT_TYPE, include_str!("page/parts.js")),
-    ("/picture.js", JAVASCRIPT_TYPE, include_str!("page/picture.js")),
-    ("/player.js", JAVASCRIPT_TYPE, include_str!("page/player.js")),
-    ("/plots.js", JAVASCRIPT_TYPE, include_str!("page/plots.js")),
-    ("/render.js", JAVASCRIPT_TYPE, include_str!("page/render.js")),
-    ("/run.js", JAVASCRIPT_TYPE, include_str!("page/run.js")),
-    ("/runs.js", JAVASCRIPT_TYPE, include_str!("page/runs.js")),
-    ("/server.js", JAVASCRIPT_TYPE, include_str!("page/server.js")),
-    ("/shaders.js", JAVASCRIPT_TYPE, include_str!("page/shaders.js")),
-    ("/surroundings.js", JAVASCRIPT_TYPE, include_str!("page/surroundings.js")),
-    ("/texts.js", JAVASCRIPT_TYPE, include_str!("page/texts.js")),
-    ("/viewpoint.js", JAVASCRIPT_TYPE, include_str!("page/viewpoint.js")),
+/// The files of the page: path, content type and content of each.
+pub(super) const FILES: &[(&str, &str, &[u8])] = &[
+    ("/", HTML_TYPE, include_bytes!("page/index.html")),
+    ("/style.css", CSS_TYPE, include_bytes!("page/style.css")),
+    ("/icon.svg", "image/svg+xml", include_bytes!("page/icon.svg")),
+    ("/main.js", JAVASCRIPT_TYPE, include_bytes!("page/main.js")),
+    ("/controls.js", JAVASCRIPT_TYPE, include_bytes!("page/controls.js")),
+    ("/gl.js", JAVASCRIPT_TYPE, include_bytes!("page/gl.js")),
+    ("/hook.js", JAVASCRIPT_TYPE, include_bytes!("page/hook.js")),
+    ("/lines.js", JAVASCRIPT_TYPE, include_bytes!("page/lines.js")),
+    ("/math.js", JAVASCRIPT_TYPE, include_bytes!("page/math.js")),
+    ("/painter.js", JAVASCRIPT_TYPE, include_bytes!("page/painter.js")),
+    ("/panel.js", JAVASCRIPT_TYPE, include_bytes!("page/panel.js")),
+    ("/parts.js", JAVASCRIPT_TYPE, include_bytes!("page/parts.js")),
+    ("/picture.js", JAVASCRIPT_TYPE, include_bytes!("page/picture.js")),
+    ("/player.js", JAVASCRIPT_TYPE, include_bytes!("page/player.js")),
+    ("/plots.js", JAVASCRIPT_TYPE, include_bytes!("page/plots.js")),
+    ("/render.js", JAVASCRIPT_TYPE, include_bytes!("page/render.js")),
+    ("/run.js", JAVASCRIPT_TYPE, include_bytes!("page/run.js")),
+    ("/runs.js", JAVASCRIPT_TYPE, include_bytes!("page/runs.js")),
+    ("/server.js", JAVASCRIPT_TYPE, include_bytes!("page/server.js")),
+    ("/shaders.js", JAVASCRIPT_TYPE, include_bytes!("page/shaders.js")),
+    ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("page/surroundings.js")),
+    ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("page/texts.js")),
+    ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("page/viewpoint.js")),
+    ("/DejaVuSans.ttf", "font/ttf", font::BYTES),
 ];
 
 #[cfg(test)]
@@ -41,8 +44,8 @@ mod tests {
     /// The page must contain nothing that its own content security policy would forbid.
     #[test]
     fn nothing_comes_from_elsewhere() {
-        for (path, _, text) in FILES {
-            let text = text.replace("http://www.w3.org/2000/svg", "");
+        for (path, _, content) in FILES.iter().filter(|(_, kind, _)| *kind != "font/ttf") {
+            let text = std::str::from_utf8(content).unwrap().replace("http://www.w3.org/2000/svg", "");
             for forbidden in ["http:", "https:", "innerHTML", "eval(", "style=\"", "onclick="] {
                 assert!(!text.contains(forbidden), "{path}: {forbidden}");
             }

@@ -39,7 +39,6 @@ use super::render::{Renderer, Wanted};
 use super::run::{PreviewRun, RunId};
 use super::session::{Session, Variant};
 use super::{describe, numbers, samples, shown, swarms};
-use crate::font;
 
 /// The data that the server answers requests from.
 #[derive(Clone)]
@@ -78,11 +77,9 @@ pub(super) fn router(server: Server) -> Router {
         .route("/api/variants", post(variant))
         .route("/api/render", post(render))
         .route_layer(middleware::from_fn_with_state(server.clone(), with_token));
-    let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, text)| {
-        router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *text) }))
+    let page = page::FILES.iter().fold(Router::new(), |router, (path, kind, content)| {
+        router.route(path, get(move || async move { ([(header::CONTENT_TYPE, *kind)], *content) }))
     });
-    let letters = || async { ([(header::CONTENT_TYPE, "font/ttf")], font::BYTES) };
-    let page = page.route("/DejaVuSans.ttf", get(letters));
     let all = api.merge(page).layer(middleware::from_fn(connections::with_whole_body));
     all.layer(middleware::from_fn(guarded)).with_state(server)
 }
