@@ -21,7 +21,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 38] = [
+const TRIED: [&str; 39] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -35,6 +35,7 @@ const TRIED: [&str; 38] = [
     "diagnostic/visible.rs: visible",
     "diagnostic/visible.rs: visible_lines",
     "explain.rs: of",
+    "font.rs: width",
     "integrator/mod.rs: by_name",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
@@ -195,6 +196,8 @@ proptest! {
         let svg = svg(&picture);
         prop_assert!(ASSESSMENT.to_text(&text).starts_with(&text) && svg.ends_with("</svg>\n"));
         let _ = png(&picture).unwrap();
+        let width = jabuka::font::width(&text);
+        prop_assert!(width.is_finite() && width >= 0.0, "{width}");
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };
