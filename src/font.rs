@@ -5,12 +5,13 @@ use std::sync::LazyLock;
 use ttf_parser::Face;
 
 /// The name of the font's file.
-pub const NAME: &str = "DejaVuSans.ttf";
+pub const FILE_NAME: &str = "DejaVuSans.ttf";
 
 /// The contents of the font's file.
-pub static BYTES: &[u8] = include_bytes!("../templates/assets/DejaVuSans.ttf");
+pub static FILE_BYTES: &[u8] = include_bytes!("../templates/assets/DejaVuSans.ttf");
 
-static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(BYTES, 0).ok());
+/// The font, parsed. It always parses, as the tests below show.
+static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FILE_BYTES, 0).ok());
 
 /// Returns whether a text can contain a letter: the font has it, and POV-Ray draws it right. POV-Ray sets letters from left to right, and
 /// does not join them as Arabic needs.
@@ -22,8 +23,7 @@ pub fn has(letter: char) -> bool {
     is_drawn && FACE.as_ref().is_some_and(|face| face.glyph_index(letter).is_some())
 }
 
-/// Returns the width of a text, relative to its nominal height (the em of the font): the sum of the advances of its letters. Kerning
-/// changes it by a few percent.
+/// Returns the width of a text, relative to the size of the font (its em): the sum of the advance widths of its letters.
 pub fn width(text: &str) -> f64 {
     let Some(face) = FACE.as_ref() else { return 0.0 };
     let advance = |letter: char| face.glyph_hor_advance(face.glyph_index(letter).unwrap_or_default());

@@ -1,7 +1,7 @@
 //! Copies the files that scripts read (assets: images, height fields, fonts) into an output folder.
 
 use std::io::{Read as _, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::manifest::Entry;
 use super::{DigestWriter, Folder, OutputError};
@@ -19,7 +19,8 @@ pub(super) fn copy(folder: &Folder, assets: &[Asset]) -> Result<Vec<Entry>, Outp
         if let Some((subfolder, _)) = name.rsplit_once('/') {
             folder.dir().make_folder(subfolder)?;
         }
-        let original = |error| OutputError::Io(asset.path().map_or_else(PathBuf::new, Path::to_owned), error);
+        let original =
+            |error| OutputError::Io(asset.path().unwrap_or(Path::new(&asset.name)).to_owned(), error);
         let mut file = asset.open().map_err(original)?;
         let mut writer = DigestWriter::default();
         folder.try_write_with(&name, |copy| {

@@ -20,7 +20,7 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
     UNITS.iter().find(fits).copied().unwrap_or((1e-15, "fm"))
 }
 
-/// Formats a number with at most six significant digits and a minus sign.
+/// Formats a length for a text in the picture, with at most six significant digits.
 pub(super) fn value(length: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, length, 6);

@@ -21,7 +21,7 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     layout(out, decimals, exponent, digits);
 }
 
-/// Sets a number as printed texts show it: with a minus sign, and with a power of ten in place of an exponent: `7.5·10⁻⁶`.
+/// Rewrites a number for texts in the picture: `-7.5e-6` becomes `−7.5·10⁻⁶`, with the minus sign `−` in place of the hyphen.
 pub(super) fn typeset(number: &str) -> String {
     let with_minus = |text: &str| text.replace('-', "−");
     let Some((digits, exponent)) = number.split_once('e') else { return with_minus(number) };

@@ -34,7 +34,7 @@ pub(super) const FILES: &[(&str, &str, &[u8])] = &[
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("page/surroundings.js")),
     ("/texts.js", JAVASCRIPT_TYPE, include_bytes!("page/texts.js")),
     ("/viewpoint.js", JAVASCRIPT_TYPE, include_bytes!("page/viewpoint.js")),
-    ("/DejaVuSans.ttf", "font/ttf", font::BYTES),
+    ("/DejaVuSans.ttf", "font/ttf", font::FILE_BYTES),
 ];
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The files that scripts read beside their include files: images, height fields, fonts.
+//! The assets of a scene: files that its scripts read, such as images, height fields and fonts.
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -28,8 +28,8 @@ impl Said {
     }
 }
 
-/// Runs POV-Ray in a folder, and writes `warnings.txt` and `errors.txt` there. Scripts without a folder `assets` of their own find the font of
-/// texts in jabuka's templates.
+/// Runs POV-Ray in a folder, and writes `warnings.txt` and `errors.txt` there. POV-Ray looks in jabuka's templates for
+/// files that the folder does not have, such as the font of texts.
 pub(crate) fn run(folder: &Path, arguments: &[&str]) -> Said {
     let status = Command::new("povray")
         .current_dir(folder)

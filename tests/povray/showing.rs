@@ -327,3 +327,27 @@ fn the_moments_of_a_shutter_have_their_own_past() {
     let (first, second) = blurred.split_once("#case (1)").unwrap();
     assert_eq!(ghosts(second), ghosts(first) + 1, "the ghost of 0.22 s is in the second only");
 }
+
+/// The advance widths of letters contain the space before the first and after the last letter, which POV-Ray does not measure.
+#[test]
+fn texts_are_as_wide_as_pov_ray_sets_them() {
+    let texts = ["Kinetic energy", "Δφ = 30°, Höhe 2,5·10⁻³ m", "iiiiii", "WWWW", "−7.5·10⁻⁶ J", "ball"];
+    let folder = tempfile::tempdir().unwrap();
+    let measure = |text: &&str| {
+        let letters =
+            format!("#declare Letters = text {{ ttf \"assets/DejaVuSans.ttf\" \"{text}\" 0.01, 0 }};");
+        format!("{letters}\n#warning concat(\"width \", str(max_extent(Letters).x, 0, 6), \" end\\n\")\n")
+    };
+    let settings = "#version 3.7;\nglobal_settings { charset utf8 assumed_gamma 1 }\n";
+    let script = format!("{settings}{}", texts.iter().map(measure).collect::<String>());
+    std::fs::write(folder.path().join("widths.pov"), script).unwrap();
+    let said = run(folder.path(), &["+Iwidths.pov", "+W1", "+H1", "-F"]).warnings;
+    let measured =
+        said.split("width ").skip(1).map(|rest| rest.split(" end").next().unwrap().parse().unwrap());
+    let measured: Vec<f64> = measured.collect();
+    assert_eq!(measured.len(), texts.len(), "{said}");
+    for (text, measured) in texts.iter().zip(measured) {
+        let spaces = jabuka::font::width(text) - measured;
+        assert!((-0.01..0.25).contains(&spaces), "{text}: {measured}, and {spaces} more by the font");
+    }
+}

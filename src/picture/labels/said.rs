@@ -129,7 +129,7 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
     }
 }
 
-/// Formats a number for a label, with a minus sign. Non-finite numbers become `?`.
+/// Formats a number for a label. Non-finite numbers become `?`.
 fn written(value: f64, format: Format) -> String {
     if !value.is_finite() {
         return "?".to_owned();

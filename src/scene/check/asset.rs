@@ -43,10 +43,12 @@ pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
     assets.into_iter().map(asset).collect()
 }
 
-/// Adds the font of texts, unless the scene lists a file of this name itself.
+/// Adds the font in which labels, grids and scale bars are set. If the scene already has a file of this name among its assets, that file
+/// is taken.
 pub(super) fn add_font(assets: &mut Vec<Asset>) {
-    if assets.iter().all(|asset| asset.name != font::NAME) {
-        assets.push(Asset { name: font::NAME.to_owned(), source: AssetSource::BuiltIn(font::BYTES) });
+    if assets.iter().all(|asset| asset.name != font::FILE_NAME) {
+        assets
+            .push(Asset { name: font::FILE_NAME.to_owned(), source: AssetSource::BuiltIn(font::FILE_BYTES) });
     }
 }
 
