@@ -93,9 +93,9 @@ fn measures() -> Vec<(&'static str, String)> {
 /// name and a line with its meaning and its own keys. `way` is the path of keys that leads to the table.
 fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
     let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
-    let variants = keys.iter().filter(|key| names.contains(&key.name));
+    let variants = keys.iter().copied().filter(|key| names.contains(&key.name));
     let entry = |key: &'static KeySpec| {
-        let inner = key.kind.table().map_or_else(Vec::new, |table| table.keys.iter().collect());
+        let inner = key.kind.table().map_or_else(Vec::new, |table| table.keys().collect());
         let inner: Vec<_> = inner.iter().map(|key| format!("`{}`", key.name)).collect();
         let keys = if inner.is_empty() { String::new() } else { format!(" ({})", inner.join(", ")) };
         (key.name, format!("{}{keys}", key.meaning))

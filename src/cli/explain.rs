@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let failure = terminal::unknown("code or key", word, near_code.or(near_key.as_deref()));
-    let tables: Vec<&str> = SCENE.keys.iter().map(|key| key.name).collect();
+    let tables: Vec<&str> = SCENE.keys().map(|key| key.name).collect();
     terminal::error(&format!(
         "`jabuka explain` lists the codes; the keys of a scene: {}\n",
         tables.join(", ")

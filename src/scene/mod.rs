@@ -101,6 +101,7 @@ pub mod source;
 pub mod timed;
 mod timeline;
 mod units;
+mod value;
 mod view;
 
 use std::path::{Path, PathBuf};

@@ -274,3 +274,13 @@ pub(super) fn identifier(node: &Node) -> Result<&str, Diagnostic> {
 pub(super) fn vector(node: &Node, bound: Bound) -> Option<DVec3> {
     numbers::<3>(node, bound).ok().map(DVec3::from_array)
 }
+
+/// Reads a list, each item by a function that gets the item and its kind. `None` if the list or an item is wrong.
+pub(super) fn list_of<T>(
+    node: &Node,
+    kind: &Kind,
+    read: impl Fn(&Node, &Kind) -> Option<T>,
+) -> Option<Vec<T>> {
+    let Kind::List { of, .. } = kind else { return None };
+    list(node, kind).ok()?.iter().map(|item| read(item, of)).collect()
+}

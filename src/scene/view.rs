@@ -8,10 +8,11 @@ use super::read;
 use crate::diagnostic::Span;
 use crate::scene::Color;
 use crate::scene::drawn::Drawn;
-use crate::scene::grammar::{DefaultValue, KeySpec, Kind, Rule, TableSpec};
+use crate::scene::grammar::{Any, DefaultValue, Key, KeySpec, Kind, Rule, TableSpec};
 use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
+use crate::scene::value::Value as Read;
 
 /// A table with its grammar, from which values are read by key. A missing or invalid value reads as its default, or as `None` if the key
 /// has no default. The validation has already reported invalid values.
@@ -26,6 +27,60 @@ pub(in crate::scene) struct View<'a> {
 pub(super) struct NamedTable<'a> {
     spec: &'static TableSpec,
     entry: &'a Entry,
+}
+
+/// The name of a key.
+pub(in crate::scene) trait KeyName {
+    fn name(&self) -> &str;
+}
+
+impl<T> KeyName for Key<T> {
+    fn name(&self) -> &str {
+        self.spec.name
+    }
+}
+
+impl KeyName for KeySpec {
+    fn name(&self) -> &str {
+        self.name
+    }
+}
+
+impl KeyName for &str {
+    fn name(&self) -> &str {
+        self
+    }
+}
+
+impl<T: KeyName> KeyName for &T {
+    fn name(&self) -> &str {
+        (*self).name()
+    }
+}
+
+/// What [`View::get`] returns for a key of a type.
+pub(in crate::scene) trait Get {
+    type Read<'a>;
+
+    fn get<'a>(view: &View<'a>, key: &KeySpec) -> Self::Read<'a>;
+}
+
+/// A key with a default value always has a value.
+impl<T: Read> Get for T {
+    type Read<'a> = T::Read<'a>;
+
+    fn get<'a>(view: &View<'a>, key: &KeySpec) -> T::Read<'a> {
+        view.value::<T>(key).expect("the declaration of a key without `Option` has a default value")
+    }
+}
+
+/// A key without a default value may have none, or an invalid one.
+impl<T: Read> Get for Option<T> {
+    type Read<'a> = Option<T::Read<'a>>;
+
+    fn get<'a>(view: &View<'a>, key: &KeySpec) -> Option<T::Read<'a>> {
+        view.value::<T>(key)
+    }
 }
 
 impl<'a> NamedTable<'a> {
@@ -50,6 +105,28 @@ impl<'a> View<'a> {
         View { spec, table }
     }
 
+    /// Reads the value of a key as the type that its declaration names.
+    pub(in crate::scene) fn get<T: Get>(&self, key: &Key<T>) -> T::Read<'a> {
+        T::get(self, &key.spec)
+    }
+
+    /// Reads a value as one of several types that the key takes. `None` if the value has another type or is invalid.
+    pub(in crate::scene) fn get_as<T: Read>(&self, key: &Key<Any>) -> Option<T::Read<'a>> {
+        self.value::<T>(&key.spec)
+    }
+
+    /// Reads a value, or returns the default of the key. A key that takes several kinds of values has no default of this type if a value
+    /// of another kind is given.
+    fn value<T: Read>(&self, key: &KeySpec) -> Option<T::Read<'a>> {
+        debug_assert!(self.spec.key(key.name).is_some(), "{} has no key `{}`", self.spec.noun, key.name);
+        let kind = key.kind.for_type(T::TYPE);
+        debug_assert!(kind.is_some(), "`{}` of {} is {:?}", key.name, self.spec.noun, key.kind);
+        let given = self.table.and_then(|table| table.get(key.name)).map(|entry| &entry.node);
+        let value = given.and_then(|node| T::read(node, kind?));
+        let is_of_other_kind = given.is_some() && matches!(key.kind, Kind::Either(_));
+        value.or_else(|| T::default(key.default).filter(|_| !is_of_other_kind))
+    }
+
     /// Returns the tree node of a key's value. `None` if the key is missing.
     pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
@@ -69,12 +146,14 @@ impl<'a> View<'a> {
     }
 
     /// Returns the source span of a key's value. `None` if the key is missing.
-    pub(in crate::scene) fn span(&self, name: &str) -> Option<Span> {
+    pub(in crate::scene) fn span(&self, key: impl KeyName) -> Option<Span> {
+        let name = key.name();
         self.node(name).map(|node| node.span)
     }
 
     /// Returns the source span of a key. `None` if the key is missing.
-    pub(in crate::scene) fn key_span(&self, name: &str) -> Option<Span> {
+    pub(in crate::scene) fn key_span(&self, key: impl KeyName) -> Option<Span> {
+        let name = key.name();
         self.table?.get(name).map(|entry| entry.name.span)
     }
 
@@ -85,7 +164,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns whether the table has the key, with a valid or an invalid value.
-    pub(in crate::scene) fn has(&self, name: &str) -> bool {
+    pub(in crate::scene) fn has(&self, key: impl KeyName) -> bool {
+        let name = key.name();
         self.node(name).is_some()
     }
 
@@ -178,7 +258,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns the tree node of a key's value, without checking the value. `None` if the key is missing.
-    pub(super) fn raw(&self, name: &str) -> Option<&'a Node> {
+    pub(super) fn raw(&self, key: impl KeyName) -> Option<&'a Node> {
+        let name = key.name();
         self.node(name)
     }
 
@@ -241,7 +322,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns the items of a list. `None` if the key is missing or the list has a wrong length.
-    pub(in crate::scene) fn list(&self, name: &str) -> Option<&'a [Node]> {
+    pub(in crate::scene) fn list(&self, key: impl KeyName) -> Option<&'a [Node]> {
+        let name = key.name();
         let kind = self.kind_of(name, |kind| matches!(kind, Kind::List { .. }))?;
         read::list(self.node(name)?, kind).ok()
     }
@@ -270,7 +352,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns a view of an inner table. The view is empty if the key is missing.
-    pub(in crate::scene) fn table(&self, name: &str) -> View<'a> {
+    pub(in crate::scene) fn table(&self, key: impl KeyName) -> View<'a> {
+        let name = key.name();
         let spec = match self.kind_of(name, |kind| matches!(kind, Kind::Table(_))) {
             Some(Kind::Table(spec)) => *spec,
             _ => self.spec,
@@ -279,7 +362,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns a view of an inner table. `None` if the key is missing or its value is not a table.
-    pub(in crate::scene) fn variant(&self, name: &str) -> Option<View<'a>> {
+    pub(in crate::scene) fn variant(&self, key: impl KeyName) -> Option<View<'a>> {
+        let name = key.name();
         let view = self.table(name);
         view.table.is_some().then_some(view)
     }
@@ -296,7 +380,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns a view of each table in a list of tables.
-    pub(in crate::scene) fn tables(&self, name: &str) -> Vec<View<'a>> {
+    pub(in crate::scene) fn tables(&self, key: impl KeyName) -> Vec<View<'a>> {
+        let name = key.name();
         let Some(Kind::List { of: Kind::Table(spec), .. }) =
             self.kind_of(name, |kind| matches!(kind, Kind::List { of: Kind::Table(_), .. }))
         else {
@@ -324,7 +409,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns the name, the source span of the name, and a view of each named table under a key. Use [`View::bodies`] for bodies instead.
-    pub(in crate::scene) fn named(&self, name: &str) -> Vec<(&'a str, Span, View<'a>)> {
+    pub(in crate::scene) fn named(&self, key: impl KeyName) -> Vec<(&'a str, Span, View<'a>)> {
+        let name = key.name();
         let Some(Kind::Named(spec)) = self.kind_of(name, |kind| matches!(kind, Kind::Named(_))) else {
             return Vec::new();
         };

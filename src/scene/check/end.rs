@@ -7,7 +7,8 @@ use super::Context;
 use super::view::View;
 use crate::physics::{Anchor, BodyId};
 use crate::scene::Body;
-use crate::scene::grammar::{Bound, END};
+use crate::scene::grammar::Bound;
+use crate::scene::grammar::forces::end;
 use crate::scene::source::{Node, Value};
 
 /// Returns the index of the body that `node` names. `None` if no body has this name; validation has already reported that error.
@@ -20,7 +21,7 @@ pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
     match node.value {
         Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
         Value::Table(ref table) => {
-            let view = View::new(&END, Some(table));
+            let view = View::new(&end::TABLE, Some(table));
             let id = BodyId::new(body(view.raw("body")?, context)?);
             Some(Anchor::Body { id, at: view.vector("at")? })
         }

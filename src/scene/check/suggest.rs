@@ -10,14 +10,14 @@ pub(super) const MAX_COMPARISONS: usize = 200_000;
 /// Returns the key of a table that an unknown key was probably meant to be. `None` if no key is similar.
 pub(super) fn key(word: &str, table: &TableSpec) -> Option<&'static str> {
     let folded = word.to_lowercase().replace('-', "_");
-    let names = || table.keys.iter().map(|key| key.name);
-    let same = table.keys.iter().find(|key| key.name == folded || key.also.contains(&folded.as_str()));
+    let names = || table.keys().map(|key| key.name);
+    let same = table.keys().find(|key| key.name == folded || key.also.contains(&folded.as_str()));
     same.map(|key| key.name).or_else(|| nearest(&folded, names()))
 }
 
 /// Returns the path to a key of an inner table, such as `shape.sphere.radius` for `radius` in a body.
 pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
-    table.keys.iter().find_map(|key| {
+    table.keys().find_map(|key| {
         let inner = key.kind.table()?;
         let mut way = match inner.key(word) {
             Some(found) => vec![found.name],
@@ -31,10 +31,9 @@ pub(super) fn deeper(word: &str, table: &'static TableSpec) -> Option<Vec<&'stat
 /// Returns the path to a key of an inner table for a name from another program, such as `material.color` for `colour` in a body.
 pub(super) fn deeper_also(word: &str, table: &'static TableSpec) -> Option<Vec<&'static str>> {
     let folded = word.to_lowercase();
-    table.keys.iter().find_map(|key| {
+    table.keys().find_map(|key| {
         let inner = key.kind.table()?;
-        let found =
-            inner.keys.iter().find(|key| key.name == folded || key.also.contains(&folded.as_str()))?;
+        let found = inner.keys().find(|key| key.name == folded || key.also.contains(&folded.as_str()))?;
         Some(vec![key.name, found.name])
     })
 }

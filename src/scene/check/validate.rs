@@ -62,7 +62,7 @@ fn table(table: &Table, spec: &'static TableSpec, at: Option<Span>, path: &str, 
         corrections::correct_word(kind, table, at, before, context);
     }
     let is_whole = !context.is_partial;
-    for key in spec.keys.iter().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
+    for key in spec.keys().filter(|key| is_whole && key.required && table.get(key.name).is_none()) {
         if !meant.contains(&key.name) {
             let error = corrections::correct_missing(missing_key(key, at, path), key, at, context);
             context.diagnostics.push(error);

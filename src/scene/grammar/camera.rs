@@ -1,169 +1,157 @@
 //! The grammar of `[camera]`: the keys that describe a camera.
 
 use super::Kind::{Choice, Integer, List, Number, Reference, Table, Timed};
+use super::key::table;
 use super::kind::{NON_NEGATIVE, POSITIVE, VECTOR};
 use super::motion::{BETWEEN_KEYFRAMES, TIMED_VECTOR};
-use super::{Bound, Collection, KeySpec, Rule, TableSpec};
+use super::{Bound, Collection, KeySpec, Rule};
 
 fn projections() -> Vec<&'static str> {
     vec!["perspective", "orthographic"]
 }
 
-pub(super) static CAMERA: TableSpec = TableSpec {
-    noun: "the camera",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
-            .unit("m")
-            .default(
-                "fits the whole motion into the picture; of eight or more bodies, up to a third that \
-                 fly far away are left out; if bodies would be too small, follows the only body above ground, or shows only the \
-                 start of the motion",
-            )
-            .also(&["position", "pos", "eye", "from"]),
-        KeySpec::new(
-            "look_at",
-            TIMED_VECTOR,
-            "The point in the middle of the picture; numbers, or formulas of `t`",
-        )
+table! {
+    camera: "the camera", Rule::Any;
+    LOCATION: Option<value::TimedVector> = KeySpec::new("location", TIMED_VECTOR, "The camera's position; numbers, or formulas of `t`")
         .unit("m")
-        .default("the center of the motion")
-        .also(&["target", "lookat", "to"]),
-        KeySpec::new(
-            "keyframes",
-            Table(&CAMERA_KEYFRAMES),
-            "Positions at given times; replaces `location` and `look_at`",
+        .default(
+            "fits the whole motion into the picture; of eight or more bodies, up to a third that \
+             fly far away are left out; if bodies would be too small, follows the only body above ground, or shows only the \
+             start of the motion",
         )
+        .also(&["position", "pos", "eye", "from"]),
+    LOOK_AT: Option<value::TimedVector> = KeySpec::new(
+        "look_at",
+        TIMED_VECTOR,
+        "The point in the middle of the picture; numbers, or formulas of `t`",
+    )
+    .unit("m")
+    .default("the center of the motion")
+    .also(&["target", "lookat", "to"]),
+    KEYFRAMES: Any = KeySpec::new(
+        "keyframes",
+        Table(&keyframes::TABLE),
+        "Positions at given times; replaces `location` and `look_at`",
+    )
+    .default("none")
+    .also(&["motion", "path"]),
+    FOLLOW: Any = KeySpec::new("follow", Table(&follow::TABLE), "A body to follow").default("none").also(&[
+        "track",
+        "tracking",
+        "following",
+    ]),
+    ORBIT: Any = KeySpec::new("orbit", Table(&orbit::TABLE), "Circles around `look_at`, about the vertical")
         .default("none")
-        .also(&["motion", "path"]),
-        KeySpec::new("follow", Table(&FOLLOW), "A body to follow").default("none").also(&[
-            "track",
-            "tracking",
-            "following",
-        ]),
-        KeySpec::new("orbit", Table(&ORBIT), "Circles around `look_at`, about the vertical")
-            .default("none")
-            .also(&["rotate", "turntable"]),
-        KeySpec::new(
-            "angle",
-            Timed(Bound::From(0.001, 179.999)),
-            "The horizontal field of view, in perspective; a number, or a formula of `t`",
-        )
-        .unit("degrees")
-        .default_number(40.0)
-        .also(&["fov", "field_of_view"]),
-        KeySpec::new(
-            "projection",
-            Choice(projections),
-            "The projection: perspective, or orthographic (parallel rays)",
-        )
-        .default("perspective")
-        .also(&["type", "kind"]),
-        KeySpec::new("width", POSITIVE, "The width in view of an orthographic camera")
-            .unit("m")
-            .default("fits the whole motion into the picture"),
-        KeySpec::new(
-            "aperture",
-            POSITIVE,
-            "The diameter of the lens; a larger one blurs things out of focus more",
-        )
+        .also(&["rotate", "turntable"]),
+    ANGLE: value::Timed = KeySpec::new(
+        "angle",
+        Timed(Bound::From(0.001, 179.999)),
+        "The horizontal field of view, in perspective; a number, or a formula of `t`",
+    )
+    .unit("degrees")
+    .default_number(40.0)
+    .also(&["fov", "field_of_view"]),
+    PROJECTION: Option<value::Text> = KeySpec::new(
+        "projection",
+        Choice(projections),
+        "The projection: perspective, or orthographic (parallel rays)",
+    )
+    .default("perspective")
+    .also(&["type", "kind"]),
+    WIDTH: Option<f64> = KeySpec::new("width", POSITIVE, "The width in view of an orthographic camera")
         .unit("m")
-        .default("everything is sharp")
-        .also(&["blur"]),
-        KeySpec::new("focus", VECTOR, "With `aperture`, the point that is sharp")
-            .unit("m")
-            .default("`look_at`")
-            .also(&["focal_point"]),
-        KeySpec::new(
-            "blur_samples",
-            Integer(4, 10_000),
-            "With `aperture`, the number of rays per pixel: more is smoother",
-        )
-        .default_number(60.0),
-        KeySpec::new(
-            "shutter",
-            NON_NEGATIVE,
-            "Exposure time, starting at the time of a frame and ending by the next frame; blurs moving \
-             things. Films usually expose for half the time between frames",
-        )
-        .unit("s")
-        .default("0: everything is sharp")
-        .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
-        KeySpec::new(
-            "samples",
-            Integer(2, 256),
-            "With `shutter`, the number of moments averaged in an image: more is smoother and slower",
-        )
-        .default_number(16.0)
-        .also(&["shutter_samples", "motion_blur_samples"]),
-    ],
-};
-
-static CAMERA_KEYFRAMES: TableSpec = TableSpec {
-    noun: "a camera's keyframes",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new(
-            "at",
-            List { of: &Table(&CAMERA_KEYFRAME), min: 1, max: 100_000 },
-            "The keyframes, in order of time",
-        )
-        .required()
-        .also(&["keys", "poses", "frames"]),
-        BETWEEN_KEYFRAMES,
-    ],
-};
-
-static CAMERA_KEYFRAME: TableSpec = TableSpec {
-    noun: "a camera's keyframe",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new("time", Number(Bound::Any), "The time of the keyframe")
-            .unit("s")
-            .required()
-            .also(&["t"]),
-        KeySpec::new("location", VECTOR, "The camera's position")
-            .unit("m")
-            .required()
-            .also(&["position", "pos"]),
-        KeySpec::new("look_at", VECTOR, "The point in the middle of the picture")
-            .unit("m")
-            .default("that of the previous keyframe, or of the camera")
-            .also(&["target"]),
-    ],
-};
-
-static FOLLOW: TableSpec = TableSpec {
-    noun: "a camera's `follow`",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new("body", Reference(Collection::Body), "The body to keep in the middle of the picture")
-            .required()
-            .also(&["name", "target"]),
-        KeySpec::new("distance", Number(Bound::Positive), "The camera's distance from it")
-            .unit("m")
-            .default("the initial distance of `location` from it, or 11 times its width")
-            .also(&["offset"]),
-        KeySpec::new(
-            "lag",
-            Number(Bound::NonNegative),
-            "The camera's delay in seconds; smooths sudden motion of the body",
-        )
-        .unit("s")
-        .default_number(0.0)
-        .also(&["delay", "damping", "smooth", "smoothness"]),
-    ],
-};
-
-static ORBIT: TableSpec = TableSpec {
-    noun: "an orbit",
-    rule: Rule::Any,
-    keys: &[KeySpec::new(
-        "period",
-        Number(Bound::Any),
-        "The time of one revolution; negative for the other direction",
+        .default("fits the whole motion into the picture"),
+    APERTURE: Option<f64> = KeySpec::new(
+        "aperture",
+        POSITIVE,
+        "The diameter of the lens; a larger one blurs things out of focus more",
+    )
+    .unit("m")
+    .default("everything is sharp")
+    .also(&["blur"]),
+    FOCUS: Option<DVec3> = KeySpec::new("focus", VECTOR, "With `aperture`, the point that is sharp")
+        .unit("m")
+        .default("`look_at`")
+        .also(&["focal_point"]),
+    BLUR_SAMPLES: u32 = KeySpec::new(
+        "blur_samples",
+        Integer(4, 10_000),
+        "With `aperture`, the number of rays per pixel: more is smoother",
+    )
+    .default_number(60.0),
+    SHUTTER: Option<f64> = KeySpec::new(
+        "shutter",
+        NON_NEGATIVE,
+        "Exposure time, starting at the time of a frame and ending by the next frame; blurs moving \
+         things. Films usually expose for half the time between frames",
     )
     .unit("s")
+    .default("0: everything is sharp")
+    .also(&["motion_blur", "exposure", "exposure_time", "shutter_speed"]),
+    SAMPLES: u32 = KeySpec::new(
+        "samples",
+        Integer(2, 256),
+        "With `shutter`, the number of moments averaged in an image: more is smoother and slower",
+    )
+    .default_number(16.0)
+    .also(&["shutter_samples", "motion_blur_samples"]),
+}
+
+table! {
+    keyframes: "a camera's keyframes", Rule::Any;
+    AT: Any = KeySpec::new(
+        "at",
+        List { of: &Table(&keyframe::TABLE), min: 1, max: 100_000 },
+        "The keyframes, in order of time",
+    )
     .required()
-    .also(&["duration", "time"])],
-};
+    .also(&["keys", "poses", "frames"]),
+    INTERPOLATION: value::Text = BETWEEN_KEYFRAMES,
+}
+
+table! {
+    keyframe: "a camera's keyframe", Rule::Any;
+    TIME: Option<f64> = KeySpec::new("time", Number(Bound::Any), "The time of the keyframe")
+        .unit("s")
+        .required()
+        .also(&["t"]),
+    LOCATION: Option<DVec3> = KeySpec::new("location", VECTOR, "The camera's position")
+        .unit("m")
+        .required()
+        .also(&["position", "pos"]),
+    LOOK_AT: Option<DVec3> = KeySpec::new("look_at", VECTOR, "The point in the middle of the picture")
+        .unit("m")
+        .default("that of the previous keyframe, or of the camera")
+        .also(&["target"]),
+}
+
+table! {
+    follow: "a camera's `follow`", Rule::Any;
+    BODY: Option<value::Text> = KeySpec::new("body", Reference(Collection::Body), "The body to keep in the middle of the picture")
+        .required()
+        .also(&["name", "target"]),
+    DISTANCE: Option<f64> = KeySpec::new("distance", Number(Bound::Positive), "The camera's distance from it")
+        .unit("m")
+        .default("the initial distance of `location` from it, or 11 times its width")
+        .also(&["offset"]),
+    LAG: f64 = KeySpec::new(
+        "lag",
+        Number(Bound::NonNegative),
+        "The camera's delay in seconds; smooths sudden motion of the body",
+    )
+    .unit("s")
+    .default_number(0.0)
+    .also(&["delay", "damping", "smooth", "smoothness"]),
+}
+
+table! {
+    orbit: "an orbit", Rule::Any;
+    PERIOD: Option<f64> = KeySpec::new(
+    "period",
+    Number(Bound::Any),
+    "The time of one revolution; negative for the other direction",
+)
+.unit("s")
+.required()
+.also(&["duration", "time"]),
+}

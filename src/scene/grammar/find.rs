@@ -124,7 +124,7 @@ fn keys_of(path: &str, (table, is_named): Inside) -> Vec<FoundKey> {
     let name = if is_named { format!(".{NAME_PLACEHOLDER}") } else { String::new() };
     let dot = if path.is_empty() { "" } else { "." };
     let key = |spec: &'static KeySpec| FoundKey { path: format!("{path}{name}{dot}{}", spec.name), spec };
-    table.keys.iter().map(key).collect()
+    table.keys().map(key).collect()
 }
 
 fn tables(kind: &'static Kind) -> Vec<Inside> {
@@ -159,7 +159,7 @@ impl fmt::Display for FoundKey {
                     groups.iter().try_for_each(|names| writeln!(f, "at most one of {}", quoted(names)))?;
                 }
             }
-            let width = table.keys.iter().map(|key| key.name.len()).max().unwrap_or(0);
+            let width = table.keys().map(|key| key.name.len()).max().unwrap_or(0);
             for key in table.keys {
                 writeln!(f, "  {:width$}  {}", key.name, key.meaning)?;
             }

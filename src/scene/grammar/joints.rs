@@ -2,55 +2,53 @@
 
 use super::Kind::{Choice, Color, Direction, Either, List, Number, Reference, Table, Timed};
 use super::contact::JOINT_COLLIDES;
-use super::forces::END;
+use super::forces;
+use super::key::table;
 use super::kind::{POSITIVE, VECTOR};
 use super::repeat::LINKS;
 use super::showing::JOINT_ARROWS;
 use super::{Bound, Collection, KeySpec, Kind, Rule, TableSpec};
 
-pub(super) static JOINT: TableSpec = TableSpec {
-    noun: "a joint",
-    rule: Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"]),
-    keys: &[
-        KeySpec::new(
-            "ball",
-            Table(&BALL),
-            "A ball-and-socket joint: a common point of both bodies, with free rotation",
-        )
-        .also(&["spherical", "socket", "point", "pin"]),
-        KeySpec::new(
-            "hinge",
-            Table(&HINGE),
-            "Both bodies share one axis of rotation, like a door and its frame",
-        )
-        .also(&["revolute", "axle", "pivot"]),
-        KeySpec::new(
-            "slider",
-            Table(&SLIDER),
-            "The second body slides along an axis of the first, without rotation between them",
-        )
-        .also(&["prismatic", "rail"]),
-        KeySpec::new(
-            "fixed",
-            Table(&FIXED),
-            "The two move as one body; if they touch at the start, no rods are drawn",
-        )
-        .also(&["weld", "rigid", "glue"]),
-        KeySpec::new("rod", Table(&ROD), "A massless rod keeps the distance of two points constant")
-            .also(&["distance", "link", "bar", "stick"]),
-        KeySpec::new("rope", Table(&ROPE), "The distance of two points is at most the rope's length")
-            .also(&["string", "cable", "thread", "cord"]),
-        KeySpec::new(
-            "pulley",
-            Table(&PULLEY),
-            "A rope that runs over points, fixed or on bodies, from one end to the other",
-        ),
-        KeySpec::new("gear", Table(&GEAR), "Couples two hinges or sliders at a ratio").also(&["gears"]),
-        LINKS,
-    ],
-};
+table! {
+    joint: "a joint", Rule::ExactlyOne(&["ball", "hinge", "slider", "fixed", "rod", "rope", "pulley", "gear"]);
+    BALL: Any = KeySpec::new(
+        "ball",
+        Table(&ball::TABLE),
+        "A ball-and-socket joint: a common point of both bodies, with free rotation",
+    )
+    .also(&["spherical", "socket", "point", "pin"]),
+    HINGE: Any = KeySpec::new(
+        "hinge",
+        Table(&hinge::TABLE),
+        "Both bodies share one axis of rotation, like a door and its frame",
+    )
+    .also(&["revolute", "axle", "pivot"]),
+    SLIDER: Any = KeySpec::new(
+        "slider",
+        Table(&slider::TABLE),
+        "The second body slides along an axis of the first, without rotation between them",
+    )
+    .also(&["prismatic", "rail"]),
+    FIXED: Any = KeySpec::new(
+        "fixed",
+        Table(&fixed::TABLE),
+        "The two move as one body; if they touch at the start, no rods are drawn",
+    )
+    .also(&["weld", "rigid", "glue"]),
+    ROD: Any = KeySpec::new("rod", Table(&rod::TABLE), "A massless rod keeps the distance of two points constant")
+        .also(&["distance", "link", "bar", "stick"]),
+    ROPE: Any = KeySpec::new("rope", Table(&rope::TABLE), "The distance of two points is at most the rope's length")
+        .also(&["string", "cable", "thread", "cord"]),
+    PULLEY: Any = KeySpec::new(
+        "pulley",
+        Table(&pulley::TABLE),
+        "A rope that runs over points, fixed or on bodies, from one end to the other",
+    ),
+    GEAR: Any = KeySpec::new("gear", Table(&gear::TABLE), "Couples two hinges or sliders at a ratio").also(&["gears"]),
+    REPEAT: Option<u32> = LINKS,
+}
 
-static AN_END: Kind = Either(&[Reference(Collection::Body), VECTOR, Table(&END)]);
+static AN_END: Kind = Either(&[Reference(Collection::Body), VECTOR, Table(&forces::end::TABLE)]);
 
 const fn between(meaning: &'static str) -> KeySpec {
     KeySpec::new("between", List { of: &AN_END, min: 2, max: 2 }, meaning)
@@ -84,88 +82,76 @@ const LOOK: KeySpec = KeySpec::new(
 )
 .default("steel, sized to fit its bodies")
 .also(&["draw", "drawn", "visible", "line"]);
-static LOOK_KINDS: [Kind; 2] = [Choice(|| vec!["none"]), Table(&LOOK_TABLE)];
+static LOOK_KINDS: [Kind; 2] = [Choice(|| vec!["none"]), Table(&look::TABLE)];
 
-static LOOK_TABLE: TableSpec = TableSpec {
-    noun: "the look of a joint",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new("radius", POSITIVE, "The radius of the rod or of the pin")
-            .unit("m")
-            .default("a fraction of the smaller body's size")
-            .also(&["thickness", "width", "size"]),
-        KeySpec::new("color", Color, "Its color").default("that of steel").also(&["colour"]),
-    ],
-};
+table! {
+    look: "the look of a joint", Rule::Any;
+    RADIUS: Option<f64> = KeySpec::new("radius", POSITIVE, "The radius of the rod or of the pin")
+        .unit("m")
+        .default("a fraction of the smaller body's size")
+        .also(&["thickness", "width", "size"]),
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color").default("that of steel").also(&["colour"]),
+}
 
-static BALL: TableSpec = TableSpec {
-    noun: "a ball joint",
-    rule: Rule::Any,
-    keys: &[
-        between(PAIR),
-        AT.default("the end that is a point of the world"),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    ball: "a ball joint", Rule::Any;
+    BETWEEN: Any = between(PAIR),
+    AT: Option<DVec3> = super::AT.default("the end that is a point of the world"),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
-static HINGE: TableSpec = TableSpec {
-    noun: "a hinge",
-    rule: Rule::Any,
-    keys: &[
-        between(PAIR),
-        AT.default("the end that is a point of the world"),
-        axis("The axis of rotation, in the world at the start"),
-        limits(
-            "The smallest and the largest rotation angle of the second relative to the first; 0 at the start",
-        )
-        .unit("degrees")
+table! {
+    hinge: "a hinge", Rule::Any;
+    BETWEEN: Any = between(PAIR),
+    AT: Option<DVec3> = super::AT.default("the end that is a point of the world"),
+    AXIS: Option<value::Axis> = axis("The axis of rotation, in the world at the start"),
+    LIMITS: Any = limits(
+        "The smallest and the largest rotation angle of the second relative to the first; 0 at the start",
+    )
+    .unit("degrees")
+    .also(&["limit", "range", "min_max"]),
+    MOTOR: Any = motor(&turning::TABLE, "The motor"),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
+
+table! {
+    slider: "a slider", Rule::Any;
+    BETWEEN: Any = between(PAIR),
+    AT: Option<DVec3> = super::AT.default("the center of the second"),
+    AXIS: Option<value::Axis> = axis("The axis along which the second moves, in the world at the start; fixed to the first"),
+    LIMITS: Any = limits("The smallest and the largest displacement of the second along the axis; 0 at the start")
+        .unit("m")
         .also(&["limit", "range", "min_max"]),
-        motor(&TURNING, "The motor"),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+    MOTOR: Any = motor(&moving::TABLE, "The motor"),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
-static SLIDER: TableSpec = TableSpec {
-    noun: "a slider",
-    rule: Rule::Any,
-    keys: &[
-        between(PAIR),
-        AT.default("the center of the second"),
-        axis("The axis along which the second moves, in the world at the start; fixed to the first"),
-        limits("The smallest and the largest displacement of the second along the axis; 0 at the start")
-            .unit("m")
-            .also(&["limit", "range", "min_max"]),
-        motor(&MOVING, "The motor"),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    fixed: "a fixed joint", Rule::Any;
+    BETWEEN: Any = between(PAIR),
+    AT: Option<DVec3> = super::AT.default("the center of the second"),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
-static FIXED: TableSpec = TableSpec {
-    noun: "a fixed joint",
-    rule: Rule::Any,
-    keys: &[between(PAIR), AT.default("the center of the second"), JOINT_COLLIDES, LOOK, JOINT_ARROWS],
-};
-
-static ROD: TableSpec = TableSpec {
-    noun: "a rod",
-    rule: Rule::Any,
-    keys: &[
-        between(POINTS),
-        KeySpec::new("length", POSITIVE, "The constant distance of its ends")
-            .unit("m")
-            .default("their distance at the start")
-            .also(&["distance", "l"]),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    rod: "a rod", Rule::Any;
+    BETWEEN: Any = between(POINTS),
+    LENGTH: Option<f64> = KeySpec::new("length", POSITIVE, "The constant distance of its ends")
+        .unit("m")
+        .default("their distance at the start")
+        .also(&["distance", "l"]),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
 static NUMBER: Kind = Number(Bound::Any);
 
@@ -177,52 +163,46 @@ const fn motor(table: &'static TableSpec, meaning: &'static str) -> KeySpec {
     KeySpec::new("motor", Table(table), meaning).default("none").also(&["drive", "engine", "actuator"])
 }
 
-static TURNING: TableSpec = TableSpec {
-    noun: "the motor of a hinge",
-    rule: Rule::ExactlyOne(&["speed", "angle"]),
-    keys: &[
-        KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the torque allows")
-            .unit("rad/s")
-            .also(&["rate", "angular_velocity", "velocity", "omega"]),
-        KeySpec::new("torque", POSITIVE, "With `speed`: the largest torque")
-            .unit("N·m")
-            .default("none; required with `speed`")
-            .also(&["max_torque", "strength"]),
-        KeySpec::new(
-            "angle",
-            Timed(Bound::Any),
-            "The angle to keep, a formula of the time; 0 at the start. Exact without `stiffness`",
-        )
-        .unit("degrees")
-        .also(&["target", "position"]),
-        STIFFNESS.unit("N·m/rad"),
-        DAMPING.unit("N·m·s/rad"),
-    ],
-};
+table! {
+    turning: "the motor of a hinge", Rule::ExactlyOne(&["speed", "angle"]);
+    SPEED: Option<f64> = KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the torque allows")
+        .unit("rad/s")
+        .also(&["rate", "angular_velocity", "velocity", "omega"]),
+    TORQUE: Option<f64> = KeySpec::new("torque", POSITIVE, "With `speed`: the largest torque")
+        .unit("N·m")
+        .default("none; required with `speed`")
+        .also(&["max_torque", "strength"]),
+    ANGLE: Option<value::Timed> = KeySpec::new(
+        "angle",
+        Timed(Bound::Any),
+        "The angle to keep, a formula of the time; 0 at the start. Exact without `stiffness`",
+    )
+    .unit("degrees")
+    .also(&["target", "position"]),
+    STIFFNESS: Option<f64> = super::STIFFNESS.unit("N·m/rad"),
+    DAMPING: f64 = super::DAMPING.unit("N·m·s/rad"),
+}
 
-static MOVING: TableSpec = TableSpec {
-    noun: "the motor of a slider",
-    rule: Rule::ExactlyOne(&["speed", "position"]),
-    keys: &[
-        KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the force allows")
-            .unit("m/s")
-            .also(&["rate", "velocity"]),
-        KeySpec::new("force", POSITIVE, "With `speed`: the largest force")
-            .unit("N")
-            .default("none; required with `speed`")
-            .also(&["max_force", "strength"]),
-        KeySpec::new(
-            "position",
-            Timed(Bound::Any),
-            "The position along the axis to keep, a formula of the time; 0 at the start. Exact without \
-             `stiffness`",
-        )
-        .unit("m")
-        .also(&["target", "location", "angle"]),
-        STIFFNESS.unit("N/m"),
-        DAMPING.unit("N·s/m"),
-    ],
-};
+table! {
+    moving: "the motor of a slider", Rule::ExactlyOne(&["speed", "position"]);
+    SPEED: Option<f64> = KeySpec::new("speed", NUMBER_ANY, "The speed to keep, as far as the force allows")
+        .unit("m/s")
+        .also(&["rate", "velocity"]),
+    FORCE: Option<f64> = KeySpec::new("force", POSITIVE, "With `speed`: the largest force")
+        .unit("N")
+        .default("none; required with `speed`")
+        .also(&["max_force", "strength"]),
+    POSITION: Option<value::Timed> = KeySpec::new(
+        "position",
+        Timed(Bound::Any),
+        "The position along the axis to keep, a formula of the time; 0 at the start. Exact without \
+         `stiffness`",
+    )
+    .unit("m")
+    .also(&["target", "location", "angle"]),
+    STIFFNESS: Option<f64> = super::STIFFNESS.unit("N/m"),
+    DAMPING: f64 = super::DAMPING.unit("N·s/m"),
+}
 
 const NUMBER_ANY: Kind = Number(Bound::Any);
 
@@ -239,76 +219,67 @@ const DAMPING: KeySpec = KeySpec::new(
 .default_number(0.0)
 .also(&["damper", "d"]);
 
-static ROPE: TableSpec = TableSpec {
-    noun: "a rope",
-    rule: Rule::Any,
-    keys: &[
-        between(POINTS),
-        KeySpec::new("length", POSITIVE, "The largest distance of its ends")
-            .unit("m")
-            .default("their distance at the start")
-            .also(&["distance", "max_length", "l"]),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    rope: "a rope", Rule::Any;
+    BETWEEN: Any = between(POINTS),
+    LENGTH: Option<f64> = KeySpec::new("length", POSITIVE, "The largest distance of its ends")
+        .unit("m")
+        .default("their distance at the start")
+        .also(&["distance", "max_length", "l"]),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
-static PULLEY: TableSpec = TableSpec {
-    noun: "a pulley",
-    rule: Rule::Any,
-    keys: &[
-        between(POINTS),
-        KeySpec::new(
-            "over",
-            List { of: &AN_END, min: 1, max: 1000 },
-            "The points over which it runs, from the first end to the second; a point on a body moves with it",
-        )
-        .unit("m")
-        .required()
-        .also(&["wheels", "through", "via", "anchors"]),
-        KeySpec::new(
-            "ratio",
-            POSITIVE,
-            "How much the last part counts: how far the first end moves out for each meter that the second moves in",
-        )
-        .default_number(1.0),
-        KeySpec::new(
-            "length",
-            POSITIVE,
-            "The length of all its parts, the last one counted `ratio` times",
-        )
-        .unit("m")
-        .default("as at the start"),
-        JOINT_COLLIDES,
-        LOOK,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    pulley: "a pulley", Rule::Any;
+    BETWEEN: Any = between(POINTS),
+    OVER: Any = KeySpec::new(
+        "over",
+        List { of: &AN_END, min: 1, max: 1000 },
+        "The points over which it runs, from the first end to the second; a point on a body moves with it",
+    )
+    .unit("m")
+    .required()
+    .also(&["wheels", "through", "via", "anchors"]),
+    RATIO: f64 = KeySpec::new(
+        "ratio",
+        POSITIVE,
+        "How much the last part counts: how far the first end moves out for each meter that the second moves in",
+    )
+    .default_number(1.0),
+    LENGTH: Option<f64> = KeySpec::new(
+        "length",
+        POSITIVE,
+        "The length of all its parts, the last one counted `ratio` times",
+    )
+    .unit("m")
+    .default("as at the start"),
+    COLLIDES: bool = JOINT_COLLIDES,
+    LOOK: Any = super::LOOK,
+    ARROWS: Any = JOINT_ARROWS,
+}
 
 static A_JOINT: Kind = Reference(Collection::Joint);
 
-static GEAR: TableSpec = TableSpec {
-    noun: "a gear",
-    rule: Rule::Any,
-    keys: &[
-        KeySpec::new(
-            "joints",
-            List { of: &A_JOINT, min: 2, max: 2 },
-            "The names of the two coupled hinges or sliders; `[\"axle[i]\", \"axle[i+1]\"]` couples copies \
-             in a row",
-        )
-        .required()
-        .also(&["between", "hinges", "axles"]),
-        KeySpec::new(
-            "ratio",
-            NUMBER_ANY,
-            "The motion of the second per unit motion of the first; negative for opposite directions, as \
-             with meshing wheels",
-        )
-        .required()
-        .also(&["factor"]),
-        JOINT_COLLIDES,
-        JOINT_ARROWS,
-    ],
-};
+table! {
+    gear: "a gear", Rule::Any;
+    JOINTS: Any = KeySpec::new(
+        "joints",
+        List { of: &A_JOINT, min: 2, max: 2 },
+        "The names of the two coupled hinges or sliders; `[\"axle[i]\", \"axle[i+1]\"]` couples copies \
+         in a row",
+    )
+    .required()
+    .also(&["between", "hinges", "axles"]),
+    RATIO: Option<f64> = KeySpec::new(
+        "ratio",
+        NUMBER_ANY,
+        "The motion of the second per unit motion of the first; negative for opposite directions, as \
+         with meshing wheels",
+    )
+    .required()
+    .also(&["factor"]),
+    COLLIDES: bool = JOINT_COLLIDES,
+    ARROWS: Any = JOINT_ARROWS,
+}

@@ -3,34 +3,35 @@
 //! The one description of each key serves for validation, for reading, for documentation, and for suggestions for unknown keys. The
 //! description is data: all tables of the language are reached from [`SCENE`].
 
-mod bodies;
-mod camera;
-mod contact;
+pub(in crate::scene) mod bodies;
+pub(in crate::scene) mod camera;
+pub(in crate::scene) mod contact;
 mod default;
-mod emitters;
+pub(in crate::scene) mod emitters;
 mod find;
-mod forces;
-mod joints;
+pub(in crate::scene) mod forces;
+pub(in crate::scene) mod joints;
+mod key;
 mod kind;
-mod labels;
-mod lights;
-mod materials;
-mod motion;
+pub(in crate::scene) mod labels;
+pub(in crate::scene) mod lights;
+pub(in crate::scene) mod materials;
+pub(in crate::scene) mod motion;
 mod reference;
-mod repeat;
-mod scene;
+pub(in crate::scene) mod repeat;
+pub(in crate::scene) mod scene;
 mod schema;
-mod shapes;
-mod showing;
+pub(in crate::scene) mod shapes;
+pub(in crate::scene) mod showing;
 
 pub use default::DefaultValue;
 pub use find::{FoundKey, all_keys, find_keys};
-pub(in crate::scene) use forces::END;
+pub(in crate::scene) use key::{Any, Declared, Key, ReadAs};
 pub(crate) use kind::quoted;
 pub use kind::{Bound, Collection, Kind};
 pub use reference::reference;
 pub use repeat::MAX_COPIES;
-pub use scene::SCENE;
+pub use scene::scene::TABLE as SCENE;
 pub use schema::schema;
 
 /// The description of one key of a table.
@@ -58,7 +59,7 @@ pub struct TableSpec {
     /// The noun for the table in messages, such as "a body".
     pub noun: &'static str,
     /// The keys of the table, in the order of the documentation.
-    pub keys: &'static [KeySpec],
+    pub keys: &'static [&'static KeySpec],
     /// The rule for keys that exclude each other.
     pub rule: Rule,
 }
@@ -75,9 +76,14 @@ pub enum Rule {
 }
 
 impl TableSpec {
+    /// Returns the keys of the table, in the order of the documentation.
+    pub fn keys(&self) -> impl DoubleEndedIterator<Item = &'static KeySpec> + Clone + use<> {
+        self.keys.iter().copied()
+    }
+
     /// Returns the description of a key. `None` if the table has no key with this name.
     pub fn key(&self, name: &str) -> Option<&'static KeySpec> {
-        self.keys.iter().find(|key| key.name == name)
+        self.keys().find(|key| key.name == name)
     }
 }
 
@@ -143,7 +149,7 @@ pub(crate) fn unit_of_key(name: &str) -> Option<&'static str> {
             _ => None,
         };
         let own = table.key(name).map(|key| key.unit).filter(|unit| !unit.is_empty());
-        own.or_else(|| table.keys.iter().find_map(|key| inside(&key.kind)))
+        own.or_else(|| table.keys().find_map(|key| inside(&key.kind)))
     }
     within(&SCENE, name)
 }
@@ -163,7 +169,7 @@ mod tests {
             }
         }
         see(table);
-        table.keys.iter().for_each(|key| inside(&key.kind, see));
+        table.keys().for_each(|key| inside(&key.kind, see));
     }
 
     #[test]

@@ -430,7 +430,7 @@ impl Page {
             }
         }
         self.text.push_str("| key | value | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n");
-        table.keys.iter().for_each(|key| self.row(key));
+        table.keys().for_each(|key| self.row(key));
         for key in table.keys {
             self.inner(path, key.name, &key.kind);
         }

@@ -44,12 +44,12 @@ fn requirements(spec: &TableSpec) -> Map<String, Value> {
         };
         (!required.is_empty()).then(|| (key.name.to_owned(), Value::from(required)))
     };
-    let properties: Map<_, _> = spec.keys.iter().filter_map(inner).collect();
+    let properties: Map<_, _> = spec.keys().filter_map(inner).collect();
     let mut schema = Map::new();
     if !properties.is_empty() {
         schema.insert("properties".to_owned(), properties.into());
     }
-    let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+    let required: Vec<_> = spec.keys().filter(|key| key.required).map(|key| key.name).collect();
     if !required.is_empty() {
         schema.insert("required".to_owned(), json!(required));
     }
@@ -61,9 +61,8 @@ fn requirements(spec: &TableSpec) -> Map<String, Value> {
 }
 
 fn table(spec: &TableSpec, whole: RequireKeys) -> Map<String, Value> {
-    let properties: Map<_, _> =
-        spec.keys.iter().map(|key| (key.name.to_owned(), property(key, whole))).collect();
-    let required: Vec<_> = spec.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+    let properties: Map<_, _> = spec.keys().map(|key| (key.name.to_owned(), property(key, whole))).collect();
+    let required: Vec<_> = spec.keys().filter(|key| key.required).map(|key| key.name).collect();
     let mut schema = object(json!({
         "type": "object",
         "properties": properties,

@@ -185,7 +185,7 @@ fn entry(text: &str, indent: usize) -> Option<Line<'_>> {
 fn write(leaves: &[Leaf]) -> String {
     let mut sections: Vec<(String, Vec<String>)> = vec![(String::new(), Vec::new())];
     for (path, value) in leaves {
-        let known = SCENE.keys.iter().find(|key| key.name == path[0] || key.also.contains(&path[0].as_str()));
+        let known = SCENE.keys().find(|key| key.name == path[0] || key.also.contains(&path[0].as_str()));
         let first = known.map_or(path[0].as_str(), |key| key.name);
         let path: Vec<&str> = std::iter::once(first).chain(path[1..].iter().map(String::as_str)).collect();
         let is_named = known.is_some_and(|key| matches!(key.kind, Kind::Named(_)));

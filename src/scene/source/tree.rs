@@ -111,6 +111,22 @@ impl Node {
         }
     }
 
+    /// Returns the value if it is a string, otherwise `None`. The clone shares its memory with the original.
+    pub(in crate::scene) fn as_shared_text(&self) -> Option<Arc<str>> {
+        match &self.value {
+            Value::String(text) => Some(text.clone()),
+            _ => None,
+        }
+    }
+
+    /// Returns the value if it is `true` or `false`, otherwise `None`.
+    pub(in crate::scene) fn as_boolean(&self) -> Option<bool> {
+        match self.value {
+            Value::Boolean(value) => Some(value),
+            _ => None,
+        }
+    }
+
     /// Returns the value if it is an integer or a float, otherwise `None`.
     #[allow(
         clippy::cast_precision_loss,

@@ -130,7 +130,7 @@ fn by_keys(table: &Table, spec: &'static TableSpec, path: &str) -> Option<MeantK
 
 /// Returns whether a table has at least one of the required keys of a kind. Also true if the kind has no required keys.
 pub(super) fn is_begun(spec: &'static TableSpec, table: &Table) -> bool {
-    let mut required = spec.keys.iter().filter(|key| key.required).peekable();
+    let mut required = spec.keys().filter(|key| key.required).peekable();
     let is_it =
         |entry: &Entry, key: &KeySpec| key_of(&entry.name.text, spec).is_some_and(|it| it.name == key.name);
     let is_said = |key: &KeySpec| table.entries.iter().any(|entry| is_it(entry, key));

@@ -67,10 +67,10 @@ fn inserted(error: Diagnostic, text: Option<String>, at: Option<Span>, context: 
 /// Returns the TOML text of an example of a kind of shape, force or joint, such as `shape.sphere.radius = 0.5`. `None` if a required key
 /// has no example value.
 pub(super) fn example(way: &[&str], spec: &'static TableSpec, context: &Context<'_>) -> Option<String> {
-    let mut keys: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
+    let mut keys: Vec<&KeySpec> = spec.keys().filter(|key| key.required).collect();
     if keys.is_empty() {
         // Add one optional key: an empty drag or Lorentz force would have no effect.
-        keys.extend(spec.keys.iter().find(|key| matches!(key.name, "linear" | "magnetic")));
+        keys.extend(spec.keys().find(|key| matches!(key.name, "linear" | "magnetic")));
     }
     let values: Vec<(&str, String)> =
         keys.iter().map(|key| Some((key.name, example_of(key, context)?))).collect::<Option<_>>()?;

@@ -41,7 +41,7 @@ use crate::scene::grammar::{KeySpec, TableSpec, quoted};
 fn key_of(word: &str, spec: &'static TableSpec) -> Option<&'static KeySpec> {
     let folded = word.to_lowercase();
     let is_it = |key: &&KeySpec| key.name == folded || key.also.contains(&folded.as_str());
-    spec.keys.iter().find(is_it)
+    spec.keys().find(is_it)
 }
 
 /// Joins words in backquotes with commas and `and`: `a`, `b` and `c`.

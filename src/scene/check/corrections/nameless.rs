@@ -64,7 +64,7 @@ pub(super) type Edits = Vec<(Span, String)>;
 
 /// Returns the top-level keys whose values are named tables, such as `body`, each with the grammar of these tables.
 fn collections() -> impl DoubleEndedIterator<Item = (&'static str, &'static TableSpec)> {
-    SCENE.keys.iter().filter_map(|key| match key.kind {
+    SCENE.keys().filter_map(|key| match key.kind {
         Kind::Named(inner) => Some((key.name, inner)),
         _ => None,
     })
@@ -173,7 +173,7 @@ pub(in crate::scene::check) fn correct_unnamed(
         return error.fix(entry.name.span, format!("{word}.{}", name_of(word)));
     }
     // In `clock = "t = ${t}"` below `[label]`, the user gave the name `clock`, but not the key `text`.
-    let required: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
+    let required: Vec<&KeySpec> = spec.keys().filter(|key| key.required).collect();
     match required.as_slice() {
         [only] if spec.key(key).is_none() && only.kind.takes(&inner.node.value) => {
             error.fix(inner.name.span, format!("{key}.{}", only.name))

@@ -18,7 +18,7 @@ pub(super) fn as_table(
 ) -> Option<String> {
     let raw = raw(node.span, context);
     let entry = |key: &KeySpec, value: &str| Some(format!("{{ {} = {value} }}", key.name));
-    let required: Vec<&KeySpec> = spec.keys.iter().filter(|key| key.required).collect();
+    let required: Vec<&KeySpec> = spec.keys().filter(|key| key.required).collect();
     if matches!(node.value, Value::Table(_)) || matches!(spec.rule, Rule::ExactlyOne(_)) {
         return None;
     }
@@ -40,7 +40,7 @@ pub(super) fn as_table(
         ([], Value::Boolean(true)) if name == "arrows" => entry(spec.keys.first()?, "true"),
         ([], Value::Boolean(true)) => Some("{}".to_owned()),
         ([], Value::Integer(_) | Value::Float(_)) => {
-            entry(spec.keys.iter().find(|key| matches!(key.kind, Kind::Number(_)))?, raw)
+            entry(spec.keys().find(|key| matches!(key.kind, Kind::Number(_)))?, raw)
         }
         ([], Value::String(word)) => {
             let text = by_word(spec, word)?;
@@ -51,7 +51,7 @@ pub(super) fn as_table(
         {
             let is_vector =
                 |key: &&KeySpec| matches!(key.kind, Kind::Numbers(3, _) | Kind::TimedNumbers(3, _));
-            entry(spec.keys.iter().find(is_vector)?, raw)
+            entry(spec.keys().find(is_vector)?, raw)
         }
         ([], Value::Array(items)) => {
             let switches = items.iter().map(|item| Some(format!("{} = true", switch(spec, item.as_str()?)?)));
@@ -65,7 +65,7 @@ pub(super) fn as_table(
 /// Returns the TOML text of the entry that a user probably meant by a single word. The word is a choice, a color, a number with its unit,
 /// or the name of a switch.
 fn by_word(spec: &'static TableSpec, word: &str) -> Option<String> {
-    let find = |is: &dyn Fn(&KeySpec) -> bool| spec.keys.iter().find(|key| is(key));
+    let find = |is: &dyn Fn(&KeySpec) -> bool| spec.keys().find(|key| is(key));
     let is_choice = |key: &KeySpec| matches!(key.kind, Kind::Choice(words) if words().contains(&word));
     if let Some(key) = find(&is_choice) {
         return Some(format!("{} = \"{word}\"", key.name));

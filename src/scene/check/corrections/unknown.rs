@@ -66,7 +66,7 @@ pub(in crate::scene::check) fn unknown(
 
 /// Returns a sentence that lists the keys of a table.
 pub(in crate::scene::check) fn known_keys(spec: &TableSpec) -> String {
-    let names: Vec<&str> = spec.keys.iter().map(|key| key.name).collect();
+    let names: Vec<&str> = spec.keys().map(|key| key.name).collect();
     let s = if names.len() == 1 { "" } else { "s" };
     format!("the key{s} of {}: {}", spec.noun, quoted(&names))
 }

@@ -40,7 +40,7 @@ pub(super) fn way(
         Some(inner.unwrap_or_else(|| vec![own.name]))
     };
     let deeper = || {
-        spec.keys.iter().find_map(|key| {
+        spec.keys().find_map(|key| {
             let inner = key.kind.table()?;
             let rest = match inner.key(word) {
                 Some(found) => vec![found.name],
