@@ -12,7 +12,7 @@ use crate::scene::grammar::{Any, DefaultValue, Key, KeySpec, Kind, Rule, TableSp
 use crate::scene::law::OfBody;
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::timed::{Timed, TimedVector};
-use crate::scene::value::Value as Read;
+use crate::scene::value::{Text, Value as Read};
 
 /// A table with its grammar, from which values are read by key. A missing or invalid value reads as its default, or as `None` if the key
 /// has no default. The validation has already reported invalid values.
@@ -118,7 +118,12 @@ impl<'a> View<'a> {
     /// Reads a value, or returns the default of the key. A key that takes several kinds of values has no default of this type if a value
     /// of another kind is given.
     fn value<T: Read>(&self, key: &KeySpec) -> Option<T::Read<'a>> {
-        debug_assert!(self.spec.key(key.name).is_some(), "{} has no key `{}`", self.spec.noun, key.name);
+        debug_assert!(
+            self.spec.key(key.name).is_some_and(|own| own.reads_like(key)),
+            "`{}` of {} is another key",
+            key.name,
+            self.spec.noun
+        );
         let kind = key.kind.for_type(T::TYPE);
         debug_assert!(kind.is_some(), "`{}` of {} is {:?}", key.name, self.spec.noun, key.kind);
         let given = self.table.and_then(|table| table.get(key.name)).map(|entry| &entry.node);
@@ -128,7 +133,8 @@ impl<'a> View<'a> {
     }
 
     /// Returns the tree node of a key's value. `None` if the key is missing.
-    pub(super) fn node(&self, name: &str) -> Option<&'a Node> {
+    pub(super) fn node(&self, key: impl KeyName) -> Option<&'a Node> {
+        let name = key.name();
         debug_assert!(self.spec.key(name).is_some(), "{} has no key `{name}`", self.spec.noun);
         self.table?.get(name).map(|entry| &entry.node)
     }
@@ -291,13 +297,13 @@ impl<'a> View<'a> {
     /// Reads a word, and returns the item of `all` that has this name. An unknown word reads as the default of the key.
     pub(in crate::scene) fn choice<T: Copy, const N: usize>(
         &self,
-        name: &str,
+        key: &Key<Text>,
         all: [T; N],
         word_of: impl Fn(T) -> &'static str,
     ) -> T {
         let named = |word: &str| all.into_iter().find(|one| word_of(*one) == word);
         // The default in the grammar is always one of the items, as a test checks.
-        self.read(name, |node| named(node.as_str()?), |default| named(default.word()?)).unwrap_or(all[0])
+        named(self.get(key)).or_else(|| named(key.spec.default.word()?)).unwrap_or(all[0])
     }
 
     /// Like [`View::text`], but returns a string that all copies of a body share in memory.

@@ -6,6 +6,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::font;
+use crate::scene::grammar::scene::povray;
 use crate::scene::source::{Node, file};
 use crate::scene::{Asset, AssetSource};
 
@@ -20,7 +21,7 @@ pub(super) struct FileOfScene {
 /// Reads the list of assets. Reports two assets that would be copied to the same path.
 pub(super) fn read(povray: &View<'_>, context: &mut Context<'_>) -> Vec<Asset> {
     let mut assets: Vec<(FileOfScene, &Node)> = Vec::new();
-    for item in povray.list("assets").unwrap_or_default() {
+    for item in povray.list(&povray::ASSETS).unwrap_or_default() {
         let Ok(asset) = asset(item, context.folder, context.trust) else { continue };
         let clashes = |other: &FileOfScene| {
             let below = |a: &str, b: &str| b.strip_prefix(a).is_some_and(|rest| rest.starts_with('/'));

@@ -9,8 +9,12 @@ use super::view::View;
 use super::{Context, contact, corrections, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{RigidBody, Shape};
+use crate::scene::grammar::bodies::{body, orientation};
+use crate::scene::grammar::scene::povray;
+use crate::scene::grammar::shapes::shape as shape_keys;
 use crate::scene::palette::Palette;
 use crate::scene::source::Table;
+use crate::scene::value;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
 
 /// The keys for the initial velocities of a body.
@@ -46,7 +50,7 @@ pub(super) fn read(
         }
         let before = context.diagnostics.len();
         let body = table.look(|view| {
-            let table = view.table("shape");
+            let table = view.table(&body::SHAPE);
             // If this body has the same shape table as the body read before it, reuse the shape.
             let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
             let shape = same.map(|last| last.shape.clone());
@@ -62,12 +66,12 @@ pub(super) fn read(
             if let Some(motion) = &motion {
                 // Take the initial pose from the motion, not from the body's table. Rest lengths of springs are computed from this pose.
                 let (location, orientation) = motion.place(presence.first_from(0.0).unwrap_or(0.0));
-                let is_first = view.has("repeat");
+                let is_first = view.has(&body::REPEAT);
                 if is_first {
                     arranged = Some([start.location, location]);
                 } else if let Some([first, path]) = arranged.take() {
                     let has_no_effect = first != start.location && path == location;
-                    let span = view.key_span("motion").filter(|_| has_no_effect);
+                    let span = view.key_span(&body::MOTION).filter(|_| has_no_effect);
                     context.diagnostics.extend(span.map(|span| same_path(name, span)));
                 }
                 start = RigidBody { location, orientation, ..start };
@@ -87,7 +91,7 @@ pub(super) fn read(
                 showing: showing.clone(),
             });
             let motion = motion.map(Arc::new);
-            let magnetic_moment = view.vector("magnetic_moment").unwrap_or_default();
+            let magnetic_moment = view.get(&body::MAGNETIC_MOMENT);
             Body {
                 name: name.clone(),
                 shape,
@@ -121,8 +125,8 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let fixed = fixed(name, view, shape, context);
     let mass = mass(name, span, view, shape, context);
     let inertia = inertia(name, view, context);
-    let open = mesh::open(&view.table("shape").table("mesh"), shape);
-    let weighs_as_given = inertia.is_some() && view.has("mass");
+    let open = mesh::open(&view.table(&body::SHAPE).table(&shape_keys::MESH), shape);
+    let weighs_as_given = inertia.is_some() && view.has(&body::MASS);
     let help = "close it, or give the body `mass` and `inertia`, or say `fixed = true`";
     let needs_solid = !fixed && !weighs_as_given;
     context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
@@ -131,7 +135,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     let vector = |key: &str| view.vector(key).unwrap_or_default();
     RigidBody {
         mass,
-        charge: view.number("charge").unwrap_or_default(),
+        charge: view.get(&body::CHARGE),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
         principal_axes,
         location: vector("location"),
@@ -147,7 +151,7 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
 /// Returns whether a body is fixed. Reports keys that contradict `fixed`, and warns of keys that have no effect on a fixed body or on a
 /// body with a given motion.
 fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> bool {
-    let scenery = if view.table("shape").has("heightfield") {
+    let scenery = if view.table(&body::SHAPE).has(&shape_keys::HEIGHTFIELD) {
         Some(("heightfield", "it is a surface without weight", "a heightfield is always fixed"))
     } else {
         matches!(shape, Shape::Plane { .. }).then_some((
@@ -156,12 +160,12 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
             "a plane is always fixed",
         ))
     };
-    let given = view.boolean("fixed").filter(|_| view.has("fixed"));
-    if let (Some((what, why, always)), Some(false)) = (scenery, given) {
+    let is_said_to_move = view.has(&body::FIXED) && !view.get(&body::FIXED);
+    if let Some((what, why, always)) = scenery.filter(|_| is_said_to_move) {
         let error = Diagnostic::error(Code::PlaneMoves, format!("the {what} `{name}` cannot move: {why}"));
-        context.diagnostics.extend(view.span("fixed").map(|span| error.at(span, always)));
+        context.diagnostics.extend(view.span(&body::FIXED).map(|span| error.at(span, always)));
     }
-    let motion = view.key_span("motion");
+    let motion = view.key_span(&body::MOTION);
     if let (Some((what, why, always)), Some(span)) = (scenery, motion) {
         let error = Diagnostic::error(Code::PlaneMoves, format!("the {what} `{name}` cannot move: {why}"));
         context.diagnostics.push(error.at(span, always));
@@ -173,7 +177,7 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
     }
-    let fixed = scenery.is_some() || given == Some(true);
+    let fixed = scenery.is_some() || view.get(&body::FIXED);
     if fixed {
         let why = scenery.map_or("it is fixed", |(_, _, always)| always);
         for key in VELOCITY_KEYS.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO))
@@ -194,7 +198,7 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
 }
 
 fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> f64 {
-    let Some(density) = view.number("density") else { return view.number("mass").unwrap_or_default() };
+    let Some(density) = view.get(&body::DENSITY) else { return view.get(&body::MASS) };
     let Some(volume) = shape.volume() else { return 1.0 };
     let mass = density * volume;
     if mass.is_finite() && mass > 0.0 {
@@ -202,7 +206,7 @@ fn mass(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut Co
     }
     let error = Diagnostic::error(Code::ImpossibleMass, format!("the mass of `{name}` is {}", extreme(mass)));
     let label = "mass = density × volume";
-    context.diagnostics.push(error.at(view.span("density").unwrap_or(span), label));
+    context.diagnostics.push(error.at(view.span(&body::DENSITY).unwrap_or(span), label));
     1.0
 }
 
@@ -236,7 +240,7 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
     /// The largest relative rounding error in the triangle inequality: no moment of inertia exceeds the sum of the other two. A flat body
     /// reaches this limit.
     const RELATIVE_ROUNDING: f64 = 1e-9;
-    let inertia = view.vector("inertia")?;
+    let inertia = view.get(&body::INERTIA)?;
     let mut moments = inertia.to_array();
     moments.sort_unstable_by(f64::total_cmp);
     let [smallest, middle, largest] = moments;
@@ -247,26 +251,26 @@ fn inertia(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Option<DVe
             format!("{} is larger than the sum of the other two, {}", figure(largest), figure(others));
         let help = "Ix + Iy ≥ Iz, and likewise for the others, holds for every distribution of mass";
         let error = Diagnostic::error(Code::ImpossibleInertia, message).help(help);
-        context.diagnostics.extend(view.span("inertia").map(|span| error.at(span, label)));
+        context.diagnostics.extend(view.span(&body::INERTIA).map(|span| error.at(span, label)));
     }
     Some(inertia)
 }
 
 /// Reads the orientation of the body `name` from the key `orientation`.
 pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>) -> DQuat {
-    if let Some(angles) = view.vector("orientation") {
+    if let Some(angles) = view.get_as::<DVec3>(&body::ORIENTATION) {
         return euler(angles);
     }
-    let table = view.table("orientation");
-    if let Some(angles) = table.vector("euler").filter(|_| table.has("euler")) {
-        return euler(angles);
+    let table = view.table(&body::ORIENTATION);
+    if table.has(&orientation::EULER) {
+        return euler(table.get(&orientation::EULER));
     }
-    if let Some(quaternion) = table.direction::<4>("quaternion").filter(|_| table.has("quaternion")) {
-        return DQuat::from_array(quaternion);
+    if table.has(&orientation::QUATERNION) {
+        return DQuat::from_array(table.get(&orientation::QUATERNION));
     }
     together(name, &table, context);
-    match (table.direction::<3>("axis"), table.number("angle")) {
-        (Some(axis), Some(angle)) => DQuat::from_axis_angle(DVec3::from_array(axis), angle.to_radians()),
+    match (table.get(&orientation::AXIS), table.get(&orientation::ANGLE)) {
+        (Some(axis), Some(angle)) => DQuat::from_axis_angle(axis, angle.to_radians()),
         _ => DQuat::IDENTITY,
     }
 }
@@ -323,19 +327,19 @@ fn material(
     if matches!(shape, Shape::Axes { .. }) {
         let warning = Diagnostic::warning(Code::NoEffect, "the material of axes has no effect");
         let why = "axes are red, green and blue";
-        context.diagnostics.extend(view.key_span("material").map(|span| warning.at(span, why)));
+        context.diagnostics.extend(view.key_span(&body::MATERIAL).map(|span| warning.at(span, why)));
         return None;
     }
     // Take a palette color for every body, even for one with a material. Then the other bodies keep their colors when a user gives one body
     // a material.
     let usual = palette.next(shape);
-    if let Some(table) = view.variant("material") {
+    if let Some(table) = view.variant(&body::MATERIAL) {
         let look = super::material::look(&table, root, context);
         return Some(own_material(name, look, materials, context));
     }
     // Raw SDL has its own textures, which a material would cover.
-    let has_own = view.table("shape").has("sdl");
-    let Some(name) = view.text("material") else {
+    let has_own = view.table(&body::SHAPE).has(&povray::SDL);
+    let Some(name) = view.get_as::<value::Text>(&body::MATERIAL) else {
         return (!has_own).then(|| palette.material(usual, materials));
     };
     let number = context.names.materials.get(name).copied();

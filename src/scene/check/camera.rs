@@ -4,6 +4,8 @@ use super::read::figure;
 use super::view::View as Keys;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::scene::grammar::camera::{camera, follow, orbit};
+use crate::scene::grammar::scene::scene;
 use crate::scene::timed::{Timed, TimedVector};
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, View};
 
@@ -17,7 +19,7 @@ pub(super) fn read(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Camera {
-    camera(&[root.table("camera")], simulation, bodies, context)
+    camera(&[root.table(&scene::CAMERA)], simulation, bodies, context)
 }
 
 /// Reads the cameras of all `[view.NAME]` tables. Each view inherits missing keys from the main camera.
@@ -27,7 +29,7 @@ pub(super) fn views(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Vec<View> {
-    let main = root.table("camera");
+    let main = root.table(&scene::CAMERA);
     let read = |(name, span, keys): (&str, _, Keys<'_>)| {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
         if name.is_empty() || name == ALL_VIEWS || !name.chars().all(plain) {
@@ -38,7 +40,7 @@ pub(super) fn views(
         }
         View { name: name.to_owned(), camera: camera(&[keys, main], simulation, bodies, context) }
     };
-    root.named("view").into_iter().map(read).collect()
+    root.named(&scene::VIEW).into_iter().map(read).collect()
 }
 
 /// Reads a camera from one or two tables. Each value comes from the first table that has its key.
@@ -56,34 +58,36 @@ fn camera(
         motion::finite(tables[0].raw(key), simulation, context);
     }
     let (location, look_at) = (timed("location"), timed("look_at"));
-    let angle = of("angle").timed("angle");
+    let angle = of("angle").get(&camera::ANGLE);
     // A view with its own location does not move with the main camera.
-    let movers = if tables[0].has("location") { &tables[..1] } else { tables };
+    let movers = if tables[0].has(&camera::LOCATION) { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
         location: location.clone().filter(TimedVector::changes),
         look_at: look_at.clone().filter(TimedVector::changes),
-        angle: angle.clone().filter(Timed::changes),
+        angle: Some(angle.clone()).filter(Timed::changes),
         follow: movers.iter().find_map(|keys| follow(keys, context)),
         orbit: movers
             .iter()
-            .find_map(|keys| keys.variant("orbit")?.number("period"))
+            .find_map(|keys| keys.variant(&camera::ORBIT)?.get(&orbit::PERIOD))
             .filter(|period| *period != 0.0),
     };
     nobody(&tables[0], &moving, simulation, bodies, context);
     let (mut location, mut look_at) = (location.map(|v| v.at(0.0)), look_at.map(|v| v.at(0.0)));
-    if let Some(keyframes) = movers.iter().find_map(|keys| keys.variant("keyframes")) {
+    if let Some(keyframes) = movers.iter().find_map(|keys| keys.variant(&camera::KEYFRAMES)) {
         let [places, aims] = motion::camera_keyframes(&keyframes, look_at, context);
         location = places.as_ref().map(|track| track.at(0.0)).or(location);
         look_at = aims.as_ref().map(|track| track.at(0.0)).or(look_at);
         (moving.location, moving.look_at) = (places.or(moving.location), aims.or(moving.look_at));
     }
     let number = |key: &str| tables.iter().find_map(|keys| keys.number(key));
-    let orthographic =
-        tables.iter().find_map(|keys| keys.text("projection")).is_some_and(|word| word == "orthographic");
+    let orthographic = tables
+        .iter()
+        .find_map(|keys| keys.get(&camera::PROJECTION))
+        .is_some_and(|word| word == "orthographic");
     let open = number("shutter").filter(|open| *open > 0.0);
     misplaced(&tables[0], orthographic, number("aperture").is_some(), open.is_some(), context);
     // Only check the camera's own `shutter`: an inherited one is reported for the main camera.
-    if let (Some(open), Some(span)) = (tables[0].number("shutter"), tables[0].span("shutter")) {
+    if let (Some(open), Some(span)) = (tables[0].get(&camera::SHUTTER), tables[0].span(&camera::SHUTTER)) {
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
     }
 
@@ -94,17 +98,14 @@ fn camera(
         projection: if orthographic {
             Projection::Orthographic { width: number("width") }
         } else {
-            Projection::Perspective {
-                angle: angle.map(|angle| angle.at(0.0)).unwrap_or_default().clamp(0.1, 179.9),
-            }
+            Projection::Perspective { angle: angle.at(0.0).clamp(0.1, 179.9) }
         },
         blur: number("aperture").map(|aperture| Blur {
             aperture,
             focus: vector("focus"),
-            samples: of("blur_samples").count("blur_samples").unwrap_or_default(),
+            samples: of("blur_samples").get(&camera::BLUR_SAMPLES),
         }),
-        shutter: open
-            .map(|open| Shutter { open, samples: of("samples").count("samples").unwrap_or_default() }),
+        shutter: open.map(|open| Shutter { open, samples: of("samples").get(&camera::SAMPLES) }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
         // POV-Ray draws nothing useful if rounding errors exceed the distance from the camera to its target.
@@ -122,12 +123,12 @@ fn camera(
 
 /// Reads the body that the camera follows. `None` if the camera follows no body.
 fn follow(keys: &Keys<'_>, context: &Context<'_>) -> Option<Follow> {
-    let follow = keys.variant("follow")?;
-    let body = *context.names.bodies.get(follow.text("body")?)?;
+    let follow = keys.variant(&camera::FOLLOW)?;
+    let body = *context.names.bodies.get(follow.get(&follow::BODY)?)?;
     Some(Follow {
         body,
-        distance: follow.number("distance"),
-        lag: follow.number("lag").filter(|lag| *lag > 0.0),
+        distance: follow.get(&follow::DISTANCE),
+        lag: Some(follow.get(&follow::LAG)).filter(|lag| *lag > 0.0),
     })
 }
 
@@ -140,7 +141,7 @@ fn nobody(
     context: &mut Context<'_>,
 ) {
     let Some(body) = motion.follow.and_then(|follow| bodies.get(follow.body)) else { return };
-    let span = keys.variant("follow").and_then(|follow| follow.span("body"));
+    let span = keys.variant(&camera::FOLLOW).and_then(|follow| follow.span(&follow::BODY));
     if let Some(span) = span.filter(|_| !body.presence.overlaps(0.0, simulation.timeline.end())) {
         let message = format!("the camera follows `{}`, which is never there", body.name);
         let warning = Diagnostic::warning(Code::NeverThere, message);

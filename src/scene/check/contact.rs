@@ -9,6 +9,9 @@ use super::stepping;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Shape, Surface};
+use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::scene::{environment, scene, simulation};
+use crate::scene::grammar::shapes::shape;
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
 /// The keys for the surface properties of a body or of the ground.
@@ -22,7 +25,7 @@ const RELATIVE_ROUNDING: f64 = 1e-9;
 
 /// Reads the contact law from `simulation.contacts`. `None` if the scene has no contacts.
 pub(super) fn law(simulation: &View<'_>) -> Option<ContactLaw> {
-    let word = simulation.text("contacts")?;
+    let word = simulation.get(&simulation::CONTACTS)?;
     ContactLaw::ALL.into_iter().find(|law| law.name() == word)
 }
 
@@ -42,7 +45,7 @@ pub(super) fn collider(
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
     };
-    let collides = view.boolean("collides");
+    let collides = view.get(&body::COLLIDES);
     if matches!(shape, Shape::Axes { .. }) {
         let keys = if collides == Some(false) { &OF_BODIES[..3] } else { &OF_BODIES[..] };
         has_no_effect(keys, "axes do not collide");
@@ -58,14 +61,14 @@ pub(super) fn collider(
         let error = Diagnostic::error(Code::BadContacts, message);
         let help = "take a `cylinder` with the ring's `inertia` and `look`, a `compound` of capsules, or let others pass through \
                     it: `collides = false`; `simulation.contacts = \"time-stepping\"` takes it as a ring of capsules";
-        let span = view.table("shape").key_span("torus").or(view.key_span("shape"));
+        let span = view.table(&body::SHAPE).key_span(&shape::TORUS).or(view.key_span(&body::SHAPE));
         let error = error.help(help);
         context.diagnostics.push(match span {
             Some(span) => error.at(span, "no distance is computed for a torus"),
             None => error,
         });
     }
-    Some(Collider { surface: surface(view), group: view.shared_text("collision_group") })
+    Some(Collider { surface: surface(view), group: view.get(&body::COLLISION_GROUP) })
 }
 
 /// Reads the surface properties of a body or of the ground.
@@ -77,7 +80,7 @@ fn surface(view: &View<'_>) -> Surface {
 /// Prepares the ground for contacts: sets a missing height to 0, and adds the surface that stops bodies.
 pub(super) fn ground(root: &View<'_>, simulation: &SimulationSettings, environment: &mut Environment) {
     if let (Some(_), Some(ground)) = (simulation.contacts, &mut environment.ground) {
-        let table = root.table("environment").variant("ground");
+        let table = root.table(&scene::ENVIRONMENT).variant(&environment::GROUND);
         ground.height = Some(ground.height.unwrap_or(0.0));
         ground.surface = Some(table.map_or(Surface::default(), |table| surface(&table)));
     }
@@ -92,12 +95,14 @@ pub(super) fn check(
     environment: &Environment,
     context: &mut Context<'_>,
 ) {
-    let table = root.table("simulation");
+    let table = root.table(&scene::SIMULATION);
     // If the value of `contacts` is wrong, another error reports it. Do not also report the keys that need `contacts`.
-    if simulation.contacts.is_none() && !table.has("contacts") {
+    if simulation.contacts.is_none() && !table.has(&simulation::CONTACTS) {
         needed(root, &table, context);
     }
-    let Some(span) = table.span("contacts").filter(|_| simulation.contacts.is_some()) else { return };
+    let Some(span) = table.span(&simulation::CONTACTS).filter(|_| simulation.contacts.is_some()) else {
+        return;
+    };
     if simulation.contacts == Some(ContactLaw::TimeStepping) {
         stepping::check(root, simulation, bodies, context);
     } else if !simulation.method.constraints {
@@ -118,24 +123,24 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
     for body in root.bodies() {
         body.look(|view| {
             // Without contacts, `collides = false` is true anyway.
-            let is_needless = |key: &&&str| **key != "collides" || view.boolean("collides") != Some(false);
+            let is_needless = |key: &&&str| **key != "collides" || view.get(&body::COLLIDES) != Some(false);
             let keys = OF_BODIES.iter().filter(is_needless);
             wrong.extend(keys.filter_map(|key| Some((*key, view.key_span(key)?))));
         });
     }
-    for (_, _, joint) in root.named("joint") {
-        let kind = super::joint::kind(&joint).filter(|kind| kind.boolean("collides") == Some(true));
-        let span = kind.and_then(|kind| kind.key_span("collides"));
+    for (_, _, joint) in root.named(&scene::JOINT) {
+        let kind = super::joint::kind(&joint).filter(|kind| kind.get(&body::COLLIDES) == Some(true));
+        let span = kind.and_then(|kind| kind.key_span(&body::COLLIDES));
         wrong.extend(span.map(|span| ("collides", span)));
     }
-    if let Some(ground) = root.table("environment").variant("ground") {
+    if let Some(ground) = root.table(&scene::ENVIRONMENT).variant(&environment::GROUND) {
         wrong.extend(SURFACE_KEYS.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
     }
     let bodies = "without it, bodies pass through each other";
     let mut wrong: Vec<(&str, Span, &str)> =
         wrong.into_iter().map(|(key, span)| (key, span, bodies)).collect();
-    for (_, _, emitter) in root.named("emitter") {
-        let span = emitter.key_span("collides").filter(|_| emitter.boolean("collides") == Some(true));
+    for (_, _, emitter) in root.named(&scene::EMITTER) {
+        let span = emitter.key_span(&body::COLLIDES).filter(|_| emitter.get(&body::COLLIDES) == Some(true));
         wrong.extend(span.map(|span| ("collides", span, "without it, particles pass through bodies")));
     }
     let mut said: Vec<Span> = Vec::new();
@@ -165,7 +170,7 @@ fn insertion(root: &View<'_>, simulation: &View<'_>, at: Span, context: &Context
     if let Some(span) = spans.find(|span| is_file(span.source(), &context.sources)) {
         return before(span, CONTACTS_LINE, context);
     }
-    match root.key_span("simulation").filter(|span| is_file(span.source(), &context.sources)) {
+    match root.key_span(&scene::SIMULATION).filter(|span| is_file(span.source(), &context.sources)) {
         // The `[simulation]` table is empty: insert the line below its header.
         Some(span) => {
             (span.place_after(context.sources.line_after(span).len()), format!("\n{CONTACTS_LINE}"))
@@ -187,7 +192,7 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
         if height - lowest <= RELATIVE_ROUNDING * (body.start.location.abs().max_element() + reach.abs()) {
             continue;
         }
-        if table.look(|view| view.table("shape").has_unknown()) {
+        if table.look(|view| view.table(&body::SHAPE).has_unknown()) {
             // A placeholder replaces the unknown shape.
             continue;
         }
@@ -199,7 +204,7 @@ fn below(root: &View<'_>, bodies: &[Body], ground: &Ground, context: &mut Contex
             format!("its lowest point is {depth} m below the ground, which is at {} m", figure(height));
         let help = "put it higher, or give the ground another height with `environment.ground.height`, or take it away \
                     with `environment.ground = false`";
-        let span = table.look(|view| view.span("location")).unwrap_or(table.span());
+        let span = table.look(|view| view.span(&body::LOCATION)).unwrap_or(table.span());
         context.diagnostics.push(Diagnostic::error(Code::BelowGround, message).at(span, label).help(help));
         context.once(before, name, table.span());
     }

@@ -5,6 +5,7 @@ use super::corrections::{insertion, is_file};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::physics::Spring;
+use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{Body, Force, ForceKind, Timeline};
 
 /// The maximum number of frames, which is eleven hours at 25 frames per second.
@@ -57,7 +58,7 @@ pub(super) fn check(
     forces: &[Force],
     context: &mut Context<'_>,
 ) {
-    let view = root.table("simulation");
+    let view = root.table(&scene::SIMULATION);
     let frames = counts.timeline.frame_count();
     if frames > MAX_FRAMES {
         let Timeline { duration, frame_rate } = counts.timeline;
@@ -73,7 +74,7 @@ pub(super) fn check(
         let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts.timeline };
         let slower = Counts { timeline, ..counts };
         let mut values = vec![("frame_rate", rate)];
-        if slower.steps() > MANY_STEPS && !view.has("step") {
+        if slower.steps() > MANY_STEPS && !view.has(&simulation::STEP) {
             values.push(("step", written(one_digit(slower.sensible_step(bodies, forces)))));
         }
         let error = point(error, &view, &["duration", "frame_rate"]);
@@ -83,7 +84,7 @@ pub(super) fn check(
     let steps = counts.steps();
     let severity = match steps {
         steps if steps > MAX_STEPS => Severity::Error,
-        steps if steps > MANY_STEPS && !view.has("step") => Severity::Warning,
+        steps if steps > MANY_STEPS && !view.has(&simulation::STEP) => Severity::Warning,
         _ => return,
     };
     let step = one_digit(counts.sensible_step(bodies, forces));
@@ -157,7 +158,7 @@ fn with_values(
     let edit = |(key, value): &(&str, String)| -> Option<(Span, String)> {
         match view.span(key) {
             Some(span) => Some((span, value.clone())),
-            None => insertion(root.key_span("simulation")?, &format!("{key} = {value}"), context),
+            None => insertion(root.key_span(&scene::SIMULATION)?, &format!("{key} = {value}"), context),
         }
     };
     let Some(mut edits) = values.iter().map(edit).collect::<Option<Vec<_>>>() else { return said };

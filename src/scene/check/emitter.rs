@@ -12,6 +12,9 @@ use crate::physics::random::Stream;
 use crate::physics::{Births, BodyId, Draw, Origin, ParticleSource, Shape, Surface, Triangles, has_surface};
 use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
+use crate::scene::grammar::emitters::{cuboid, disc, emitter, from, shape, sphere};
+use crate::scene::grammar::scene::scene;
+use crate::scene::value;
 use crate::scene::{Body, Color, ContactLaw, Emitter, SimulationSettings};
 
 /// The maximum number of particles of one emitter that are alive at the same time.
@@ -45,13 +48,13 @@ pub(super) fn read(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Vec<Emitter> {
-    let usual_seed = root.integer("seed").unwrap_or_default();
+    let usual_seed = root.get(&emitter::SEED).unwrap_or_default();
     let read = |(name, span, view): (&str, Span, View<'_>)| {
-        let seed = view.integer("seed").unwrap_or(usual_seed);
-        let random = Stream::new(seed.unsigned_abs(), &format!("emitter.{name}"));
+        let seed = view.get(&emitter::SEED).unwrap_or(usual_seed);
+        let random = Stream::new(u64::from(seed), &format!("emitter.{name}"));
         Reader { name, span, view: &view, simulation, bodies, random, context }.emitter()
     };
-    root.named("emitter").into_iter().map(read).collect()
+    root.named(&scene::EMITTER).into_iter().map(read).collect()
 }
 
 impl Reader<'_, '_> {
@@ -59,11 +62,11 @@ impl Reader<'_, '_> {
         let view = self.view;
         let births = self.births();
         let (lifetime, longest_life) = self.lifetime(&births);
-        let speed = view.drawn("speed").unwrap_or(Drawn::Constant(0.0));
+        let speed = view.get(&emitter::SPEED);
         if let Drawn::Formula(formula) = &speed {
             self.each_draw("speed", formula, &births, |_| None);
         }
-        let direction = view.direction::<3>("direction").map(DVec3::from_array);
+        let direction = view.get(&emitter::DIRECTION);
         let (origin, carrier) = self.origin(direction);
         let is_surface = matches!(origin, Origin::Surface(_));
         let source = ParticleSource {
@@ -72,22 +75,22 @@ impl Reader<'_, '_> {
             longest_life,
             origin,
             direction: direction.or((!is_surface).then_some(DVec3::Y)),
-            spread: view.number("spread").unwrap_or_default().to_radians(),
+            spread: view.get(&emitter::SPREAD).to_radians(),
             speed: speed.shared(),
-            mass: view.number("mass").unwrap_or_default(),
-            charge: view.number("charge").unwrap_or_default(),
+            mass: view.get(&emitter::MASS),
+            charge: view.get(&emitter::CHARGE),
             random: self.random.clone(),
         };
         let emitter = Emitter {
             name: self.name.into(),
             source: Arc::new(source),
             carrier,
-            radius: view.table("shape").table("sphere").number("radius").unwrap_or(1.0),
-            sizes: view.numbers("size").unwrap_or_else(|| vec![1.0]),
-            colors: view.colors("color").unwrap_or_else(|| vec![Color::WHITE]),
+            radius: view.table(&emitter::SHAPE).table(&shape::SPHERE).get(&sphere::RADIUS).unwrap_or(1.0),
+            sizes: view.get_as::<Vec<f64>>(&emitter::SIZE).unwrap_or_else(|| vec![1.0]),
+            colors: view.get(&emitter::COLOR).unwrap_or_else(|| vec![Color::WHITE]),
             collides: self.surface(),
-            glow: view.number("glow").unwrap_or_default(),
-            streak: view.number("streak").unwrap_or_default(),
+            glow: view.get(&emitter::GLOW),
+            streak: view.get(&emitter::STREAK),
         };
         self.can_be_advanced();
         self.not_too_many(&emitter);
@@ -113,7 +116,7 @@ impl Reader<'_, '_> {
     fn surface(&mut self) -> Option<Surface> {
         let view = self.view;
         let [restitution, friction] = SURFACE_KEYS.map(|key| view.number(key));
-        if view.boolean("collides") == Some(true) {
+        if view.get(&emitter::COLLIDES) {
             return Some(Surface { restitution, friction, rolling_friction: None });
         }
         for key in SURFACE_KEYS {
@@ -128,14 +131,14 @@ impl Reader<'_, '_> {
 
     /// Reports the reasons why the particles cannot collide, such as too many particles or a body that is a torus.
     fn can_collide(&mut self, emitter: &Emitter) {
-        let span = self.view.key_span("collides").unwrap_or(self.span);
+        let span = self.view.key_span(&emitter::COLLIDES).unwrap_or(self.span);
         let most = emitter.most_alive(self.simulation.timeline.end());
         match self.simulation.contacts {
             Some(ContactLaw::EventDriven) if most > MAX_COLLIDING && most <= MAX_ALIVE => {
                 let message = format!("`{}` would have {most:.0} particles at once that collide", self.name);
                 let error = Diagnostic::error(Code::TooManyParticles, message);
                 let label = format!("with `event-driven` contacts, at most {MAX_COLLIDING} may");
-                let key = if self.view.has("burst") { "burst" } else { "rate" };
+                let key = if self.view.has(&emitter::BURST) { "burst" } else { "rate" };
                 let help = format!(
                     "take the other scheme, which has no such limit: `simulation.contacts = \"time-stepping\"`; or let fewer \
                      be born by `{key}`, or let them live shorter by `lifetime`"
@@ -167,8 +170,8 @@ impl Reader<'_, '_> {
     /// Reads the birth times of the particles.
     fn births(&mut self) -> Births {
         let (view, simulation) = (self.view, self.simulation);
-        let start = simulation.timeline.nearest_frame(view.number("start").unwrap_or_default());
-        let end = view.number("end").map_or(f64::INFINITY, |end| simulation.timeline.nearest_frame(end));
+        let start = simulation.timeline.nearest_frame(view.get(&emitter::START));
+        let end = view.get(&emitter::END).map_or(f64::INFINITY, |end| simulation.timeline.nearest_frame(end));
         if end < start {
             let message =
                 format!("`{}` starts at {} s and ends at {} s", self.name, figure(start), figure(end));
@@ -179,26 +182,31 @@ impl Reader<'_, '_> {
         } else if start > simulation.timeline.end() {
             let warning = Diagnostic::warning(Code::NeverThere, format!("`{}` sends out nothing", self.name));
             let label = format!("the scene goes from 0 to {} s", figure(simulation.timeline.end()));
-            let span = view.span("start").unwrap_or(self.span);
+            let span = view.span(&emitter::START).unwrap_or(self.span);
             self.context.diagnostics.push(warning.at(span, label));
         }
         let end = end.max(start);
-        let Some(burst) = view.count("burst").filter(|_| view.has("burst")) else {
-            if let Some(span) = view.key_span("every") {
+        let Some(burst) = view.get(&emitter::BURST).filter(|_| view.has(&emitter::BURST)) else {
+            if let Some(span) = view.key_span(&emitter::EVERY) {
                 let message = format!("`every` of `{}` has no effect", self.name);
                 let warning = Diagnostic::warning(Code::NoEffect, message);
                 self.context.diagnostics.push(warning.at(span, "it is the time between bursts"));
             }
-            return Births::rate(view.number("rate").unwrap_or(1.0), start, end);
+            return Births::rate(view.get(&emitter::RATE).unwrap_or(1.0), start, end);
         };
-        Births { start, end, at_once: u64::from(burst), every: view.number("every").unwrap_or(f64::INFINITY) }
+        Births {
+            start,
+            end,
+            at_once: u64::from(burst),
+            every: view.get(&emitter::EVERY).unwrap_or(f64::INFINITY),
+        }
     }
 
     /// Warns of colors and sizes that change over a life, if lives do not end.
     fn warn_of_endless_lives(&mut self) {
         let is_list = [
-            ("color", self.view.colors("color").is_some_and(|colors| colors.len() > 1)),
-            ("size", self.view.numbers("size").is_some_and(|sizes| sizes.len() > 1)),
+            ("color", self.view.get(&emitter::COLOR).is_some_and(|colors| colors.len() > 1)),
+            ("size", self.view.get_as::<Vec<f64>>(&emitter::SIZE).is_some_and(|sizes| sizes.len() > 1)),
         ];
         for (key, _) in is_list.into_iter().filter(|(_, is_list)| *is_list) {
             let message = format!("only the first `{key}` of `{}` has an effect", self.name);
@@ -216,7 +224,7 @@ impl Reader<'_, '_> {
     /// If a formula gives the lifetime, the longest lifetime is the largest of many samples. Longer lifetimes in the run are cut to the
     /// longest lifetime.
     fn lifetime(&mut self, births: &Births) -> (Drawn, f64) {
-        let lifetime = self.view.drawn("lifetime").unwrap_or(Drawn::Constant(f64::INFINITY));
+        let lifetime = self.view.get(&emitter::LIFETIME).unwrap_or(Drawn::Constant(f64::INFINITY));
         if let Drawn::Constant(f64::INFINITY) = lifetime {
             self.warn_of_endless_lives();
         }
@@ -270,11 +278,12 @@ impl Reader<'_, '_> {
 
     /// Reads the point, area or volume in which particles are born, and the body that carries the emitter.
     fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
-        let from = self.view.table("from");
+        let from = self.view.table(&emitter::FROM);
         let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
-        let (surface, body) = (number(from.text("surface")), number(from.text("body")));
+        let (surface, body) =
+            (number(from.get(&from::SURFACE)), number(from.get_as::<value::Text>(&scene::BODY)));
         let carrier = surface.or(body).map(BodyId::new);
-        if let (Some(_), Some(span)) = (surface, from.key_span("body")) {
+        if let (Some(_), Some(span)) = (surface, from.key_span(&scene::BODY)) {
             let message = format!("`body` of `{}` has no effect", self.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             self.context.diagnostics.push(warning.at(span, "`surface` names the body"));
@@ -292,25 +301,25 @@ impl Reader<'_, '_> {
                     "`from = {{ point = [0, 0, 0], body = \"{}\" }}` lets them come from a point of it",
                     body.name
                 );
-                let span = from.span("surface").unwrap_or(self.span);
+                let span = from.span(&from::SURFACE).unwrap_or(self.span);
                 self.context.diagnostics.push(error.at(span, label).help(help));
             }
             return (Origin::Surface(body.shape.clone()), carrier);
         }
-        if let Some(disc) = from.variant("disc") {
-            let normal = disc.direction::<3>("normal").map(DVec3::from_array);
+        if let Some(disc) = from.variant(&from::DISC) {
+            let normal = disc.get(&disc::NORMAL);
             let origin = Origin::Disc {
-                centre: disc.vector("location").unwrap_or_default(),
+                centre: disc.get(&disc::LOCATION),
                 normal: normal.or(direction).unwrap_or(DVec3::Y),
-                radius: disc.number("radius").unwrap_or(1.0),
+                radius: disc.get(&disc::RADIUS).unwrap_or(1.0),
             };
             return (origin, carrier);
         }
-        if let Some(view) = from.variant("box") {
-            let centre = view.vector("location").unwrap_or_default();
-            return (Origin::Box { centre, size: view.vector("size").unwrap_or(DVec3::ONE) }, carrier);
+        if let Some(view) = from.variant(&from::BOX) {
+            let centre = view.get(&cuboid::LOCATION);
+            return (Origin::Box { centre, size: view.get(&cuboid::SIZE).unwrap_or(DVec3::ONE) }, carrier);
         }
-        (Origin::Point(from.vector("point").unwrap_or_default()), carrier)
+        (Origin::Point(from.get(&from::POINT).unwrap_or_default()), carrier)
     }
 
     /// Reports an emitter that starts too long before time 0. That time is simulated in timesteps, like the run itself.
@@ -325,14 +334,14 @@ impl Reader<'_, '_> {
         let message = format!("`{}` starts {} s before the run", self.name, figure(-births.start));
         let label = format!("at most {} s are computed before", figure(longest));
         let error = Diagnostic::error(Code::OutOfRange, message);
-        self.context.diagnostics.push(error.at(self.view.span("start").unwrap_or(self.span), label));
+        self.context.diagnostics.push(error.at(self.view.span(&emitter::START).unwrap_or(self.span), label));
     }
 
     fn not_too_many(&mut self, emitter: &Emitter) {
         let most = emitter.most_alive(self.simulation.timeline.end());
         // Particles that die before the next frame take computing time too.
         let between_frames = emitter.births_within(self.simulation.timeline.interval());
-        let key = if self.view.has("burst") { "burst" } else { "rate" };
+        let key = if self.view.has(&emitter::BURST) { "burst" } else { "rate" };
         if most <= MAX_ALIVE && between_frames > MAX_ALIVE {
             let message =
                 format!("`{}` would have {between_frames:.0} births from one frame to the next", self.name);

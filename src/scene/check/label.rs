@@ -12,7 +12,9 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::font;
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
+use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::quoted;
+use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{
     Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
     ScaleBar, Side,
@@ -29,52 +31,52 @@ pub(super) fn read(
 ) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
         let place = place_of(&view, bodies, context);
-        let text = view.text("text").zip(view.span("text"));
+        let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
         let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, joints, context));
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
             place,
-            size: view.number("size"),
-            color: view.color("color"),
+            size: view.get(&label::SIZE),
+            color: view.get(&label::COLOR),
         }
     };
-    root.named("label").into_iter().map(read).collect()
+    root.named(&scene::LABEL).into_iter().map(read).collect()
 }
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
     let bar = wanted(root, "scale_bar")?;
-    Some(ScaleBar { length: bar.number("length"), corner: corner(&bar) })
+    Some(ScaleBar { length: bar.get(&scale_bar::LENGTH), corner: corner(&bar) })
 }
 
 pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
     let grid = wanted(root, "grid")?;
-    let plane = grid.choice("plane", GridPlane::ALL, GridPlane::name);
-    Some(Grid { spacing: grid.number("spacing"), plane })
+    let plane = grid.choice(&grid::PLANE, GridPlane::ALL, GridPlane::name);
+    Some(Grid { spacing: grid.get(&grid::SPACING), plane })
 }
 
 fn corner(view: &View<'_>) -> Corner {
-    view.choice("corner", Corner::ALL, Corner::name)
+    view.choice(&label::CORNER, Corner::ALL, Corner::name)
 }
 
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
-    let body = view.text("body").and_then(|name| context.names.bodies.get(name).copied());
+    let body = view.get(&label::BODY).and_then(|name| context.names.bodies.get(name).copied());
     let mut useless = |key: &str, why: &str| {
         let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` has no effect {why}"));
         context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, "")));
     };
     let Some(body) = body else {
-        if !view.has("body") {
+        if !view.has(&label::BODY) {
             useless("side", "without `body`");
             useless("ghosts", "without `body`");
         }
         return LabelPlace::Corner(corner(view));
     };
-    let ghosts = view.boolean("ghosts") == Some(true);
+    let ghosts = view.get(&label::GHOSTS);
     if ghosts && bodies[body].showing.ghosts.is_none() {
         useless("ghosts", "where the body has none");
     }
-    LabelPlace::Body { body, side: view.choice("side", Side::ALL, Side::name), ghosts }
+    LabelPlace::Body { body, side: view.choice(&label::SIDE, Side::ALL, Side::name), ghosts }
 }
 
 /// Splits the text of a label into words and values. Reports mistakes at their source positions.
@@ -264,7 +266,7 @@ impl Reader<'_, '_, '_> {
             inputs.push(measure);
         };
         let mut with_run = true;
-        let has_contacts = self.root.table("simulation").has("contacts");
+        let has_contacts = self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS);
         let of_body = matches!(self.place, LabelPlace::Body { .. });
         if let LabelPlace::Body { body, ghosts, .. } = self.place {
             with_run = !ghosts;

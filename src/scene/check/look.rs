@@ -1,11 +1,14 @@
 //! Reads the `look` of bodies, `[light.NAME]`, `[environment]` and `[output]`.
 
-use glam::DVec3;
-
 use super::view::View;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::Shape;
+use crate::scene::grammar::bodies::{body, look};
+use crate::scene::grammar::lights::{area, light, point, sun};
+use crate::scene::grammar::scene::{environment, ground, output, scene};
+use crate::scene::grammar::shapes::{sdl, shape};
+use crate::scene::value;
 use crate::scene::{
     Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, SimulationSettings,
     Sky,
@@ -13,12 +16,14 @@ use crate::scene::{
 
 /// Reads the `look` of a body: the scale at which it is drawn, and its raw SDL.
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
-    let look = view.table("look");
+    let look = view.table(&body::LOOK);
     if shape.is_unbounded() {
         let warning = Diagnostic::warning(Code::NoEffect, format!("`scale` of `{name}` has no effect"));
-        context.diagnostics.extend(look.key_span("scale").map(|span| warning.at(span, "a plane is endless")));
+        context
+            .diagnostics
+            .extend(look.key_span(&look::SCALE).map(|span| warning.at(span, "a plane is endless")));
         // The template for a plane without a material draws the whole plane and cannot insert raw SDL.
-        for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has("material")) {
+        for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has(&scene::MATERIAL)) {
             let message = format!("`material` is missing in [body.{name}]");
             let error = Diagnostic::error(Code::MissingKey, message);
             let label = "only stands in planes with a material";
@@ -26,10 +31,10 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
         }
     }
     BodyLook {
-        scale: look.number("scale").unwrap_or_default(),
-        object: view.table("shape").table("sdl").shared_text("object"),
-        sdl_before: look.shared_text("sdl_before"),
-        sdl_after: look.shared_text("sdl_after"),
+        scale: look.get(&look::SCALE),
+        object: view.table(&body::SHAPE).table(&shape::SDL).get(&sdl::OBJECT),
+        sdl_before: look.get(&look::SDL_BEFORE),
+        sdl_after: look.get(&look::SDL_AFTER),
     }
 }
 
@@ -40,42 +45,40 @@ pub(super) fn lights(
 ) -> Vec<Light> {
     let read = |(name, _, view): (&str, _, View<'_>)| {
         for key in ["point", "area"] {
-            motion::finite(view.table(key).raw("location"), simulation, context);
+            motion::finite(view.table(key).raw(&body::LOCATION), simulation, context);
         }
         Some(Light {
             name: name.to_owned(),
             kind: light_kind(&view)?,
-            color: view.color("color")?,
-            intensity: view.number("intensity")?,
-            shadows: view.boolean("shadows")?,
+            color: view.get(&light::COLOR),
+            intensity: view.get(&light::INTENSITY),
+            shadows: view.get(&light::SHADOWS),
         })
     };
-    root.named("light").into_iter().filter_map(read).collect()
+    root.named(&scene::LIGHT).into_iter().filter_map(read).collect()
 }
 
 fn light_kind(view: &View<'_>) -> Option<LightKind> {
-    if let Some(point) = view.variant("point") {
-        return Some(LightKind::Point { location: point.timed_vector("location")? });
+    if let Some(point) = view.variant(&light::POINT) {
+        return Some(LightKind::Point { location: point.get(&point::LOCATION)? });
     }
-    if let Some(area) = view.variant("area") {
-        return Some(LightKind::Area {
-            location: area.timed_vector("location")?,
-            size: area.number("size")?,
-        });
+    if let Some(area) = view.variant(&light::AREA) {
+        return Some(LightKind::Area { location: area.get(&area::LOCATION)?, size: area.get(&area::SIZE)? });
     }
-    let direction = view.variant("sun")?.direction::<3>("direction")?;
-    Some(LightKind::Sun { direction: DVec3::from_array(direction) })
+    let direction = view.variant(&light::SUN)?.get(&sun::DIRECTION)?;
+    Some(LightKind::Sun { direction: direction })
 }
 
 pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
-    let view = root.table("environment");
-    let name = root.text("environment").or_else(|| view.text("preset"));
+    let view = root.table(&scene::ENVIRONMENT);
+    let name = root.get_as::<value::Text>(&scene::ENVIRONMENT).or_else(|| view.get(&environment::PRESET));
     let preset = name.and_then(Preset::named).unwrap_or_default();
     let has_plane = bodies.iter().any(|body| matches!(body.shape, Shape::Plane { .. }));
-    let table = view.variant("ground");
-    let given = table.map(|t| Ground { height: t.number("height"), tile: t.number("tile"), surface: None });
-    let wanted = view.boolean("ground").unwrap_or(preset.has_ground() && !has_plane);
-    let sky = match (view.boolean("sky"), view.color("sky")) {
+    let table = view.variant(&environment::GROUND);
+    let given =
+        table.map(|t| Ground { height: t.get(&ground::HEIGHT), tile: t.get(&ground::TILE), surface: None });
+    let wanted = view.get_as::<bool>(&environment::GROUND).unwrap_or(preset.has_ground() && !has_plane);
+    let sky = match (view.get_as::<bool>(&environment::SKY), view.get_as::<value::Color>(&environment::SKY)) {
         (_, Some(color)) => Sky::Plain(color),
         (Some(false), None) => Sky::Plain(Color([0.0; 3])),
         (_, None) => Sky::Gradient,
@@ -83,19 +86,19 @@ pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {
     Environment {
         preset,
         ground: given.or_else(|| wanted.then(Ground::default)),
-        fog: view.boolean("fog").unwrap_or_default(),
+        fog: view.get(&environment::FOG),
         sky,
     }
 }
 
 pub(super) fn output(view: &View<'_>) -> Output {
-    let size = view.integers("size").unwrap_or_default();
+    let size = view.get(&output::SIZE);
     let pixels = |i: usize| size.get(i).and_then(|n| u32::try_from(*n).ok()).unwrap_or_default();
     Output {
         width: pixels(0),
         height: pixels(1),
-        layout: view.choice("layout", Layout::ALL, Layout::name),
-        transparent: view.boolean("transparent").unwrap_or_default(),
-        video_rate: view.number("video_rate"),
+        layout: view.choice(&output::LAYOUT, Layout::ALL, Layout::name),
+        transparent: view.get(&output::TRANSPARENT),
+        video_rate: view.get(&output::VIDEO_RATE),
     }
 }

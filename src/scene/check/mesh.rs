@@ -9,6 +9,7 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Flaw, Mesh, Shape};
+use crate::scene::grammar::shapes::{heightfield, mesh as mesh_keys};
 use crate::scene::{Camera, Layout, Output, SimulationSettings, mesh};
 
 /// The meshes read so far. Bodies that name the same file with the same settings share one mesh.
@@ -108,7 +109,7 @@ impl Meshes {
 
 /// Reads a shape that is a mesh from a file. `None` if a value is missing or wrong.
 pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
-    let scale = view.number("scale")?;
+    let scale = view.get(&mesh_keys::SCALE);
     let smooth = smooth(view);
     let mesh = file(view, context, &[smooth.unwrap_or(-1.0)], |path| {
         mesh::read(path).map(|mesh| mesh.with_smooth(smooth))
@@ -118,7 +119,7 @@ pub(super) fn read(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> 
 
 /// Reads a shape that is a heightfield from a file. `None` if a value is missing or wrong.
 pub(super) fn heightfield(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
-    let size = view.vector("size")?;
+    let size = view.get(&heightfield::SIZE)?;
     let smooth = smooth(view);
     let numbers = [smooth.unwrap_or(-1.0), size.x, size.y, size.z];
     let mesh = file(view, context, &numbers, |path| {
@@ -134,7 +135,7 @@ fn file(
     numbers: &[f64],
     read: impl FnOnce(&PathBuf) -> Result<Mesh, mesh::MeshError>,
 ) -> Option<Arc<Mesh>> {
-    let node = view.node("file")?;
+    let node = view.node(&mesh_keys::FILE)?;
     let asset = super::asset::asset(node, context.folder, context.trust).ok()?;
     match context.meshes.get(asset.path, node.span, numbers, read) {
         Ok(mesh) => Some(mesh),
@@ -148,17 +149,17 @@ fn file(
 
 /// Reads the largest angle between two faces whose common edge is drawn smooth, rad. `None` if no edge is smooth.
 fn smooth(view: &View<'_>) -> Option<f64> {
-    match view.boolean("smooth") {
+    match view.get_as::<bool>(&mesh_keys::SMOOTH) {
         Some(true) => Some(std::f64::consts::PI),
         Some(false) => None,
-        None => view.number("smooth").map(f64::to_radians).filter(|angle| *angle > 0.0),
+        None => view.get_as::<f64>(&mesh_keys::SMOOTH).map(f64::to_radians).filter(|angle| *angle > 0.0),
     }
 }
 
 /// Returns the error for a mesh that does not enclose a solid. `None` for a closed mesh and for other shapes.
 pub(super) fn open(view: &View<'_>, shape: &Shape) -> Option<Diagnostic> {
     let Shape::Mesh { mesh, .. } = shape else { return None };
-    let span = view.span("file")?;
+    let span = view.span(&mesh_keys::FILE)?;
     let at = |[from, to]: &[glam::DVec3; 2]| {
         let point = |p: &glam::DVec3| format!("[{}]", p.to_array().map(figure).join(", "));
         format!("from {} to {}", point(from), point(to))

@@ -40,7 +40,9 @@ use std::sync::Arc;
 pub(super) use self::counts::MAX_FRAMES;
 
 use super::expand::{self, Expansion, Groups};
-use super::grammar::{Collection, SCENE};
+use super::grammar::scene::scene;
+use super::grammar::shapes::shape as shape_keys;
+use super::grammar::{self, Collection, SCENE, bodies};
 use super::sdl::FileKind;
 use super::source::{self, Table};
 use super::view::{NamedTable, View};
@@ -302,7 +304,7 @@ fn build(
 ) -> Scene {
     let root = View::new(&SCENE, Some(root));
     let (simulation, counts) = simulation::read(&root, needs_steps(&root));
-    simulation::check(&root.table("simulation"), &simulation, context);
+    simulation::check(&root.table(&scene::SIMULATION), &simulation, context);
     let mut materials = material::read(&root, context);
     let bodies = body::read(&root, &simulation, &mut materials, context);
     let (simulation, counts) = stepping::choose_step(&root, simulation, counts, &bodies);
@@ -324,7 +326,7 @@ fn build(
     let mut bodies = bodies;
     joint::swing(&joints, &mut bodies);
     let spans: HashMap<&str, Span> =
-        root.named("joint").into_iter().map(|(name, span, _)| (name, span)).collect();
+        root.named(&scene::JOINT).into_iter().map(|(name, span, _)| (name, span)).collect();
     let places_of_joints =
         joints.iter().filter_map(|joint| spans.get(joint.name.as_str()).copied()).collect();
     if bodies.is_empty() && emitters.is_empty() {
@@ -333,18 +335,18 @@ fn build(
         context.diagnostics.push(Diagnostic::warning(Code::NoBodies, message).help(help));
     }
     let mut povray = povray::read(&root, context);
-    povray.templates = templates::read(&root.table("povray"), options.templates.as_deref(), context);
+    povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, &bodies, &joints, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     if !labels.is_empty() || scale_bar.is_some() || grid.is_some() {
         asset::add_font(&mut povray.assets);
     }
     let camera = camera::read(&root, &simulation, &bodies, context);
-    let output = look::output(&root.table("output"));
+    let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
     Scene {
         name: input.name.to_owned(),
-        title: root.text("title").map(str::to_owned),
+        title: root.get(&scene::TITLE).map(str::to_owned),
         camera,
         views: camera::views(&root, &simulation, &bodies, context),
         lights: look::lights(&root, &simulation, context),
@@ -364,11 +366,15 @@ fn build(
         povray,
         places: Places {
             joints: places_of_joints,
-            forces: root.named("force").iter().map(|(name, span, _)| ((*name).to_owned(), *span)).collect(),
+            forces: root
+                .named(&scene::FORCE)
+                .iter()
+                .map(|(name, span, _)| ((*name).to_owned(), *span))
+                .collect(),
             bodies: root.bodies().map(NamedTable::span).collect(),
-            contacts: root.table("simulation").span("contacts"),
-            camera: root.key_span("camera"),
-            unit: root.table("povray").span("unit"),
+            contacts: root.table(&scene::SIMULATION).span(&grammar::scene::simulation::CONTACTS),
+            camera: root.key_span(&scene::CAMERA),
+            unit: root.table(&scene::POVRAY).span(&grammar::scene::povray::UNIT),
         },
         overrides: options.overrides.iter().map(|set| set.as_str().to_owned()).collect(),
         warnings: Report::default(),
@@ -378,11 +384,11 @@ fn build(
 /// Returns whether the scene needs timesteps: true if a body moves freely or there is an emitter.
 fn needs_steps(root: &View<'_>) -> bool {
     let is_free = |body: &View<'_>| {
-        let shape = body.table("shape");
-        let is_scenery = shape.has("plane") || shape.has("heightfield");
-        !is_scenery && !body.has("motion") && body.boolean("fixed") != Some(true)
+        let shape = body.table(&bodies::body::SHAPE);
+        let is_scenery = shape.has(&shape_keys::PLANE) || shape.has(&shape_keys::HEIGHTFIELD);
+        !is_scenery && !body.has(&bodies::body::MOTION) && !body.get(&bodies::body::FIXED)
     };
-    root.bodies().any(|body| body.look(is_free)) || !root.named("emitter").is_empty()
+    root.bodies().any(|body| body.look(is_free)) || !root.named(&scene::EMITTER).is_empty()
 }
 
 /// Computes the SHA-256 digest of all texts and other files that the scene was read from, in hexadecimal.

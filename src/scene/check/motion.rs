@@ -11,9 +11,13 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Interpolation, Keyframe, Presence, Track};
 use crate::scene::SimulationSettings;
 use crate::scene::expand::in_string;
+use crate::scene::grammar::motion::trajectory as trajectory_keys;
+use crate::scene::grammar::motion::{formula, keyframe, keyframes, motion, turning};
+use crate::scene::grammar::{bodies, camera};
 use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
 use crate::scene::timed::{TimeFormula, TimedVector};
+use crate::scene::value;
 
 /// The maximum number of keyframes in all tracks together. If bodies with different orientations share the rows of a file, the rows count
 /// once for each orientation.
@@ -32,26 +36,26 @@ pub(super) fn read(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Option<(BodyMotion, Presence)> {
-    let motion = view.variant("motion")?;
-    if let Some(formula) = motion.variant("formula") {
-        if formula.has("location") {
+    let motion = view.variant(&bodies::body::MOTION)?;
+    if let Some(formula) = motion.variant(&motion::FORMULA) {
+        if formula.has(&formula::LOCATION) {
             unused_location(name, view, context);
         }
         let motion = by_formula(name, &formula, place, presence, simulation, context);
         return Some((motion, presence.clone()));
     }
-    if let Some(keyframes) = motion.variant("keyframes") {
+    if let Some(keyframes) = motion.variant(&motion::KEYFRAMES) {
         return Some((by_keyframes(name, &keyframes, place, context)?, presence.clone()));
     }
     unused_location(name, view, context);
     let (motion, of_file) =
-        by_trajectory(name, &motion.variant("trajectory")?, place.1, simulation, context)?;
+        by_trajectory(name, &motion.variant(&motion::TRAJECTORY)?, place.1, simulation, context)?;
     Some((motion, of_file.and(presence)))
 }
 
 /// Warns that the `location` of a body has no effect because its motion gives the location.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
-    let Some(span) = view.key_span("location") else { return };
+    let Some(span) = view.key_span(&formula::LOCATION) else { return };
     // The copies of a body have their locations from the key `repeat`.
     let is_of_repeat = context.sources.raw(span) == "repeat";
     let key = if is_of_repeat { "the place that `repeat` gives" } else { "`location`" };
@@ -68,10 +72,11 @@ fn by_formula(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> BodyMotion {
-    finite_while(presence, view.raw("location"), simulation, context);
-    let orientation = if view.has("orientation") {
-        let table = view.table("orientation");
-        for node in [view.raw("orientation"), table.raw("euler"), table.raw("angle")] {
+    finite_while(presence, view.raw(&formula::LOCATION), simulation, context);
+    let orientation = if view.has(&formula::ORIENTATION) {
+        let table = view.table(&formula::ORIENTATION);
+        for node in [view.raw(&formula::ORIENTATION), table.raw(&turning::EULER), table.raw(&turning::ANGLE)]
+        {
             finite_while(presence, node, simulation, context);
         }
         turning(name, view, context)
@@ -79,19 +84,21 @@ fn by_formula(
         TimedOrientation::Constant(place.1)
     };
     BodyMotion::Formula {
-        location: view.timed_vector("location").unwrap_or_else(|| TimedVector::from(place.0)),
+        location: view.get(&formula::LOCATION).unwrap_or_else(|| TimedVector::from(place.0)),
         orientation,
     }
 }
 
 fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrientation {
-    let table = view.table("orientation");
-    if let Some(angles) = view.timed_vector("orientation").or_else(|| table.timed_vector("euler")) {
+    let table = view.table(&formula::ORIENTATION);
+    if let Some(angles) =
+        view.get_as::<value::TimedVector>(&formula::ORIENTATION).or_else(|| table.get(&turning::EULER))
+    {
         return TimedOrientation::Euler(angles);
     }
     body::together(name, &table, context);
-    match (table.direction::<3>("axis"), table.timed("angle")) {
-        (Some(axis), Some(angle)) => TimedOrientation::Axis { axis: DVec3::from_array(axis), angle },
+    match (table.get(&turning::AXIS), table.get(&turning::ANGLE)) {
+        (Some(axis), Some(angle)) => TimedOrientation::Axis { axis, angle },
         _ => TimedOrientation::Constant(DQuat::IDENTITY),
     }
 }
@@ -155,23 +162,25 @@ fn by_keyframes(
 ) -> Option<BodyMotion> {
     let mut keys: Vec<Keyframe> = Vec::new();
     let mut last: Option<(f64, Span)> = None;
-    for frame in view.tables("at") {
-        let (Some(time), Some(span)) = (frame.number("time"), frame.span("time")) else { continue };
+    for frame in view.tables(&keyframes::AT) {
+        let (Some(time), Some(span)) = (frame.get(&keyframe::TIME), frame.span(&keyframe::TIME)) else {
+            continue;
+        };
         if out_of_order(&mut last, time, span, context) {
             continue;
         }
         let before = keys.last();
-        let turned = frame.has("orientation").then(|| body::orientation(name, &frame, context));
+        let turned = frame.has(&formula::ORIENTATION).then(|| body::orientation(name, &frame, context));
         keys.push(Keyframe {
             time,
-            location: frame.vector("location").or(before.map(|key| key.location)).unwrap_or(location),
+            location: frame.get(&keyframe::LOCATION).or(before.map(|key| key.location)).unwrap_or(location),
             orientation: turned.or(before.map(|key| key.orientation)).unwrap_or(orientation),
             velocity: None,
             angular_velocity: None,
         });
     }
     let interpolation = interpolation(view);
-    if keys.is_empty() || !has_room(keys.len(), view.span("at"), context) {
+    if keys.is_empty() || !has_room(keys.len(), view.span(&keyframes::AT), context) {
         return None;
     }
     Some(BodyMotion::Track(Arc::new(Track::new(keys, interpolation, true))))
@@ -202,16 +211,18 @@ pub(super) fn camera_keyframes(
     let (mut places, mut aims): (Vec<Keyframe>, Vec<Keyframe>) = (Vec::new(), Vec::new());
     let mut last: Option<(f64, Span)> = None;
     let mut aim = look_at;
-    for frame in view.tables("at") {
-        let (Some(time), Some(span), Some(location)) =
-            (frame.number("time"), frame.span("time"), frame.vector("location"))
-        else {
+    for frame in view.tables(&camera::keyframes::AT) {
+        let (Some(time), Some(span), Some(location)) = (
+            frame.get(&camera::keyframe::TIME),
+            frame.span(&camera::keyframe::TIME),
+            frame.get(&camera::keyframe::LOCATION),
+        ) else {
             continue;
         };
         if out_of_order(&mut last, time, span, context) {
             continue;
         }
-        aim = frame.vector("look_at").or(aim);
+        aim = frame.get(&camera::keyframe::LOOK_AT).or(aim);
         let key = |location: DVec3| Keyframe {
             time,
             location,
@@ -241,8 +252,8 @@ fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: 
 }
 
 fn interpolation(view: &View<'_>) -> Interpolation {
-    match view.text("interpolation") {
-        Some("linear") => Interpolation::Linear,
+    match view.get(&keyframes::INTERPOLATION) {
+        "linear" => Interpolation::Linear,
         _ => Interpolation::Cubic,
     }
 }
@@ -254,17 +265,17 @@ fn by_trajectory(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Option<(BodyMotion, Presence)> {
-    let span = view.span("file")?;
+    let span = view.span(&trajectory_keys::FILE)?;
     let recording = match &context.last_recording {
         Some((last, recording)) if view.is_same(last.as_ref()) => recording.clone(),
         _ => recording(view, span, context),
     };
     context.last_recording = Some((view.to_table(), recording.clone()));
     let recording = recording?;
-    let wanted = view.text("body").unwrap_or(name);
+    let wanted = view.get(&trajectory_keys::BODY).unwrap_or(name);
     let Some(keys) = recording.rows.get(&Some(wanted.to_owned())).or_else(|| recording.rows.get(&None))
     else {
-        let at = view.span("body").unwrap_or(span);
+        let at = view.span(&trajectory_keys::BODY).unwrap_or(span);
         if context.reported.contains(&(Code::CsvBody, at)) {
             return None;
         }
@@ -272,7 +283,13 @@ fn by_trajectory(
         return None;
     };
     if context.measured.insert(Arc::as_ptr(&recording).addr()) {
-        presence::short(view.text("file").unwrap_or_default(), &recording.times, span, simulation, context);
+        presence::short(
+            view.get(&trajectory_keys::FILE).unwrap_or_default(),
+            &recording.times,
+            span,
+            simulation,
+            context,
+        );
     }
     let interpolation = interpolation(view);
     let same = Rows {
@@ -294,14 +311,14 @@ fn by_trajectory(
     }
     let (presence, gaps) = presence::of_rows(&keys, &recording.times, simulation);
     if interpolation == Interpolation::Cubic
-        && let Some(node) = view.raw("file")
+        && let Some(node) = view.raw(&trajectory_keys::FILE)
     {
         let asset = asset::asset(node, context.folder, context.trust).ok()?;
         let is_named = recording.rows.contains_key(&Some(wanted.to_owned()));
         let origin = trajectory::Origin {
             path: &asset.path,
             name: node.as_str().unwrap_or_default(),
-            columns: &Columns::read(&view.table("columns")),
+            columns: &Columns::read(&view.table(&trajectory_keys::COLUMNS)),
             body: is_named.then_some(wanted),
             at: span,
         };
@@ -330,10 +347,10 @@ pub(super) struct Rows {
 
 /// Returns the recording in the file that the table names. `None` if the file has errors, which have been reported.
 fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
-    let node = view.raw("file")?;
+    let node = view.raw(&trajectory_keys::FILE)?;
     // An error in the path has already been reported.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
-    let table = view.table("columns");
+    let table = view.table(&trajectory_keys::COLUMNS);
     for key in ["velocity", "angular_velocity"] {
         let names = table.list(key).map_or(0, <[_]>::len);
         if let (1 | 2, Some(at)) = (names, table.span(key)) {

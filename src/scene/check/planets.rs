@@ -6,6 +6,7 @@ use super::Context;
 use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{Body, Force, ForceKind, SimulationSettings};
 
 /// The minimum ratio of the heaviest body's mass to the total mass of the other bodies.
@@ -22,9 +23,9 @@ pub(super) fn check(
     if !simulation.method.is_planetary() {
         return;
     }
-    let table = root.table("simulation");
+    let table = root.table(&scene::SIMULATION);
     let name = simulation.method.name;
-    let Some(chosen) = table.span("integrator") else { return };
+    let Some(chosen) = table.span(&simulation::INTEGRATOR) else { return };
     let before = context.diagnostics.len();
     let mut wrong = |span: Option<Span>, message: String| {
         let error = Diagnostic::error(Code::BadIntegrator, message).at(span.unwrap_or(chosen), "");
@@ -33,10 +34,13 @@ pub(super) fn check(
         context.diagnostics.push(error.help(help));
     };
     if simulation.gravity != DVec3::ZERO {
-        wrong(table.span("gravity"), format!("`{name}` takes no gravity that is the same everywhere"));
+        wrong(
+            table.span(&simulation::GRAVITY),
+            format!("`{name}` takes no gravity that is the same everywhere"),
+        );
     }
     let mut attractions = 0;
-    for (force_name, span, _) in root.named("force") {
+    for (force_name, span, _) in root.named(&scene::FORCE) {
         let Some(force) = forces.iter().find(|force| force.name == force_name) else { continue };
         match &force.kind {
             ForceKind::Gravitation(gravitation) => {
@@ -66,7 +70,7 @@ pub(super) fn check(
         }
     }
     for ((body, _), span) in
-        bodies.iter().zip(0..).zip(root.named("body").into_iter().map(|(_, span, _)| span))
+        bodies.iter().zip(0..).zip(root.named(&scene::BODY).into_iter().map(|(_, span, _)| span))
     {
         let what = if body.start.fixed {
             "is fixed"

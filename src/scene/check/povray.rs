@@ -6,6 +6,7 @@ use super::view::View;
 use super::{Context, asset, suggest};
 use crate::diagnostic::{Code, Diagnostic, Sources, Span};
 use crate::scene::expand::in_string;
+use crate::scene::grammar::scene::{povray, scene};
 use crate::scene::sdl::{INCLUDES, WRITING_INCLUDES};
 use crate::scene::source::{Node, file};
 use crate::scene::{Include, PovRay};
@@ -14,16 +15,16 @@ use crate::scene::{Include, PovRay};
 const MAX_INCLUDE_BYTES: u64 = 1 << 20;
 
 pub(super) fn read(root: &View<'_>, context: &mut Context<'_>) -> PovRay {
-    let view = root.table("povray");
-    let items = view.list("include").unwrap_or_default();
+    let view = root.table(&scene::POVRAY);
+    let items = view.list(&povray::INCLUDE).unwrap_or_default();
     let assets = asset::read(&view, context);
     PovRay {
         assets,
         reads: std::mem::take(&mut context.reads),
         include: items.iter().filter_map(|item| include(item, context.folder, context.trust).ok()).collect(),
-        sdl: view.text("sdl").map(str::to_owned),
-        unit: view.number("unit"),
-        digits: view.count("digits").unwrap_or_default() as usize,
+        sdl: view.get(&povray::SDL).map(str::to_owned),
+        unit: view.get(&povray::UNIT),
+        digits: view.get(&povray::DIGITS) as usize,
         templates: Vec::new(),
     }
 }

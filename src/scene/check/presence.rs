@@ -6,6 +6,8 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Keyframe, Presence};
 use crate::scene::SimulationSettings;
+use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::motion::{motion, trajectory};
 
 /// The largest ratio of an interval between two rows of a body to the median interval at which the body is certainly present. In a longer
 /// interval, it may be absent.
@@ -18,7 +20,7 @@ pub(super) fn read(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Presence {
-    let (start, end) = (view.number("start"), view.number("end"));
+    let (start, end) = (view.get(&body::START), view.get(&body::END));
     if let (Some(start), Some(end)) = (start, end)
         && end <= start
     {
@@ -45,8 +47,10 @@ pub(super) fn never(
     if presence.overlaps(0.0, end) {
         return;
     }
-    let file = view.variant("motion").and_then(|motion| motion.variant("trajectory")?.span("file"));
-    let Some(span) = view.span("start").or(view.span("end")).or(file) else { return };
+    let file = view
+        .variant(&body::MOTION)
+        .and_then(|motion| motion.variant(&motion::TRAJECTORY)?.span(&trajectory::FILE));
+    let Some(span) = view.span(&body::START).or(view.span(&body::END)).or(file) else { return };
     let warning = Diagnostic::warning(Code::NeverThere, format!("`{name}` is never there"));
     let label = format!("the scene goes from 0 to {} s", figure(end));
     context.diagnostics.push(warning.at(span, label));

@@ -4,6 +4,9 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::Shape;
+use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::forces::spring;
+use crate::scene::grammar::showing::{arrow, arrows, axes, coil, ghosts, trail};
 use crate::scene::{
     Arrow, BodyAxes, Ghosts, Quantity, Showing, SimulationSettings, SpringLine, SpringLook, Trail,
 };
@@ -26,19 +29,19 @@ pub(super) fn of_body(
         _ => None,
     };
     let mut showing = Showing {
-        arrows: Quantity::OF_BODIES.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
-        loads: Quantity::OF_LOADS.map(|quantity| arrow(&view.table("arrows"), quantity.name())),
-        axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.number("length") }),
-        ghosts: view.variant("ghosts").and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
+        arrows: Quantity::OF_BODIES.map(|quantity| arrow(&view.table(&body::ARROWS), quantity.name())),
+        loads: Quantity::OF_LOADS.map(|quantity| arrow(&view.table(&body::ARROWS), quantity.name())),
+        axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.get(&axes::LENGTH) }),
+        ghosts: view.variant(&body::GHOSTS).and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
         trail: wanted(view, "trail").map(|trail| Trail {
-            duration: trail.number("duration"),
-            width: trail.number("width"),
-            color: trail.color("color"),
-            at: trail.vector("at").unwrap_or_default(),
+            duration: trail.get(&trail::DURATION),
+            width: trail.get(&trail::WIDTH),
+            color: trail.get(&trail::COLOR),
+            at: trail.get(&trail::AT),
         }),
     };
     if useless.is_none() {
-        loads_without_cause(name, &view.table("arrows"), &showing, simulation, context);
+        loads_without_cause(name, &view.table(&body::ARROWS), &showing, simulation, context);
     }
     if let Some((keys, why)) = useless {
         for key in keys {
@@ -65,7 +68,7 @@ fn loads_without_cause(
         let warning =
             Diagnostic::warning(Code::NoEffect, format!("`arrows.weight` of `{name}` has no effect"));
         let why = "there is no `simulation.gravity`";
-        context.diagnostics.extend(arrows.key_span("weight").map(|span| warning.at(span, why)));
+        context.diagnostics.extend(arrows.key_span(&arrows::WEIGHT).map(|span| warning.at(span, why)));
     }
     if simulation.contacts.is_some() {
         return;
@@ -81,13 +84,13 @@ fn loads_without_cause(
 
 /// Reads the ghosts of a body. Reports an error and returns `None` if there are too many ghosts.
 fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) -> Option<Ghosts> {
-    let every = view.number("every")?;
+    let every = view.get(&ghosts::EVERY)?;
     if simulation.timeline.duration / every <= MAX_GHOSTS {
-        return Some(Ghosts { every, arrows: view.boolean("arrows")? });
+        return Some(Ghosts { every, arrows: view.get_as::<bool>(&body::ARROWS)? });
     }
     let message = format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(every));
     let error = Diagnostic::error(Code::TooManyGhosts, message);
-    let span = view.span("every");
+    let span = view.span(&ghosts::EVERY);
     context.diagnostics.extend(span.map(|span| error.at(span, "").help("ghosts = duration / every")));
     None
 }
@@ -95,39 +98,39 @@ fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Con
 /// Reads an arrow's scale and color. `None` if the scene does not switch the arrow on.
 pub(super) fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
     let arrow = wanted(arrows, key)?;
-    Some(Arrow { scale: arrow.number("scale"), color: arrow.color("color") })
+    Some(Arrow { scale: arrow.get(&arrow::SCALE), color: arrow.get(&arrow::COLOR) })
 }
 
 /// Reads how a spring is drawn. `None` if the spring is not drawn.
 pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<SpringLook> {
-    let coil = spring.table("coil");
+    let coil = spring.table(&spring::COIL);
     let mut useless = |span: Option<Span>, key: &str, why: &str| {
         let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of a spring has no effect"));
         context.diagnostics.extend(span.map(|span| warning.at(span, why)));
     };
-    let is_hidden = spring.boolean("coil") == Some(false);
-    let line = spring.text("line");
+    let is_hidden = spring.get_as::<bool>(&spring::COIL) == Some(false);
+    let line = spring.get(&spring::LINE);
     match line {
-        Some("none") => {
+        "none" => {
             if !is_hidden {
-                useless(spring.key_span("coil"), "coil", "with `line = \"none\"`, it is not drawn");
+                useless(spring.key_span(&spring::COIL), "coil", "with `line = \"none\"`, it is not drawn");
             }
             return None;
         }
         _ if is_hidden => {
-            useless(spring.key_span("line"), "line", "with `coil = false`, it is not drawn");
+            useless(spring.key_span(&spring::LINE), "line", "with `coil = false`, it is not drawn");
             return None;
         }
-        Some("straight") => {
-            useless(coil.key_span("turns"), "coil.turns", "it is drawn as a straight line");
+        "straight" => {
+            useless(coil.key_span(&coil::TURNS), "coil.turns", "it is drawn as a straight line");
         }
         _ => {}
     }
-    let turns = coil.count("turns");
+    let turns = coil.get(&coil::TURNS);
     Some(SpringLook {
-        line: if line == Some("straight") { SpringLine::Straight } else { SpringLine::Coil { turns } },
-        radius: coil.number("radius"),
-        color: coil.color("color"),
+        line: if line == "straight" { SpringLine::Straight } else { SpringLine::Coil { turns } },
+        radius: coil.get(&coil::RADIUS),
+        color: coil.get(&coil::COLOR),
     })
 }
 

@@ -7,6 +7,7 @@ use super::counts::Counts;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::{METHODS, Method};
+use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{ContactLaw, SimulationSettings, Timeline};
 
 /// The default integrator of scenes with joints or event-driven contacts. It is of second order, because impacts and loads are only as
@@ -16,26 +17,26 @@ const DEFAULT_CONSTRAINED_INTEGRATOR: &str = "velocity-verlet";
 /// Reads the simulation's settings, and the values that give the numbers of frames and timesteps. `needs_steps` is false if no body moves
 /// freely.
 pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, Counts) {
-    let view = root.table("simulation");
+    let view = root.table(&scene::SIMULATION);
     let contacts = contact::law(&view);
     let is_constrained = match contacts {
         // Time stepping has its own integrator.
         Some(ContactLaw::TimeStepping) => false,
         Some(ContactLaw::EventDriven) => true,
-        None => !root.named("joint").is_empty(),
+        None => !root.named(&scene::JOINT).is_empty(),
     };
     let default =
         Method::by_name(DEFAULT_CONSTRAINED_INTEGRATOR).filter(|_| is_constrained).unwrap_or(&METHODS[0]);
-    let method = view.text("integrator").and_then(Method::by_name).unwrap_or(default);
+    let method = view.get(&simulation::INTEGRATOR).and_then(Method::by_name).unwrap_or(default);
     let mut simulation = SimulationSettings {
         timeline: Timeline {
-            duration: view.number("duration").unwrap_or_default(),
-            frame_rate: view.number("frame_rate").unwrap_or_default(),
+            duration: view.get(&simulation::DURATION),
+            frame_rate: view.get(&simulation::FRAME_RATE),
         },
-        step: if method.adaptive { f64::INFINITY } else { view.number("step").unwrap_or_default() },
-        tolerance: view.number("tolerance").unwrap_or_default(),
+        step: if method.adaptive { f64::INFINITY } else { view.get(&simulation::STEP) },
+        tolerance: view.get(&simulation::TOLERANCE),
         method,
-        gravity: view.vector("gravity").unwrap_or_default(),
+        gravity: view.get(&simulation::GRAVITY),
         contacts,
     };
     let SimulationSettings { timeline, step, .. } = simulation;
@@ -54,7 +55,7 @@ pub(super) fn check(view: &View<'_>, simulation: &SimulationSettings, context: &
     let (wrong, right, value) =
         if method.adaptive { ("step", "tolerance", "1e-9") } else { ("tolerance", "step", "0.001") };
     let Some(span) = view.key_span(wrong) else { return };
-    if view.span("integrator").is_some_and(|span| !is_file(span.source(), &context.sources)) {
+    if view.span(&simulation::INTEGRATOR).is_some_and(|span| !is_file(span.source(), &context.sources)) {
         return;
     }
     let (message, help) = if method.adaptive {

@@ -8,6 +8,8 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{METHODS, Motor, suitable_step};
+use crate::scene::grammar::joints::hinge;
+use crate::scene::grammar::scene::{environment, scene, simulation};
 use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
@@ -28,7 +30,7 @@ pub(super) fn choose_step(
     bodies: &[Body],
 ) -> (SimulationSettings, Counts) {
     let gravity = simulation.gravity.length();
-    let is_chosen = root.table("simulation").has("step");
+    let is_chosen = root.table(&scene::SIMULATION).has(&simulation::STEP);
     if simulation.contacts != Some(ContactLaw::TimeStepping) || is_chosen || gravity == 0.0 {
         return (simulation, counts);
     }
@@ -44,18 +46,18 @@ pub(super) fn check(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) {
-    let table = root.table("simulation");
-    let is_by_moreau = is_by_moreau(bodies, !root.named("joint").is_empty());
+    let table = root.table(&scene::SIMULATION);
+    let is_by_moreau = is_by_moreau(bodies, !root.named(&scene::JOINT).is_empty());
     if !cfg!(feature = "time-stepping") && !is_by_moreau {
         let error = Diagnostic::error(Code::BadContacts, "this build of jabuka has no time stepping");
         let help = "build jabuka with its feature `time-stepping`, or take the other scheme: `contacts = \"event-driven\"`";
-        let span = table.span("contacts");
+        let span = table.span(&simulation::CONTACTS);
         context.diagnostics.extend(span.map(|span| error.at(span, "").help(help)));
     }
     let own = METHODS[0].name;
     if simulation.method.name != own {
         let message = format!("time stepping does not take the integrator `{}`", simulation.method.name);
-        let span = table.span("integrator").or(table.span("contacts"));
+        let span = table.span(&simulation::INTEGRATOR).or(table.span(&simulation::CONTACTS));
         let help = format!(
             "write `integrator = \"{own}\"`, or leave it out; with `contacts = \"event-driven\"`, any integrator will do"
         );
@@ -63,7 +65,7 @@ pub(super) fn check(
         let why = format!("it solves contacts and motion together, by steps of `{own}`");
         context.diagnostics.extend(span.map(|span| error.at(span, why)));
     }
-    let ground = root.table("environment").variant("ground");
+    let ground = root.table(&scene::ENVIRONMENT).variant(&environment::GROUND);
     let of_ground = |key: &str| {
         let ground = ground.as_ref()?;
         Some((ground.key_span(key)?, ground.number(key)?))
@@ -121,7 +123,7 @@ pub(super) fn check_joints(
         return;
     }
     let by_name: HashMap<&str, &Joint> = joints.iter().map(|joint| (&*joint.name, joint)).collect();
-    for (name, span, view) in root.named("joint") {
+    for (name, span, view) in root.named(&scene::JOINT) {
         let Some(joint) = by_name.get(name) else { continue };
         let before = context.diagnostics.len();
         let mut wrong = |what: String, span: Span, label: &str, help: &str| {
@@ -148,12 +150,12 @@ pub(super) fn check_joints(
         };
         let kind = super::joint::kind(&view);
         if matches!(motor, Some(Motor::Value(_))) {
-            let place = kind.as_ref().and_then(|kind| kind.key_span("motor")).unwrap_or(span);
+            let place = kind.as_ref().and_then(|kind| kind.key_span(&hinge::MOTOR)).unwrap_or(span);
             let help = "give the motor a `stiffness` and a `damping`, or take the other scheme: \
                         `simulation.contacts = \"event-driven\"`";
             wrong(format!("the motor of `{name}` cannot keep its value exactly"), place, "", help);
         }
-        let arrows = kind.map(|kind| kind.table("arrows"));
+        let arrows = kind.map(|kind| kind.table(&hinge::ARROWS));
         for key in ["force", "torque"] {
             let place = arrows.as_ref().and_then(|arrows| arrows.key_span(key));
             if let Some(place) = place.filter(|_| joint.arrows.iter().any(Option::is_some)) {

@@ -7,6 +7,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::OwnTemplate;
+use crate::scene::grammar::scene::povray;
 use crate::scene::source::file;
 
 /// The maximum size of a template, in bytes.
@@ -17,7 +18,7 @@ pub(super) fn read(povray: &View<'_>, given: Option<&Path>, context: &mut Contex
     if let Some(folder) = given {
         return load(folder, None, context);
     }
-    let (Some(name), Some(span)) = (povray.text("templates"), povray.span("templates")) else {
+    let (Some(name), Some(span)) = (povray.get(&povray::TEMPLATES), povray.span(&povray::TEMPLATES)) else {
         return Vec::new();
     };
     if !context.trust {

@@ -101,7 +101,7 @@ table! {
     FRICTION: Option<f64> = super::FRICTION.default("the other body's; 0.5 if neither has one"),
     ROLLING_FRICTION: Option<f64> = super::ROLLING_FRICTION.default("0"),
     COLLIDES: Option<bool> = super::COLLIDES,
-    COLLISION_GROUP: Option<value::Text> = super::COLLISION_GROUP,
+    COLLISION_GROUP: Option<value::SharedText> = super::COLLISION_GROUP,
     MATERIAL: Any = KeySpec::new(
         "material",
         Either(&[Reference(Collection::Material), Table(&materials::material::TABLE)]),
@@ -135,14 +135,14 @@ table! {
     )
     .default_number(1.0)
     .also(&["size", "magnification", "enlarge"]),
-    SDL_BEFORE: Option<value::Text> = KeySpec::new(
+    SDL_BEFORE: Option<value::SharedText> = KeySpec::new(
         "sdl_before",
         Sdl(Where::Inside),
         "SDL at the end of its object, before its placing matrix: moves with the body",
     )
     .default("none")
     .also(&["sdl", "pre_sdl"]),
-    SDL_AFTER: Option<value::Text> = KeySpec::new("sdl_after", Sdl(Where::Inside), "SDL after that matrix: fixed in the world")
+    SDL_AFTER: Option<value::SharedText> = KeySpec::new("sdl_after", Sdl(Where::Inside), "SDL after that matrix: fixed in the world")
         .default("none")
         .also(&["post_sdl"]),
 }
@@ -160,6 +160,6 @@ table! {
     ANGLE: Option<f64> = KeySpec::new("angle", ANY, "The angle of rotation about `axis`, by the right-hand rule")
         .unit("degrees")
         .default("none"),
-    QUATERNION: Any = KeySpec::new("quaternion", Direction(4), "A quaternion [x, y, z, w] of any length")
+    QUATERNION: value::Quaternion = KeySpec::new("quaternion", Direction(4), "A quaternion [x, y, z, w] of any length")
         .default_numbers(&[0.0, 0.0, 0.0, 1.0]),
 }

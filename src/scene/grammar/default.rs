@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 /// The default for a missing key: a value, or a description in words.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DefaultValue {
     /// The key has no default: it is required, or its value is a table that may be empty.
     Nothing,

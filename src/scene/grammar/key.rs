@@ -115,7 +115,20 @@ impl Kind {
     }
 }
 
+impl KeySpec {
+    /// Returns true if another key of this name is read the same way, so that tables which share the key can be read by one function.
+    pub(in crate::scene) fn reads_like(&self, other: &KeySpec) -> bool {
+        std::mem::discriminant(&self.kind) == std::mem::discriminant(&other.kind)
+            && self.default.value() == other.default.value()
+    }
+}
+
 impl DefaultValue {
+    /// Returns the default if it is a value, and not only words.
+    fn value(self) -> Option<DefaultValue> {
+        Some(self).filter(|default| default.is_value())
+    }
+
     /// Returns true for a default that is a value, and not only words.
     const fn is_value(self) -> bool {
         !matches!(self, DefaultValue::Nothing | DefaultValue::Words(_))

@@ -31,9 +31,9 @@ table! {
     .default("given by `color` and `finish`")
     .also(&["base", "kind", "extends"]),
     FINISH: value::Text = KeySpec::new("finish", Choice(finishes), "How its surface reflects light").default_word("glossy"),
-    TEXTURE: Option<value::Text> = KeySpec::new("texture", Identifier, "The name of a texture from an include file")
+    TEXTURE: Option<value::SharedText> = KeySpec::new("texture", Identifier, "The name of a texture from an include file")
         .default("given by `color` and `finish`"),
-    SDL: Option<value::Text> = KeySpec::new(
+    SDL: Option<value::SharedText> = KeySpec::new(
         "sdl",
         Sdl(Where::Inside),
         "SDL for the inside of an object: `texture { … }`, `interior { … }`",

@@ -28,7 +28,7 @@ const fn count() -> KeySpec {
 
 table! {
     repeat: "a repeat", Rule::ExactlyOne(&["count", "grid", "ring", "line", "curve", "scatter"]);
-    COUNT: Option<u32> = KeySpec::new(
+    COUNT: Option<i64> = KeySpec::new(
         "count",
         super::COUNT,
         "The number of copies, `ball[0]`, `ball[1]`, …, with the index `i` for formulas; `repeat = 9` \
@@ -57,7 +57,7 @@ table! {
 
 table! {
     grid: "a grid", Rule::Any;
-    COUNT: Any = KeySpec::new("count", List { of: &super::COUNT, min: 1, max: 3 }, "The numbers of copies along x, y and z")
+    COUNT: Option<Vec<i64>> = KeySpec::new("count", List { of: &super::COUNT, min: 1, max: 3 }, "The numbers of copies along x, y and z")
         .required()
         .also(&["counts", "size", "n"]),
     SPACING: Any = KeySpec::new(
@@ -73,7 +73,7 @@ table! {
 
 table! {
     ring: "a ring", Rule::Any;
-    COUNT: Option<u32> = count(),
+    COUNT: Option<i64> = count(),
     RADIUS: Option<f64> = KeySpec::new("radius", POSITIVE, "The radius of the circle through the copies' centers")
         .unit("m")
         .required()
@@ -97,7 +97,7 @@ table! {
 
 table! {
     line: "a line", Rule::Any;
-    COUNT: Option<u32> = count(),
+    COUNT: Option<i64> = count(),
     FROM: DVec3 = KeySpec::new("from", VECTOR, "The position of the first copy, relative to `location`")
         .unit("m")
         .default_numbers(&[0.0, 0.0, 0.0])
@@ -110,7 +110,7 @@ table! {
 
 table! {
     curve: "a curve", Rule::ExactlyOne(&["at", "points"]);
-    COUNT: Option<u32> = count(),
+    COUNT: Option<i64> = count(),
     AT: Any = KeySpec::new(
         "at",
         Formulas(3),
@@ -140,7 +140,7 @@ table! {
 
 table! {
     scatter: "a scatter", Rule::Any;
-    COUNT: Option<u32> = count(),
+    COUNT: Option<i64> = count(),
     WITHIN: Any = KeySpec::new("within", Table(&volume::TABLE), "The volume, which contains each copy entirely")
         .required()
         .also(&["in", "volume", "region"]),

@@ -247,7 +247,7 @@ table! {
 
 table! {
     output: "the output", Rule::Any;
-    SIZE: Any = KeySpec::new(
+    SIZE: Vec<i64> = KeySpec::new(
         "size",
         List { of: &Integer(1, 65535), min: 2, max: 2 },
         "Width and height of the images",

@@ -116,7 +116,7 @@ table! {
 
 table! {
     sdl: "a shape in SDL", Rule::Any;
-    OBJECT: Option<value::Text> = KeySpec::new(
+    OBJECT: Option<value::SharedText> = KeySpec::new(
         "object",
         Sdl(Where::Inside),
         "One object in SDL, in meters, with its center of mass at the origin; without `material` it \

@@ -7,6 +7,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{BodyId, Buoyancy, Dipoles, J2};
 use crate::scene::ForceKind;
+use crate::scene::grammar::forces::{buoyancy, dipoles, j2};
 
 impl Reader<'_, '_> {
     pub(super) fn buoyancy(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -29,7 +30,7 @@ impl Reader<'_, '_> {
             let message = || format!("the force `{name}` has no effect");
             self.no_effect(message, self.span, "without `simulation.gravity`, nothing is carried");
         }
-        let (density, level) = (view.number("density")?, view.number("level").unwrap_or_default());
+        let (density, level) = (view.get(&buoyancy::DENSITY)?, view.get(&buoyancy::LEVEL));
         Some(ForceKind::Buoyancy(Buoyancy { bodies: carried, density, level, gravity }))
     }
 
@@ -50,7 +51,7 @@ impl Reader<'_, '_> {
 
     pub(super) fn dipoles(&mut self, view: &View<'_>) -> ForceKind {
         let all = self.bodies;
-        let field = view.vector("field").unwrap_or_default();
+        let field = view.get(&dipoles::FIELD);
         (self.lack, self.softens) = ("it has no `magnetic_moment`", false);
         // With an external magnetic field, the force also acts on a single magnet.
         let alone = field != DVec3::ZERO;
@@ -58,13 +59,13 @@ impl Reader<'_, '_> {
         let (bodies, against) = self.pairs_or_one(view, 0.0, is_magnet, alone);
         let moments = bodies.iter().chain(against.iter().flatten());
         let moments = moments.map(|body| all[body.index()].magnetic_moment).collect();
-        let constant = view.number("constant").unwrap_or_default();
+        let constant = view.get(&j2::CONSTANT);
         ForceKind::Dipoles(Dipoles { bodies, against, moments, constant, field })
     }
 
     pub(super) fn j2(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let all = self.bodies;
-        let node = view.raw("of")?;
+        let node = view.raw(&j2::OF)?;
         let planet = self.body(node)?;
         let usable = |i: usize| i != planet && !all[i].shape.is_unbounded();
         let named = self.named(view);
@@ -91,10 +92,10 @@ impl Reader<'_, '_> {
         Some(ForceKind::J2(J2 {
             planet: BodyId::new(planet),
             bodies: bodies.into_iter().map(BodyId::new).collect(),
-            j2: view.number("j2")?,
-            radius: view.number("radius")?,
-            axis: view.direction::<3>("axis").map_or(DVec3::Y, DVec3::from_array),
-            constant: view.number("constant").unwrap_or_default(),
+            j2: view.get(&j2::J2)?,
+            radius: view.get(&j2::RADIUS)?,
+            axis: view.get(&j2::AXIS),
+            constant: view.get(&j2::CONSTANT),
         }))
     }
 }

@@ -11,6 +11,7 @@ use crate::physics::BodyId;
 use crate::scene::ForceKind;
 use crate::scene::expand::in_string;
 use crate::scene::expression::ExpressionError;
+use crate::scene::grammar::forces::formula;
 use crate::scene::law::{BodyFormula, FormulaLaw, QUANTITIES, quantities};
 
 /// The maximum number of bodies for which a formula is evaluated in the initial state.
@@ -25,22 +26,22 @@ type Quantities = [f64; QUANTITIES.len()];
 impl Reader<'_, '_> {
     pub(super) fn formula(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let bodies = self.movable(view);
-        let force = view.list_of_body("force")?;
-        let potential = match view.has("potential") {
-            true => Some(view.of_body("potential")?),
+        let force = view.get(&formula::FORCE)?;
+        let potential = match view.has(&formula::POTENTIAL) {
+            true => Some(view.get(&formula::POTENTIAL)?),
             false => None,
         };
         let law = match FormulaLaw::new(force, potential) {
             Ok(law) => law,
             Err(error) => {
-                let span = view.span("potential").unwrap_or(self.span);
+                let span = view.span(&formula::POTENTIAL).unwrap_or(self.span);
                 let diagnostic = Diagnostic::error(error.code, error.message).at(span, error.label);
                 self.context.diagnostics.push(error.help.into_iter().fold(diagnostic, Diagnostic::help));
                 return None;
             }
         };
         self.has_value_at_start(&law, &bodies);
-        if let Some(span) = view.span("potential") {
+        if let Some(span) = view.span(&formula::POTENTIAL) {
             self.belongs_to_force(&law, &bodies, view, span);
         }
         Some(ForceKind::Formula { bodies, law: Arc::new(law) })
@@ -92,7 +93,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let axis = (0..3).max_by(|a, b| off[*a].abs().total_cmp(&off[*b].abs())).unwrap_or(0);
-            let items = view.raw("force").map(|node| &node.value);
+            let items = view.raw(&formula::FORCE).map(|node| &node.value);
             let item = match items {
                 Some(crate::scene::source::Value::Array(items)) => items.get(axis).map(|item| item.span),
                 _ => None,

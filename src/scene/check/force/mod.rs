@@ -12,6 +12,8 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
+use crate::scene::grammar::forces::{constant, coulomb, drag, gravitation, lennard_jones, lorentz};
+use crate::scene::grammar::scene::scene;
 use crate::scene::source::Node;
 use crate::scene::{Body, Emitter, Force, ForceKind, SimulationSettings};
 
@@ -45,7 +47,7 @@ pub(super) fn read(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> Vec<Force> {
-    let tables = root.named("force");
+    let tables = root.named(&scene::FORCE);
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let before = context.diagnostics.len();
         let mut reader = Reader {
@@ -98,8 +100,8 @@ impl Reader<'_, '_> {
     fn constant(&mut self, view: &View<'_>) -> ForceKind {
         ForceKind::Constant(ConstantForce {
             bodies: self.movable(view),
-            force: view.vector("force").unwrap_or_default(),
-            torque: view.vector("torque").unwrap_or_default(),
+            force: view.get(&constant::FORCE),
+            torque: view.get(&constant::TORQUE),
         })
     }
 
@@ -107,35 +109,35 @@ impl Reader<'_, '_> {
         self.needs_one_of(view, &["linear", "quadratic"]);
         ForceKind::Drag(Drag {
             bodies: self.movable(view),
-            linear: view.number("linear").unwrap_or_default(),
-            quadratic: view.number("quadratic").unwrap_or_default(),
-            wind: view.vector("wind").unwrap_or_default(),
+            linear: view.get(&drag::LINEAR),
+            quadratic: view.get(&drag::QUADRATIC),
+            wind: view.get(&drag::WIND),
         })
     }
 
     fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
-        let softening = view.number("softening").unwrap_or_default();
+        let softening = view.get(&coulomb::SOFTENING);
         let (bodies, against) = self.pairs(view, softening, |_| true);
-        let constant = view.number("constant").unwrap_or_default();
+        let constant = view.get(&gravitation::CONSTANT);
         // With an opening angle of 0, no Barnes–Hut tree is used: the force is the exact sum over all pairs of bodies.
-        let opening_angle = view.number("opening_angle").filter(|&angle| angle > 0.0);
+        let opening_angle = view.get(&gravitation::OPENING_ANGLE).filter(|&angle| angle > 0.0);
         ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
     }
 
     fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
-        let softening = view.number("softening").unwrap_or_default();
+        let softening = view.get(&coulomb::SOFTENING);
         let all = self.bodies;
         let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
-        let constant = view.number("constant").unwrap_or_default();
+        let constant = view.get(&gravitation::CONSTANT);
         ForceKind::Coulomb(Coulomb { bodies, against, constant, softening })
     }
 
     fn lennard_jones(&mut self, view: &View<'_>) -> Option<ForceKind> {
         self.softens = false;
         let (bodies, against) = self.pairs(view, 0.0, |_| true);
-        let (epsilon, sigma) = (view.number("epsilon")?, view.number("sigma")?);
-        let cutoff = view.number("cutoff").unwrap_or(LennardJones::CUTOFF * sigma);
-        let smooth = view.boolean("smooth").unwrap_or_default();
+        let (epsilon, sigma) = (view.get(&lennard_jones::EPSILON)?, view.get(&lennard_jones::SIGMA)?);
+        let cutoff = view.get(&lennard_jones::CUTOFF).unwrap_or(LennardJones::CUTOFF * sigma);
+        let smooth = view.get(&lennard_jones::SMOOTH);
         Some(ForceKind::LennardJones(LennardJones { bodies, against, epsilon, sigma, cutoff, smooth }))
     }
 
@@ -143,8 +145,8 @@ impl Reader<'_, '_> {
         self.needs_one_of(view, &["electric", "magnetic"]);
         ForceKind::Lorentz(Lorentz {
             bodies: self.charged(view),
-            electric: view.vector("electric").unwrap_or_default(),
-            magnetic: view.vector("magnetic").unwrap_or_default(),
+            electric: view.get(&lorentz::ELECTRIC),
+            magnetic: view.get(&lorentz::MAGNETIC),
         })
     }
 

@@ -7,6 +7,7 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::BodyId;
 use crate::scene::Emitter;
+use crate::scene::grammar::forces::{constant, gravitation};
 
 impl Reader<'_, '_> {
     /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters if the force has no `on`.
@@ -21,10 +22,12 @@ impl Reader<'_, '_> {
             "dipoles" => false,
             _ => true,
         };
-        if matches!(kind, "gravitation" | "coulomb" | "lennard_jones" | "dipoles") && view.has("between") {
+        if matches!(kind, "gravitation" | "coulomb" | "lennard_jones" | "dipoles")
+            && view.has(&gravitation::BETWEEN)
+        {
             return Vec::new();
         }
-        let Some(items) = view.list("on") else { return (0..emitters.len()).filter(able).collect() };
+        let Some(items) = view.list(&constant::ON) else { return (0..emitters.len()).filter(able).collect() };
         let mut on = Vec::new();
         for item in items {
             let named = |emitter: &Emitter| item.as_str() == Some(&*emitter.name);
@@ -71,7 +74,7 @@ impl Reader<'_, '_> {
         }
         let before = on.len();
         on.retain(|body| bodies[body.index()].start.charge != 0.0 && !bodies[body.index()].start.fixed);
-        if on.is_empty() && before > 0 && !view.has("on") {
+        if on.is_empty() && before > 0 && !view.has(&constant::ON) {
             self.acts_on_nothing("there is none with a charge that can move");
         }
         on
@@ -79,14 +82,14 @@ impl Reader<'_, '_> {
 
     /// Returns the index of each body in `on`, with the source span of its name.
     fn spans(&self, view: &View<'_>) -> Vec<(usize, Span)> {
-        let items = view.list("on").unwrap_or_default();
+        let items = view.list(&constant::ON).unwrap_or_default();
         items.iter().filter_map(|item| Some((self.body(item)?, item.span))).collect()
     }
 
     /// Returns the index of each body in `on`, with the source span of its name. `None` if the force has no `on`. Reports a body that is
     /// named twice.
     pub(super) fn named(&mut self, view: &View<'_>) -> Option<Vec<(usize, Span)>> {
-        let items = view.list("on")?;
+        let items = view.list(&constant::ON)?;
         let mut seen = HashSet::with_capacity(items.len());
         let mut named = Vec::with_capacity(items.len());
         for item in items {

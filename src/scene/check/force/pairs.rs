@@ -6,6 +6,7 @@ use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::BodyId;
+use crate::scene::grammar::forces::gravitation;
 use crate::scene::source::Value;
 
 /// The index of a body, and the source span of its name. The span is `None` if the scene does not name the body for this force.
@@ -49,7 +50,7 @@ impl Reader<'_, '_> {
             }
             return (numbers(&first), Some(numbers(&second)));
         }
-        if view.has("between") {
+        if view.has(&gravitation::BETWEEN) {
             // The validation has already reported the error in `between`.
             return (Vec::new(), None);
         }
@@ -59,7 +60,7 @@ impl Reader<'_, '_> {
         };
         let moving = on.iter().any(|&(i, _)| !bodies[i].start.fixed);
         let least = if alone { 1 } else { 2 };
-        if on.len() < least && !view.has("on") || on.len() == 1 && !alone {
+        if on.len() < least && !view.has(&gravitation::ON) || on.len() == 1 && !alone {
             self.acts_on_nothing("it takes two bodies");
         } else if !moving && on.len() >= least {
             self.acts_on_nothing("all of them are fixed");
@@ -81,7 +82,7 @@ impl Reader<'_, '_> {
 
     /// Reads the two groups of bodies in `between`. All copies of a repeated body have the span of the body's name, and form one group.
     fn groups(&mut self, view: &View<'_>) -> Option<[Vec<(usize, Span)>; 2]> {
-        let items = view.list("between")?;
+        let items = view.list(&gravitation::BETWEEN)?;
         let mut groups: Vec<(Span, Vec<(usize, Span)>)> = Vec::new();
         for item in items {
             let members: Vec<(usize, Span)> = match &item.value {
@@ -110,7 +111,7 @@ impl Reader<'_, '_> {
                 let help = "each is a body, the copies of one, or a list: `between = [[\"sun\", \"moon\"], \"ship\"]`";
                 self.context
                     .diagnostics
-                    .extend(view.span("between").map(|span| error.at(span, "").help(help)));
+                    .extend(view.span(&gravitation::BETWEEN).map(|span| error.at(span, "").help(help)));
                 None
             }
         }

@@ -6,16 +6,17 @@ use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Anchor, Spring};
 use crate::scene::ForceKind;
+use crate::scene::grammar::forces::spring;
 use crate::scene::source::Node;
 
 impl Reader<'_, '_> {
     /// Reads a chain of springs: one spring between each two consecutive ends in `between`.
     pub(super) fn spring(&mut self, view: &View<'_>) -> Option<ForceKind> {
-        let nodes = view.list("between")?;
-        self.chain_of_groups(nodes, view.span("between"));
-        let rest_length = view.number("rest_length");
-        let stiffness = view.number("stiffness")?;
-        let damping = view.number("damping")?;
+        let nodes = view.list(&spring::BETWEEN)?;
+        self.chain_of_groups(nodes, view.span(&spring::BETWEEN));
+        let rest_length = view.get(&spring::REST_LENGTH);
+        let stiffness = view.get(&spring::STIFFNESS)?;
+        let damping = view.get(&spring::DAMPING);
         let mut links = Vec::with_capacity(nodes.len());
         for neighbours in nodes.windows(2) {
             let [first, second] = neighbours else { continue };

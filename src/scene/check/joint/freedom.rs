@@ -8,6 +8,7 @@ use crate::physics::{Coordinate, Freedom, Motor, Servo};
 use crate::scene::check::motion;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
+use crate::scene::grammar::joints::{hinge, turning};
 use crate::scene::joint::PrescribedCoordinate;
 
 /// The unit, symbol and keys for the coordinate of a joint: an angle for a hinge, a distance for a slider.
@@ -36,15 +37,15 @@ impl Reader<'_, '_> {
     pub(super) fn freedom(&mut self, view: &View<'_>, coordinate: Coordinate) -> (Freedom, Option<Servo>) {
         let words = if coordinate.is_angle() { &ANGLE_WORDS } else { &DISTANCE_WORDS };
         let limits = self.limits(view, words);
-        let Some(motor) = view.variant("motor") else { return (Freedom { limits, motor: None }, None) };
+        let Some(motor) = view.variant(&hinge::MOTOR) else { return (Freedom { limits, motor: None }, None) };
         if let Some(value) = motor.timed(words.value) {
             motion::finite(motor.raw(words.value), self.simulation, self.context);
             let target = Arc::new(PrescribedCoordinate { value, unit: words.unit });
-            let servo = motor.number("stiffness").map(|stiffness| Servo {
+            let servo = motor.get(&turning::STIFFNESS).map(|stiffness| Servo {
                 coordinate,
                 target: target.clone(),
                 stiffness,
-                damping: motor.number("damping").unwrap_or_default(),
+                damping: motor.get(&turning::DAMPING),
             });
             self.unused(
                 &motor,
@@ -58,8 +59,8 @@ impl Reader<'_, '_> {
             self.begins_at_zero(&motor, &target, words);
             return (Freedom { limits, motor: Some(Motor::Value(target)) }, None);
         }
-        let speed = motor.number("speed");
-        for key in ["stiffness", "damping"].into_iter().filter(|_| motor.has("speed")) {
+        let speed = motor.get(&turning::SPEED);
+        for key in ["stiffness", "damping"].into_iter().filter(|_| motor.has(&turning::SPEED)) {
             self.unused(
                 &motor,
                 key,
@@ -69,7 +70,7 @@ impl Reader<'_, '_> {
         let limit = motor.number(words.strength);
         if let (Some(_), None, false) = (speed, limit, motor.has(words.strength)) {
             let message = format!("the motor of the joint `{}` does not say how strong it is", self.name);
-            let span = view.span("motor").unwrap_or(self.span);
+            let span = view.span(&hinge::MOTOR).unwrap_or(self.span);
             let error = Diagnostic::error(Code::MissingKey, message);
             let error = error.at(span, format!("needs `{}`", words.strength));
             let help = format!(
@@ -84,8 +85,8 @@ impl Reader<'_, '_> {
     }
 
     fn limits(&mut self, view: &View<'_>, words: &Words) -> Option<[f64; 2]> {
-        let [low, high] = *view.numbers("limits")?.as_slice() else { return None };
-        let span = view.span("limits").unwrap_or(self.span);
+        let [low, high] = *view.get_as::<Vec<f64>>(&hinge::LIMITS)?.as_slice() else { return None };
+        let span = view.span(&hinge::LIMITS).unwrap_or(self.span);
         let Words { unit, symbol, .. } = *words;
         let mut wrong = |label: String, help: String| {
             let message = format!("the limits of the joint `{}` cannot hold", self.name);

@@ -15,7 +15,10 @@ use super::showing;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
+use crate::scene::grammar::joints::{hinge, joint, look, rod};
+use crate::scene::grammar::scene::scene;
 use crate::scene::source::Node;
+use crate::scene::value;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, SimulationSettings};
 
 /// The largest initial error of a joint's constraint that gives no warning, relative to the size of the joint. Rounding of coordinates
@@ -33,10 +36,10 @@ pub(super) fn read(
     context: &mut Context<'_>,
 ) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
-    let named = root.named("joint");
+    let named = root.named(&scene::JOINT);
     // Read gears last, because they couple other joints.
     let (gears, others): (Vec<_>, Vec<_>) =
-        named.into_iter().partition(|(_, _, view)| view.variant("gear").is_some());
+        named.into_iter().partition(|(_, _, view)| view.variant(&joint::GEAR).is_some());
     let gear_names: Vec<&str> = gears.iter().map(|(name, ..)| *name).collect();
     let method = simulation.method;
     for (name, span, view) in others.into_iter().chain(gears) {
@@ -51,10 +54,10 @@ pub(super) fn read(
         context.once(before, name, span);
         let Some((kind, servo)) = found else { continue };
         let arrows = arrows(&view);
-        let collides = self::kind(&view).and_then(|kind| kind.boolean("collides")).unwrap_or_default();
+        let collides = self::kind(&view).is_some_and(|kind| kind.get(&hinge::COLLIDES));
         if simulation.contacts.is_some() && kind.between().iter().any(|end| end.body().is_none()) {
             let before = context.diagnostics.len();
-            let key = self::kind(&view).and_then(|kind| kind.key_span("collides"));
+            let key = self::kind(&view).and_then(|kind| kind.key_span(&hinge::COLLIDES));
             let warning =
                 Diagnostic::warning(Code::NoEffect, format!("`collides` of `{name}` has no effect"));
             let why = "it joins a body to a point of the world";
@@ -80,7 +83,7 @@ pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
 /// Reads the arrows that show the reaction force and the reaction torque of a joint.
 fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
     let kind = kind(view);
-    let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table("arrows"), quantity.name());
+    let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table(&hinge::ARROWS), quantity.name());
     Quantity::OF_JOINTS.map(arrow)
 }
 
@@ -90,9 +93,9 @@ fn look(view: &View<'_>, kind: &JointKind) -> Option<JointLook> {
         return None;
     }
     let kind = self::kind(view)?;
-    let look = kind.table("look");
-    (kind.text("look") != Some("none"))
-        .then(|| JointLook { radius: look.number("radius"), color: look.color("color") })
+    let look = kind.table(&hinge::LOOK);
+    (kind.get_as::<value::Text>(&hinge::LOOK) != Some("none"))
+        .then(|| JointLook { radius: look.get(&look::RADIUS), color: look.get(&look::COLOR) })
 }
 
 /// Reads one joint.
@@ -108,36 +111,36 @@ struct Reader<'a, 'c> {
 
 impl Reader<'_, '_> {
     fn kind(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<(JointKind, Option<Servo>)> {
-        if let Some(hinge) = view.variant("hinge") {
+        if let Some(hinge) = view.variant(&joint::HINGE) {
             let (between, _) = self.joined(&hinge, true)?;
-            let axis = DVec3::from(hinge.direction("axis")?).normalize();
+            let axis = DVec3::from(hinge.get(&hinge::AXIS)?).normalize();
             let axis = self.in_axes_of(between[0], axis);
             let joint = Hinge::new(between, axis, self.turned(between));
             let (freedom, servo) = self.freedom(&hinge, joint.coordinate());
             return Some((JointKind::Hinge(joint.with(freedom)), servo));
         }
-        if let Some(slider) = view.variant("slider") {
+        if let Some(slider) = view.variant(&joint::SLIDER) {
             let (between, _) = self.joined(&slider, false)?;
-            let axis = DVec3::from(slider.direction("axis")?).normalize();
+            let axis = DVec3::from(slider.get(&hinge::AXIS)?).normalize();
             let axis = self.in_axes_of(between[0], axis);
             let turned = self.turned(between);
             let joint = Slider { between, axis, turned, freedom: Freedom::default() };
             let (freedom, servo) = self.freedom(&slider, joint.coordinate());
             return Some((JointKind::Slider(Slider { freedom, ..joint }), servo));
         }
-        let kind = if let Some(rod) = view.variant("rod") {
+        let kind = if let Some(rod) = view.variant(&joint::ROD) {
             JointKind::Rod(self.rod(&rod)?)
-        } else if let Some(ball) = view.variant("ball") {
+        } else if let Some(ball) = view.variant(&joint::BALL) {
             let (between, _) = self.joined(&ball, true)?;
             JointKind::Ball(Ball { between })
-        } else if let Some(rope) = view.variant("rope") {
+        } else if let Some(rope) = view.variant(&joint::ROPE) {
             JointKind::Rope(self.rope(&rope)?)
-        } else if let Some(pulley) = view.variant("pulley") {
+        } else if let Some(pulley) = view.variant(&joint::PULLEY) {
             JointKind::Pulley(self.pulley(&pulley)?)
-        } else if let Some(gear) = view.variant("gear") {
+        } else if let Some(gear) = view.variant(&joint::GEAR) {
             JointKind::Gear(self.gear(&gear, joints)?)
         } else {
-            let (between, _) = self.joined(&view.variant("fixed")?, false)?;
+            let (between, _) = self.joined(&view.variant(&joint::FIXED)?, false)?;
             JointKind::Fixed(Fixed { between, turned: self.turned(between) })
         };
         Some((kind, None))
@@ -147,7 +150,7 @@ impl Reader<'_, '_> {
         let (between, nodes) = self.ends(view, &[])?;
         let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
         let distance = from.distance(to);
-        let length = view.number("length").unwrap_or(distance);
+        let length = view.get(&rod::LENGTH).unwrap_or(distance);
         if distance == 0.0 {
             let message = format!("the ends of the rod `{}` are at the same place", self.name);
             let help = "a joint without length is a `ball`";
@@ -155,7 +158,7 @@ impl Reader<'_, '_> {
             return None;
         }
         let missing = (distance - length).abs();
-        let span = view.span("length").unwrap_or(self.span);
+        let span = view.span(&rod::LENGTH).unwrap_or(self.span);
         let what = format!(
             "its ends are {} m apart at the start",
             figure(format!("{distance:.9}").parse().unwrap_or(distance))
@@ -173,7 +176,7 @@ impl Reader<'_, '_> {
         let says: [bool; 2] =
             std::array::from_fn(|i| matches!(between[i], Anchor::Point(_)) || end::says_point(nodes[i]));
         let places = between.map(|anchor| end::place(anchor, bodies));
-        let at = view.vector("at");
+        let at = view.get(&hinge::AT);
         let point = match (at, says) {
             (Some(at), _) => at,
             (None, [true, _]) => places[0],
@@ -232,7 +235,7 @@ impl Reader<'_, '_> {
     /// Reads the two ends of a joint. At least one of them, or of the points `over` which a rope runs, must be able to move, and not all of
     /// them may be on one body.
     fn ends<'n>(&mut self, view: &View<'n>, over: &[Anchor]) -> Option<([Anchor; 2], [&'n Node; 2])> {
-        let [first, second] = view.list("between")? else { return None };
+        let [first, second] = view.list(&hinge::BETWEEN)? else { return None };
         let between = [end::anchor(first, self.context)?, end::anchor(second, self.context)?];
         let moves = |end: &Anchor| {
             end.body().is_some_and(|id| {

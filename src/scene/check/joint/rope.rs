@@ -6,6 +6,7 @@ use crate::physics::{Anchor, Coordinate, Gear, Pulley, Rope};
 use crate::scene::check::end;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
+use crate::scene::grammar::joints::{gear, pulley};
 use crate::scene::source::Value;
 use crate::scene::{Joint, JointKind};
 
@@ -17,7 +18,7 @@ impl Reader<'_, '_> {
         let (between, nodes) = self.ends(view, &[])?;
         let [from, to] = between.map(|anchor| end::place(anchor, self.bodies));
         let distance = from.distance(to);
-        let length = view.number("length").unwrap_or(distance);
+        let length = view.get(&pulley::LENGTH).unwrap_or(distance);
         if length == 0.0 {
             let message = format!("the rope `{}` has no length", self.name);
             let help = "say how long it is: `length = 1`";
@@ -29,16 +30,16 @@ impl Reader<'_, '_> {
     }
 
     pub(super) fn pulley(&mut self, view: &View<'_>) -> Option<Pulley> {
-        let nodes = view.list("over")?;
+        let nodes = view.list(&pulley::OVER)?;
         let over = nodes.iter().map(|node| end::anchor(node, self.context)).collect::<Option<Vec<_>>>()?;
         let (between, _) = self.ends(view, &over)?;
-        let mut pulley = Pulley::new(between, &over, view.number("ratio")?, 0.0);
+        let mut pulley = Pulley::new(between, &over, view.get(&pulley::RATIO), 0.0);
         let way = |ends: [Anchor; 2]| {
             let [from, to] = ends.map(|end| end::place(end, self.bodies));
             from.distance(to)
         };
         let needed = pulley.parts().map(|part| part.factor * way(part.ends)).sum();
-        pulley.length = view.number("length").unwrap_or(needed).max(needed);
+        pulley.length = view.get(&pulley::LENGTH).unwrap_or(needed).max(needed);
         let nearest = pulley.nearest();
         let ways = pulley.parts().map(|part| (part.can_change, way(part.ends)));
         let near = ways.enumerate().find(|(_, (can_change, way))| *can_change && *way < nearest);
@@ -61,13 +62,13 @@ impl Reader<'_, '_> {
 
     /// Reports a rope whose `length` is less than the initial length `needed`, m.
     fn reaches(&mut self, view: &View<'_>, needed: f64, what: &str, whose: &str) {
-        let length = view.number("length").unwrap_or(needed);
+        let length = view.get(&pulley::LENGTH).unwrap_or(needed);
         if needed <= length * (1.0 + LENGTH_TOLERANCE) {
             return;
         }
         let message =
             format!("{whose} `{}` is too short: {} m are missing", self.name, about(needed - length));
-        let span = view.span("length").unwrap_or(self.span);
+        let span = view.span(&pulley::LENGTH).unwrap_or(self.span);
         let needed = figure(format!("{needed:.9}").parse().unwrap_or(needed));
         let error = Diagnostic::error(Code::JointApart, message);
         let error = error.at(span, format!("{what} {needed} m at the start"));
@@ -78,8 +79,8 @@ impl Reader<'_, '_> {
 
     /// Reads a gear. `joints` holds the joints that the gear may couple.
     pub(super) fn gear(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<Gear> {
-        let nodes = view.list("joints")?;
-        let ratio = view.number("ratio");
+        let nodes = view.list(&gear::JOINTS)?;
+        let ratio = view.get(&gear::RATIO);
         let mut coordinates: Vec<Coordinate> = Vec::new();
         let mut names: Vec<&str> = Vec::new();
         for node in nodes {
@@ -110,7 +111,7 @@ impl Reader<'_, '_> {
         let ratio = ratio?;
         if ratio == 0.0 {
             let message = format!("the gear `{}` has a ratio of 0", self.name);
-            let span = view.span("ratio").unwrap_or(self.span);
+            let span = view.span(&gear::RATIO).unwrap_or(self.span);
             let help = "such as `ratio = -2`: the second turns twice as fast, the other way";
             self.refuse(message, span, "the second would never move", help);
             return None;

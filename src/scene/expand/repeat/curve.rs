@@ -7,6 +7,7 @@ use super::pattern::fraction;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::Expander;
 use crate::scene::expression::{Formula, Program, Scope};
+use crate::scene::grammar::repeat::curve;
 use crate::scene::source::{Node, Value};
 use crate::scene::view::View;
 
@@ -27,15 +28,15 @@ impl Expander<'_> {
     /// Reads the curve of a `repeat` and places its copies. `at` is the list of three coordinate formulas, or `None` for a curve given by
     /// points.
     pub(super) fn curve(&mut self, view: &View<'_>, at: Option<&Node>) -> Option<Curve> {
-        let count = usize::try_from(view.integer("count")?).ok()?;
-        let closed = view.boolean("closed")?;
-        let turned = view.boolean("turned")?;
+        let count = usize::try_from(view.get(&curve::COUNT)?).ok()?;
+        let closed = view.get(&curve::CLOSED);
+        let turned = view.get(&curve::TURNED);
         let (path, span) = match at {
-            Some(node) if !view.has("points") => (self.formulas(node)?, node.span),
+            Some(node) if !view.has(&curve::POINTS) => (self.formulas(node)?, node.span),
             Some(_) => return None,
             None => {
-                let points = view.vectors("points")?;
-                (Path::Points { points, closed }, view.span("points")?)
+                let points = view.get_as::<Vec<DVec3>>(&curve::POINTS)?;
+                (Path::Points { points, closed }, view.span(&curve::POINTS)?)
             }
         };
         let samples = self.samples(&path, at, count)?;

@@ -8,6 +8,8 @@ use super::scatter::Scatter;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::expand::Expander;
 use crate::scene::grammar::TableSpec;
+use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::repeat::{grid, line, repeat, ring};
 use crate::scene::source::{Entry, Node, Table, Value};
 use crate::scene::view::View;
 
@@ -50,40 +52,40 @@ impl Expander<'_> {
         let alone = Table { entries: vec![repeat.clone()].into() };
         let body = View::new(spec, Some(&alone));
         if matches!(repeat.node.value, Value::Integer(_)) {
-            return Some(Pattern::Count(number(body.integer("repeat")?)));
+            return Some(Pattern::Count(number(body.get_as::<i64>(&body::REPEAT)?)));
         }
-        let view = body.variant("repeat")?;
-        if view.has("count") {
-            return Some(Pattern::Count(number(view.integer("count")?)));
+        let view = body.variant(&body::REPEAT)?;
+        if view.has(&repeat::COUNT) {
+            return Some(Pattern::Count(number(view.get(&repeat::COUNT)?)));
         }
-        if let Some(grid) = view.variant("grid") {
+        if let Some(grid) = view.variant(&repeat::GRID) {
             return self.grid(&grid);
         }
-        if let Some(ring) = view.variant("ring") {
+        if let Some(ring) = view.variant(&repeat::RING) {
             return Some(Pattern::Ring {
-                count: number(ring.integer("count")?),
-                radius: ring.number("radius")?,
-                axis: DVec3::from_array(ring.direction::<3>("axis")?),
-                turned: ring.boolean("turned")?,
+                count: number(ring.get(&ring::COUNT)?),
+                radius: ring.get(&ring::RADIUS)?,
+                axis: ring.get(&ring::AXIS),
+                turned: ring.get(&ring::TURNED),
             });
         }
-        if let Some(line) = view.variant("line") {
-            let (count, to) = (number(line.integer("count")?), line.vector("to")?);
-            return Some(Pattern::Line { count, from: line.vector("from")?, to });
+        if let Some(line) = view.variant(&repeat::LINE) {
+            let (count, to) = (number(line.get(&line::COUNT)?), line.get(&line::TO)?);
+            return Some(Pattern::Line { count, from: line.get(&line::FROM), to });
         }
-        if let Some(view) = view.variant("curve") {
+        if let Some(view) = view.variant(&repeat::CURVE) {
             let at = Curve::formulas(&repeat.node);
             return self.curve(&view, at).map(Pattern::Curve);
         }
-        Scatter::read(&view.variant("scatter")?).map(Pattern::Scatter)
+        Scatter::read(&view.variant(&repeat::SCATTER)?).map(Pattern::Scatter)
     }
 
     fn grid(&mut self, view: &View<'_>) -> Option<Pattern> {
-        let counts = view.integers("count")?;
+        let counts = view.get(&grid::COUNT)?;
         let counts: Vec<usize> = counts.into_iter().map(number).collect();
-        let spacing = match view.number("spacing") {
+        let spacing = match view.get_as::<f64>(&grid::SPACING) {
             Some(spacing) => vec![spacing; counts.len()],
-            None if view.has("spacing") => view.numbers("spacing")?,
+            None if view.has(&grid::SPACING) => view.get_as::<Vec<f64>>(&grid::SPACING)?,
             None => vec![0.0; counts.len()],
         };
         if spacing.len() != counts.len() {
@@ -94,7 +96,8 @@ impl Expander<'_> {
             let message = format!("expected spacings of {directions}, found {}", spacing.len());
             let error =
                 Diagnostic::error(Code::WrongLength, message).help("one number is for all directions");
-            let (spacings, spacing, count) = (spacing.len(), view.span("spacing")?, view.span("count")?);
+            let (spacings, spacing, count) =
+                (spacing.len(), view.span(&grid::SPACING)?, view.span(&grid::COUNT)?);
             let error = error.at(spacing, "").at(count, format!("the grid has {directions}"));
             // The suggestion adds a count of 1 for each direction that only `spacing` has.
             let padded = counts.iter().map(usize::to_string).chain(std::iter::repeat("1".to_owned()));

@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 use super::Place;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::random::Stream;
+use crate::scene::grammar::repeat::{cuboid, cylinder, scatter, sphere, volume};
 use crate::scene::view::View;
 
 /// The settings of `repeat.scatter`, which places copies at random.
@@ -46,20 +47,20 @@ enum Why {
 
 impl Scatter {
     pub(super) fn read(view: &View<'_>) -> Option<Scatter> {
-        let within = view.variant("within")?;
-        let volume = if let Some(view) = within.variant("box") {
-            Volume::Box { size: view.vector("size")? }
-        } else if let Some(view) = within.variant("sphere") {
-            Volume::Sphere { radius: view.number("radius")? }
+        let within = view.variant(&scatter::WITHIN)?;
+        let volume = if let Some(view) = within.variant(&volume::BOX) {
+            Volume::Box { size: view.get(&cuboid::SIZE)? }
+        } else if let Some(view) = within.variant(&volume::SPHERE) {
+            Volume::Sphere { radius: view.get(&sphere::RADIUS)? }
         } else {
-            let view = within.variant("cylinder")?;
-            Volume::Cylinder { radius: view.number("radius")?, height: view.number("height")? }
+            let view = within.variant(&volume::CYLINDER)?;
+            Volume::Cylinder { radius: view.get(&cylinder::RADIUS)?, height: view.get(&cylinder::HEIGHT)? }
         };
         Some(Scatter {
-            count: usize::try_from(view.integer("count")?).ok()?,
+            count: usize::try_from(view.get(&scatter::COUNT)?).ok()?,
             volume,
-            gap: view.number("gap")?,
-            turned: view.boolean("turned")?,
+            gap: view.get(&scatter::GAP),
+            turned: view.get(&scatter::TURNED),
         })
     }
 
