@@ -12,16 +12,17 @@ use crate::physics::{RigidBody, Shape};
 use crate::scene::grammar::bodies::{body, orientation};
 use crate::scene::grammar::scene::povray;
 use crate::scene::grammar::shapes::shape as shape_keys;
+use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::palette::Palette;
 use crate::scene::source::Table;
 use crate::scene::value;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
 
 /// The keys for the initial velocities of a body.
-const VELOCITY_KEYS: [&str; 2] = ["velocity", "angular_velocity"];
+static VELOCITY_KEYS: [&Key<DVec3>; 2] = [&body::VELOCITY, &body::ANGULAR_VELOCITY];
 /// The keys for the moments of inertia and the constant loads of a body. They have no effect on a body that is fixed or has a given motion.
 /// [`super::effect`] warns of a mass that has no effect.
-const INERTIA_AND_LOAD_KEYS: [&str; 3] = ["inertia", "force", "torque"];
+static INERTIA_AND_LOAD_KEYS: [&KeySpec; 3] = [&body::INERTIA.spec, &body::FORCE.spec, &body::TORQUE.spec];
 
 /// The parts of the body read before the current one. Copies of a body share these parts.
 struct Last {
@@ -132,18 +133,17 @@ fn start(name: &str, span: Span, view: &View<'_>, shape: &Shape, context: &mut C
     context.diagnostics.extend(open.filter(|_| needs_solid).map(|error| error.help(help)));
     // Moments of inertia that the scene gives refer to the body axes. Otherwise, the shape gives the principal axes.
     let principal_axes = inertia.map_or(shape.principal_axes(), |_| DQuat::IDENTITY);
-    let vector = |key: &str| view.vector(key).unwrap_or_default();
     RigidBody {
         mass,
         charge: view.get(&body::CHARGE),
         inertia: inertia.unwrap_or_else(|| inertia_of_shape(name, span, shape, mass, fixed, context)),
         principal_axes,
-        location: vector("location"),
+        location: view.get(&body::LOCATION),
         orientation: orientation(name, view, context),
-        velocity: vector("velocity"),
-        angular_velocity: vector("angular_velocity"),
-        force: vector("force"),
-        torque: vector("torque"),
+        velocity: view.get(&body::VELOCITY),
+        angular_velocity: view.get(&body::ANGULAR_VELOCITY),
+        force: view.get(&body::FORCE),
+        torque: view.get(&body::TORQUE),
         fixed,
     }
 }
@@ -171,8 +171,10 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
         context.diagnostics.push(error.at(span, always));
     }
     if motion.is_some() {
-        for key in VELOCITY_KEYS.into_iter().chain(INERTIA_AND_LOAD_KEYS).filter(|key| view.has(key)) {
-            let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
+        let keys = VELOCITY_KEYS.iter().map(|key| &key.spec).chain(INERTIA_AND_LOAD_KEYS);
+        for key in keys.filter(|key| view.has(key)) {
+            let message = format!("`{}` of `{name}` has no effect", key.name);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
             let why = "its motion is given";
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
@@ -180,16 +182,15 @@ fn fixed(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) 
     let fixed = scenery.is_some() || view.get(&body::FIXED);
     if fixed {
         let why = scenery.map_or("it is fixed", |(_, _, always)| always);
-        for key in VELOCITY_KEYS.into_iter().filter(|key| view.vector(key).is_some_and(|v| v != DVec3::ZERO))
-        {
+        for key in VELOCITY_KEYS.into_iter().filter(|key| view.get(key) != DVec3::ZERO) {
             let error = Diagnostic::error(
                 Code::FixedMoves,
-                format!("`{name}` is fixed, so its `{key}` must be [0, 0, 0]"),
+                format!("`{name}` is fixed, so its `{}` must be [0, 0, 0]", key.spec.name),
             );
             context.diagnostics.extend(view.key_span(key).map(|span| error.at(span, why)));
         }
         for key in INERTIA_AND_LOAD_KEYS.into_iter().filter(|key| view.has(key)) {
-            let message = format!("`{key}` of `{name}` has no effect");
+            let message = format!("`{}` of `{name}` has no effect", key.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
@@ -276,9 +277,11 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
 }
 
 /// Reports an orientation with an `axis` but no `angle`, or with an `angle` but no `axis`.
-pub(super) fn together(name: &str, orientation: &View<'_>, context: &mut Context<'_>) {
-    for (key, other, value) in [("axis", "angle", "45"), ("angle", "axis", "[0, 0, 1]")] {
-        if let (Some(span), false) = (orientation.key_span(key), orientation.has(other)) {
+pub(super) fn together(name: &str, table: &View<'_>, context: &mut Context<'_>) {
+    let (axis, angle) = (&orientation::AXIS.spec, &orientation::ANGLE.spec);
+    for (key, other, value) in [(axis, angle, "45"), (angle, axis, "[0, 0, 1]")] {
+        if let (Some(span), false) = (table.key_span(key), table.has(other)) {
+            let (key, other) = (key.name, other.name);
             let message = format!("`{key}` without `{other}` in the orientation of `{name}`");
             let error = Diagnostic::error(Code::MissingKey, message).at(span, format!("needs `{other}`"));
             let (place, text) = corrections::before(span, &format!("{other} = {value}"), context);

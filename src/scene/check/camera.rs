@@ -1,12 +1,16 @@
 //! Reads the main camera from `[camera]` and the other cameras from `[view.NAME]`.
 
+use glam::DVec3;
+
 use super::read::figure;
 use super::view::View as Keys;
 use super::{Context, motion};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::camera::{camera, follow, orbit};
 use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::timed::{Timed, TimedVector};
+use crate::scene::value;
 use crate::scene::{Blur, Body, Camera, CameraMotion, Follow, Projection, Shutter, SimulationSettings, View};
 
 /// The value of `--view` that selects all views. No view can have this name.
@@ -50,15 +54,15 @@ fn camera(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Camera {
-    let vector = |key: &str| tables.iter().find_map(|keys| keys.vector(key));
-    let timed = |key: &str| tables.iter().find_map(|keys| keys.timed_vector(key));
+    let vector = |key: &Key<Option<DVec3>>| tables.iter().find_map(|keys| keys.get(key));
+    let timed = |key: &Key<Option<value::TimedVector>>| tables.iter().find_map(|keys| keys.get(key));
     // Take the first table in which the user wrote the key. Otherwise, a default value of the view would hide the main camera's value.
-    let of = |key: &str| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
-    for key in ["location", "look_at", "angle"] {
-        motion::finite(tables[0].raw(key), simulation, context);
+    let of = |key: &KeySpec| tables.iter().find(|keys| keys.has(key)).unwrap_or(&tables[0]);
+    for key in [&camera::LOCATION.spec, &camera::LOOK_AT.spec, &camera::ANGLE.spec] {
+        motion::finite(tables[0].node(key), simulation, context);
     }
-    let (location, look_at) = (timed("location"), timed("look_at"));
-    let angle = of("angle").get(&camera::ANGLE);
+    let (location, look_at) = (timed(&camera::LOCATION), timed(&camera::LOOK_AT));
+    let angle = of(&camera::ANGLE.spec).get(&camera::ANGLE);
     // A view with its own location does not move with the main camera.
     let movers = if tables[0].has(&camera::LOCATION) { &tables[..1] } else { tables };
     let mut moving = CameraMotion {
@@ -79,13 +83,13 @@ fn camera(
         look_at = aims.as_ref().map(|track| track.at(0.0)).or(look_at);
         (moving.location, moving.look_at) = (places.or(moving.location), aims.or(moving.look_at));
     }
-    let number = |key: &str| tables.iter().find_map(|keys| keys.number(key));
+    let number = |key: &Key<Option<f64>>| tables.iter().find_map(|keys| keys.get(key));
     let orthographic = tables
         .iter()
         .find_map(|keys| keys.get(&camera::PROJECTION))
         .is_some_and(|word| word == "orthographic");
-    let open = number("shutter").filter(|open| *open > 0.0);
-    misplaced(&tables[0], orthographic, number("aperture").is_some(), open.is_some(), context);
+    let open = number(&camera::SHUTTER).filter(|open| *open > 0.0);
+    misplaced(&tables[0], orthographic, number(&camera::APERTURE).is_some(), open.is_some(), context);
     // Only check the camera's own `shutter`: an inherited one is reported for the main camera.
     if let (Some(open), Some(span)) = (tables[0].get(&camera::SHUTTER), tables[0].span(&camera::SHUTTER)) {
         context.diagnostics.extend(too_long(open, simulation).map(|error| error.at(span, "")));
@@ -96,16 +100,16 @@ fn camera(
         look_at,
         motion: moving,
         projection: if orthographic {
-            Projection::Orthographic { width: number("width") }
+            Projection::Orthographic { width: number(&camera::WIDTH) }
         } else {
             Projection::Perspective { angle: angle.at(0.0).clamp(0.1, 179.9) }
         },
-        blur: number("aperture").map(|aperture| Blur {
+        blur: number(&camera::APERTURE).map(|aperture| Blur {
             aperture,
-            focus: vector("focus"),
-            samples: of("blur_samples").get(&camera::BLUR_SAMPLES),
+            focus: vector(&camera::FOCUS),
+            samples: of(&camera::BLUR_SAMPLES.spec).get(&camera::BLUR_SAMPLES),
         }),
-        shutter: open.map(|open| Shutter { open, samples: of("samples").get(&camera::SAMPLES) }),
+        shutter: open.map(|open| Shutter { open, samples: of(&camera::SAMPLES.spec).get(&camera::SAMPLES) }),
     };
     if let (Some(location), Some(look_at)) = (camera.location, camera.look_at) {
         // POV-Ray draws nothing useful if rounding errors exceed the distance from the camera to its target.
@@ -113,8 +117,8 @@ fn camera(
         if near {
             let error =
                 Diagnostic::error(Code::CameraAtLookAt, "the camera is at the point that it looks at");
-            let span = |key: &str| tables.iter().find_map(|keys| keys.span(key));
-            let spans = span("look_at").into_iter().chain(span("location"));
+            let span = |key| tables.iter().find_map(|keys: &Keys<'_>| keys.span(key));
+            let spans = span(&camera::LOOK_AT.spec).into_iter().chain(span(&camera::LOCATION.spec));
             context.diagnostics.push(spans.fold(error, |error, span| error.at(span, "the same point")));
         }
     }
@@ -168,21 +172,21 @@ fn too_long(open: f64, simulation: &SimulationSettings) -> Option<Diagnostic> {
 
 /// Warns of camera keys that have no effect without another key, such as `focus` without `aperture`.
 fn misplaced(keys: &Keys<'_>, orthographic: bool, aperture: bool, shutter: bool, context: &mut Context<'_>) {
-    let mut report = |key: &str, needs: &str| {
-        let message = format!("`{key}` has no effect without {needs}");
+    let mut report = |key: &KeySpec, needs: &str| {
+        let message = format!("`{}` has no effect without {needs}", key.name);
         let warning = Diagnostic::warning(Code::NoEffect, message);
         context.diagnostics.extend(keys.key_span(key).map(|span| warning.at(span, "")));
     };
     if orthographic {
-        report("angle", "`projection = \"perspective\"`");
+        report(&camera::ANGLE.spec, "`projection = \"perspective\"`");
     } else {
-        report("width", "`projection = \"orthographic\"`");
+        report(&camera::WIDTH.spec, "`projection = \"orthographic\"`");
     }
     if !aperture {
-        report("focus", "`aperture`");
-        report("blur_samples", "`aperture`");
+        report(&camera::FOCUS.spec, "`aperture`");
+        report(&camera::BLUR_SAMPLES.spec, "`aperture`");
     }
     if !shutter {
-        report("samples", "`shutter`");
+        report(&camera::SAMPLES.spec, "`shutter`");
     }
 }

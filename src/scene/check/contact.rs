@@ -9,15 +9,25 @@ use super::stepping;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Shape, Surface};
+use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::emitters::emitter;
+use crate::scene::grammar::joints::hinge;
 use crate::scene::grammar::scene::{environment, scene, simulation};
 use crate::scene::grammar::shapes::shape;
 use crate::scene::{Body, Collider, ContactLaw, Environment, Ground, SimulationSettings};
 
 /// The keys for the surface properties of a body or of the ground.
-const SURFACE_KEYS: [&str; 3] = ["restitution", "friction", "rolling_friction"];
+static SURFACE_KEYS: [&KeySpec; 3] =
+    [&body::RESTITUTION.spec, &body::FRICTION.spec, &body::ROLLING_FRICTION.spec];
 /// The keys of a body that have an effect only if `simulation.contacts` is set.
-const OF_BODIES: [&str; 5] = ["restitution", "friction", "rolling_friction", "collides", "collision_group"];
+static OF_BODIES: [&KeySpec; 5] = [
+    &body::RESTITUTION.spec,
+    &body::FRICTION.spec,
+    &body::ROLLING_FRICTION.spec,
+    &body::COLLIDES.spec,
+    &body::COLLISION_GROUP.spec,
+];
 
 /// The largest initial depth below the ground that counts as a rounding error, relative to the sum of the body's extent downwards and its
 /// largest coordinate. The dynamics tolerates the same overlap between bodies.
@@ -39,9 +49,10 @@ pub(super) fn collider(
 ) -> Option<Collider> {
     // Without contacts, no body collides. `check` reports the keys that need contacts.
     simulation.contacts?;
-    let mut has_no_effect = |keys: &[&str], why: &str| {
+    let mut has_no_effect = |keys: &[&KeySpec], why: &str| {
         for key in keys {
-            let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
+            let message = format!("`{}` of `{name}` has no effect", key.name);
+            let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
     };
@@ -53,7 +64,7 @@ pub(super) fn collider(
     }
     if collides == Some(false) {
         has_no_effect(&SURFACE_KEYS, "it does not collide");
-        has_no_effect(&["collision_group"], "it does not collide");
+        has_no_effect(&[&body::COLLISION_GROUP.spec], "it does not collide");
         return None;
     }
     if simulation.contacts == Some(ContactLaw::EventDriven) && shape.has_torus() {
@@ -73,8 +84,11 @@ pub(super) fn collider(
 
 /// Reads the surface properties of a body or of the ground.
 fn surface(view: &View<'_>) -> Surface {
-    let [restitution, friction, rolling_friction] = SURFACE_KEYS.map(|key| view.number(key));
-    Surface { restitution, friction, rolling_friction }
+    Surface {
+        restitution: view.get(&body::RESTITUTION),
+        friction: view.get(&body::FRICTION),
+        rolling_friction: view.get(&body::ROLLING_FRICTION),
+    }
 }
 
 /// Prepares the ground for contacts: sets a missing height to 0, and adds the surface that stops bodies.
@@ -119,36 +133,38 @@ pub(super) fn check(
 
 /// Reports each key that needs `simulation.contacts`, once per source span. The first error has a fix that adds the missing line.
 fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
-    let mut wrong: Vec<(&str, Span)> = Vec::new();
+    let mut wrong: Vec<(&KeySpec, Span)> = Vec::new();
     for body in root.bodies() {
         body.look(|view| {
             // Without contacts, `collides = false` is true anyway.
-            let is_needless = |key: &&&str| **key != "collides" || view.get(&body::COLLIDES) != Some(false);
-            let keys = OF_BODIES.iter().filter(is_needless);
+            let says_no = view.get(&body::COLLIDES) == Some(false);
+            let keys = OF_BODIES.iter().filter(|key| !(says_no && key.name == body::COLLIDES.spec.name));
             wrong.extend(keys.filter_map(|key| Some((*key, view.key_span(key)?))));
         });
     }
     for (_, _, joint) in root.named(&scene::JOINT) {
-        let kind = super::joint::kind(&joint).filter(|kind| kind.get(&body::COLLIDES) == Some(true));
-        let span = kind.and_then(|kind| kind.key_span(&body::COLLIDES));
-        wrong.extend(span.map(|span| ("collides", span)));
+        let kind = super::joint::kind(&joint).filter(|kind| kind.get(&hinge::COLLIDES));
+        let span = kind.and_then(|kind| kind.key_span(&hinge::COLLIDES));
+        wrong.extend(span.map(|span| (&hinge::COLLIDES.spec, span)));
     }
     if let Some(ground) = root.table(&scene::ENVIRONMENT).variant(&environment::GROUND) {
         wrong.extend(SURFACE_KEYS.iter().filter_map(|key| Some((*key, ground.key_span(key)?))));
     }
     let bodies = "without it, bodies pass through each other";
-    let mut wrong: Vec<(&str, Span, &str)> =
+    let mut wrong: Vec<(&KeySpec, Span, &str)> =
         wrong.into_iter().map(|(key, span)| (key, span, bodies)).collect();
-    for (_, _, emitter) in root.named(&scene::EMITTER) {
-        let span = emitter.key_span(&body::COLLIDES).filter(|_| emitter.get(&body::COLLIDES) == Some(true));
-        wrong.extend(span.map(|span| ("collides", span, "without it, particles pass through bodies")));
+    for (_, _, view) in root.named(&scene::EMITTER) {
+        let span = view.key_span(&emitter::COLLIDES).filter(|_| view.get(&emitter::COLLIDES));
+        wrong.extend(
+            span.map(|span| (&emitter::COLLIDES.spec, span, "without it, particles pass through bodies")),
+        );
     }
     let mut said: Vec<Span> = Vec::new();
     for (key, span, label) in wrong {
         if said.contains(&span) {
             continue;
         }
-        let message = format!("`{key}` needs `simulation.contacts`");
+        let message = format!("`{}` needs `simulation.contacts`", key.name);
         let error = Diagnostic::error(Code::NoContacts, message)
             .at(span, label)
             .help("write `contacts = \"event-driven\"` in [simulation]");
@@ -165,7 +181,13 @@ fn needed(root: &View<'_>, simulation: &View<'_>, context: &mut Context<'_>) {
 fn insertion(root: &View<'_>, simulation: &View<'_>, at: Span, context: &Context<'_>) -> (Span, String) {
     /// The line that turns on event-driven contacts.
     const CONTACTS_LINE: &str = "contacts = \"event-driven\"";
-    let keys = ["duration", "frame_rate", "step", "integrator", "gravity"];
+    let keys = [
+        &simulation::DURATION.spec,
+        &simulation::FRAME_RATE.spec,
+        &simulation::STEP.spec,
+        &simulation::INTEGRATOR.spec,
+        &simulation::GRAVITY.spec,
+    ];
     let mut spans = keys.into_iter().filter_map(|key| simulation.key_span(key));
     if let Some(span) = spans.find(|span| is_file(span.source(), &context.sources)) {
         return before(span, CONTACTS_LINE, context);

@@ -5,6 +5,7 @@ use super::corrections::{insertion, is_file};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Severity, Span};
 use crate::physics::Spring;
+use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{Body, Force, ForceKind, Timeline};
 
@@ -73,11 +74,11 @@ pub(super) fn check(
         let error = Diagnostic::error(Code::TooManyFrames, message).help(help);
         let timeline = Timeline { frame_rate: one_digit(USUAL_FRAMES / duration), ..counts.timeline };
         let slower = Counts { timeline, ..counts };
-        let mut values = vec![("frame_rate", rate)];
+        let mut values = vec![(&simulation::FRAME_RATE.spec, rate)];
         if slower.steps() > MANY_STEPS && !view.has(&simulation::STEP) {
-            values.push(("step", written(one_digit(slower.sensible_step(bodies, forces)))));
+            values.push((&simulation::STEP.spec, written(one_digit(slower.sensible_step(bodies, forces)))));
         }
-        let error = point(error, &view, &["duration", "frame_rate"]);
+        let error = point(error, &view, &[&simulation::DURATION.spec, &simulation::FRAME_RATE.spec]);
         context.diagnostics.push(with_values(error, root, &view, &values, context));
         return;
     }
@@ -95,7 +96,7 @@ pub(super) fn check(
         point(
             Diagnostic::error(Code::TooManySteps, message).help(help),
             &view,
-            &["step", "duration", "frame_rate"],
+            &[&simulation::STEP.spec, &simulation::DURATION.spec, &simulation::FRAME_RATE.spec],
         )
     } else {
         let message = format!("the scene has {} timesteps: without `step`, each is 1/240 s", count(steps));
@@ -105,10 +106,10 @@ pub(super) fn check(
             count(Counts { step, ..counts }.steps().ceil())
         );
         let warning = Diagnostic::warning(Code::TooManySteps, message).help(help);
-        point(warning, &view, &["duration"])
+        point(warning, &view, &[&simulation::DURATION.spec])
     };
     let suits = Counts { step, ..counts }.steps() <= MANY_STEPS;
-    let values = [("step", written(step))];
+    let values = [(&simulation::STEP.spec, written(step))];
     context.diagnostics.push(if suits { with_values(said, root, &view, &values, context) } else { said });
 }
 
@@ -143,7 +144,7 @@ fn shortest_time(bodies: &[Body], forces: &[Force]) -> f64 {
 }
 
 /// Adds to the diagnostic a label at the value of each given key.
-fn point(error: Diagnostic, view: &View<'_>, keys: &[&str]) -> Diagnostic {
+fn point(error: Diagnostic, view: &View<'_>, keys: &[&KeySpec]) -> Diagnostic {
     keys.iter().filter_map(|key| view.span(key)).fold(error, |error, span| error.at(span, ""))
 }
 
@@ -152,10 +153,10 @@ fn with_values(
     said: Diagnostic,
     root: &View<'_>,
     view: &View<'_>,
-    values: &[(&str, String)],
+    values: &[(&KeySpec, String)],
     context: &Context<'_>,
 ) -> Diagnostic {
-    let edit = |(key, value): &(&str, String)| -> Option<(Span, String)> {
+    let edit = |(key, value): &(&KeySpec, String)| -> Option<(Span, String)> {
         match view.span(key) {
             Some(span) => Some((span, value.clone())),
             None => insertion(root.key_span(&scene::SIMULATION)?, &format!("{key} = {value}"), context),

@@ -6,6 +6,8 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::{Coulomb, Dipoles, Gravitation, J2, Lorentz};
+use crate::scene::grammar::KeySpec;
+use crate::scene::grammar::bodies;
 use crate::scene::{Body, Force, ForceKind};
 
 /// Warns of the mass of a fixed body on which no gravitation acts, and of a charge or a magnetic moment on which no force acts.
@@ -41,20 +43,22 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
     }
     for (i, (table, body)) in root.bodies().zip(bodies).enumerate() {
         let (name, before) = (table.name(), context.diagnostics.len());
-        let mut warn = |key: &str, why: &str| {
+        let mut warn = |key: &KeySpec, why: &str| {
             let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` of `{name}` has no effect"));
             let span = table.look(|view| view.key_span(key));
             context.diagnostics.extend(span.map(|span| warning.at(span, why)));
         };
         if body.start.fixed && !attracts[i] {
             let why = if body.shape.is_unbounded() { "a plane is always fixed" } else { "it is fixed" };
-            ["mass", "density"].into_iter().for_each(|key| warn(key, why));
+            [&bodies::body::MASS.spec, &bodies::body::DENSITY.spec]
+                .into_iter()
+                .for_each(|key| warn(key, why));
         }
         if body.start.charge != 0.0 && !electric[i] {
-            warn("charge", "no force acts on this charge");
+            warn(&bodies::body::CHARGE.spec, "no force acts on this charge");
         }
         if body.magnetic_moment != DVec3::ZERO && !magnetic[i] {
-            warn("magnetic_moment", "no force acts on this moment");
+            warn(&bodies::body::MAGNETIC_MOMENT.spec, "no force acts on this moment");
         }
         context.once(before, name, table.span());
     }

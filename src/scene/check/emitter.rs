@@ -14,6 +14,7 @@ use crate::scene::drawn::{Drawn, DrawnFormula};
 use crate::scene::expand::in_string;
 use crate::scene::grammar::emitters::{cuboid, disc, emitter, from, shape, sphere};
 use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::value;
 use crate::scene::{Body, Color, ContactLaw, Emitter, SimulationSettings};
 
@@ -29,7 +30,7 @@ const MAX_EARLY_BIRTHS: f64 = 1e12;
 const SAMPLES_PER_FORMULA: u64 = 4096;
 
 /// The keys for the surface properties of particles.
-const SURFACE_KEYS: [&str; 2] = ["restitution", "friction"];
+static SURFACE_KEYS: [&Key<Option<f64>>; 2] = [&emitter::RESTITUTION, &emitter::FRICTION];
 
 /// Reads one emitter.
 struct Reader<'a, 'c> {
@@ -48,7 +49,7 @@ pub(super) fn read(
     bodies: &[Body],
     context: &mut Context<'_>,
 ) -> Vec<Emitter> {
-    let usual_seed = root.get(&emitter::SEED).unwrap_or_default();
+    let usual_seed = root.get(&scene::SEED);
     let read = |(name, span, view): (&str, Span, View<'_>)| {
         let seed = view.get(&emitter::SEED).unwrap_or(usual_seed);
         let random = Stream::new(u64::from(seed), &format!("emitter.{name}"));
@@ -64,7 +65,7 @@ impl Reader<'_, '_> {
         let (lifetime, longest_life) = self.lifetime(&births);
         let speed = view.get(&emitter::SPEED);
         if let Drawn::Formula(formula) = &speed {
-            self.each_draw("speed", formula, &births, |_| None);
+            self.each_draw(&emitter::SPEED.spec, formula, &births, |_| None);
         }
         let direction = view.get(&emitter::DIRECTION);
         let (origin, carrier) = self.origin(direction);
@@ -115,12 +116,12 @@ impl Reader<'_, '_> {
     /// Reads the surface properties of the particles. `None` if the particles do not collide.
     fn surface(&mut self) -> Option<Surface> {
         let view = self.view;
-        let [restitution, friction] = SURFACE_KEYS.map(|key| view.number(key));
+        let [restitution, friction] = SURFACE_KEYS.map(|key| view.get(key));
         if view.get(&emitter::COLLIDES) {
             return Some(Surface { restitution, friction, rolling_friction: None });
         }
         for key in SURFACE_KEYS {
-            let message = format!("`{key}` of `{}` has no effect", self.name);
+            let message = format!("`{}` of `{}` has no effect", key.spec.name, self.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             let help = "let bodies stop its particles: `collides = true`";
             let warning = |span| warning.at(span, "its particles do not collide").help(help);
@@ -138,7 +139,7 @@ impl Reader<'_, '_> {
                 let message = format!("`{}` would have {most:.0} particles at once that collide", self.name);
                 let error = Diagnostic::error(Code::TooManyParticles, message);
                 let label = format!("with `event-driven` contacts, at most {MAX_COLLIDING} may");
-                let key = if self.view.has(&emitter::BURST) { "burst" } else { "rate" };
+                let key = self.how_many().name;
                 let help = format!(
                     "take the other scheme, which has no such limit: `simulation.contacts = \"time-stepping\"`; or let fewer \
                      be born by `{key}`, or let them live shorter by `lifetime`"
@@ -176,7 +177,7 @@ impl Reader<'_, '_> {
             let message =
                 format!("`{}` starts at {} s and ends at {} s", self.name, figure(start), figure(end));
             let error = Diagnostic::error(Code::EndBeforeStart, message);
-            let spans = [("end", "this must be later"), ("start", "than this")];
+            let spans = [(&emitter::END.spec, "this must be later"), (&emitter::START.spec, "than this")];
             let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
             self.context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         } else if start > simulation.timeline.end() {
@@ -205,8 +206,11 @@ impl Reader<'_, '_> {
     /// Warns of colors and sizes that change over a life, if lives do not end.
     fn warn_of_endless_lives(&mut self) {
         let is_list = [
-            ("color", self.view.get(&emitter::COLOR).is_some_and(|colors| colors.len() > 1)),
-            ("size", self.view.get_as::<Vec<f64>>(&emitter::SIZE).is_some_and(|sizes| sizes.len() > 1)),
+            (&emitter::COLOR.spec, self.view.get(&emitter::COLOR).is_some_and(|colors| colors.len() > 1)),
+            (
+                &emitter::SIZE.spec,
+                self.view.get_as::<Vec<f64>>(&emitter::SIZE).is_some_and(|sizes| sizes.len() > 1),
+            ),
         ];
         for (key, _) in is_list.into_iter().filter(|(_, is_list)| *is_list) {
             let message = format!("only the first `{key}` of `{}` has an effect", self.name);
@@ -232,7 +236,7 @@ impl Reader<'_, '_> {
             Drawn::Constant(lifetime) => *lifetime,
             Drawn::Formula(formula) => {
                 let too_short = |life: f64| (life <= 0.0).then(|| format!("a life of {life:.3} s"));
-                self.each_draw("lifetime", formula, births, too_short)
+                self.each_draw(&emitter::LIFETIME.spec, formula, births, too_short)
             }
         };
         (lifetime, longest)
@@ -242,7 +246,7 @@ impl Reader<'_, '_> {
     /// rejects.
     fn each_draw(
         &mut self,
-        key: &str,
+        key: &KeySpec,
         formula: &DrawnFormula,
         births: &Births,
         wrong: impl Fn(f64) -> Option<String>,
@@ -337,11 +341,16 @@ impl Reader<'_, '_> {
         self.context.diagnostics.push(error.at(self.view.span(&emitter::START).unwrap_or(self.span), label));
     }
 
+    /// Returns the key that says how many particles are born.
+    fn how_many(&self) -> &'static KeySpec {
+        if self.view.has(&emitter::BURST) { &emitter::BURST.spec } else { &emitter::RATE.spec }
+    }
+
     fn not_too_many(&mut self, emitter: &Emitter) {
         let most = emitter.most_alive(self.simulation.timeline.end());
         // Particles that die before the next frame take computing time too.
         let between_frames = emitter.births_within(self.simulation.timeline.interval());
-        let key = if self.view.has(&emitter::BURST) { "burst" } else { "rate" };
+        let key = self.how_many();
         if most <= MAX_ALIVE && between_frames > MAX_ALIVE {
             let message =
                 format!("`{}` would have {between_frames:.0} births from one frame to the next", self.name);

@@ -22,7 +22,7 @@ pub(super) fn anchor(node: &Node, context: &Context<'_>) -> Option<Anchor> {
         Value::Array(_) => read::vector(node, Bound::Any).map(Anchor::Point),
         Value::Table(ref table) => {
             let view = View::new(&end::TABLE, Some(table));
-            let id = BodyId::new(body(view.raw(&end::BODY)?, context)?);
+            let id = BodyId::new(body(view.node(&end::BODY)?, context)?);
             Some(Anchor::Body { id, at: view.get(&end::AT) })
         }
         _ => body(node, context).map(|body| Anchor::centre(BodyId::new(body))),

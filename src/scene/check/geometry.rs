@@ -7,6 +7,7 @@ use super::{Context, body, shape};
 use crate::diagnostic::Sources;
 use crate::scene::expand::{Geometer, Geometry};
 use crate::scene::grammar::TableSpec;
+use crate::scene::grammar::bodies;
 use crate::scene::source::Table;
 
 /// Reads the bounding radius and the orientation of bodies before the check. Reads each mesh file only once.
@@ -27,7 +28,7 @@ impl<'a> BodyReader<'a> {
 impl Geometer for BodyReader<'_> {
     fn of(&mut self, table: &Table, spec: &'static TableSpec) -> Geometry {
         let view = View::new(spec, Some(table));
-        let shape = view.table("shape");
+        let shape = view.table(&bodies::body::SHAPE);
         let radius = match &self.last {
             Some((last, radius)) if shape.is_same(last.as_ref()) => *radius,
             _ => shape::read("", &shape, &mut self.context).bounding_radius(),

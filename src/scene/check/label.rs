@@ -13,8 +13,8 @@ use crate::font;
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
-use crate::scene::grammar::quoted;
 use crate::scene::grammar::scene::{scene, simulation};
+use crate::scene::grammar::{KeySpec, quoted};
 use crate::scene::{
     Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
     ScaleBar, Side,
@@ -45,12 +45,12 @@ pub(super) fn read(
 }
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
-    let bar = wanted(root, "scale_bar")?;
+    let bar = wanted(root, &scene::SCALE_BAR)?;
     Some(ScaleBar { length: bar.get(&scale_bar::LENGTH), corner: corner(&bar) })
 }
 
 pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
-    let grid = wanted(root, "grid")?;
+    let grid = wanted(root, &scene::GRID)?;
     let plane = grid.choice(&grid::PLANE, GridPlane::ALL, GridPlane::name);
     Some(Grid { spacing: grid.get(&grid::SPACING), plane })
 }
@@ -61,20 +61,20 @@ fn corner(view: &View<'_>) -> Corner {
 
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
     let body = view.get(&label::BODY).and_then(|name| context.names.bodies.get(name).copied());
-    let mut useless = |key: &str, why: &str| {
-        let warning = Diagnostic::warning(Code::NoEffect, format!("`{key}` has no effect {why}"));
+    let mut useless = |key: &KeySpec, why: &str| {
+        let warning = Diagnostic::warning(Code::NoEffect, format!("`{}` has no effect {why}", key.name));
         context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, "")));
     };
     let Some(body) = body else {
         if !view.has(&label::BODY) {
-            useless("side", "without `body`");
-            useless("ghosts", "without `body`");
+            useless(&label::SIDE.spec, "without `body`");
+            useless(&label::GHOSTS.spec, "without `body`");
         }
         return LabelPlace::Corner(corner(view));
     };
     let ghosts = view.get(&label::GHOSTS);
     if ghosts && bodies[body].showing.ghosts.is_none() {
-        useless("ghosts", "where the body has none");
+        useless(&label::GHOSTS.spec, "where the body has none");
     }
     LabelPlace::Body { body, side: view.choice(&label::SIDE, Side::ALL, Side::name), ghosts }
 }

@@ -23,7 +23,7 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
             .diagnostics
             .extend(look.key_span(&look::SCALE).map(|span| warning.at(span, "a plane is endless")));
         // The template for a plane without a material draws the whole plane and cannot insert raw SDL.
-        for key in ["sdl_before", "sdl_after"].into_iter().filter(|_| !view.has(&scene::MATERIAL)) {
+        for key in [&look::SDL_BEFORE, &look::SDL_AFTER].into_iter().filter(|_| !view.has(&body::MATERIAL)) {
             let message = format!("`material` is missing in [body.{name}]");
             let error = Diagnostic::error(Code::MissingKey, message);
             let label = "only stands in planes with a material";
@@ -44,9 +44,8 @@ pub(super) fn lights(
     context: &mut Context<'_>,
 ) -> Vec<Light> {
     let read = |(name, _, view): (&str, _, View<'_>)| {
-        for key in ["point", "area"] {
-            motion::finite(view.table(key).raw(&body::LOCATION), simulation, context);
-        }
+        motion::finite(view.table(&light::POINT).node(&point::LOCATION), simulation, context);
+        motion::finite(view.table(&light::AREA).node(&area::LOCATION), simulation, context);
         Some(Light {
             name: name.to_owned(),
             kind: light_kind(&view)?,

@@ -12,7 +12,7 @@ use crate::physics::{Interpolation, Keyframe, Presence, Track};
 use crate::scene::SimulationSettings;
 use crate::scene::expand::in_string;
 use crate::scene::grammar::motion::trajectory as trajectory_keys;
-use crate::scene::grammar::motion::{formula, keyframe, keyframes, motion, turning};
+use crate::scene::grammar::motion::{columns, formula, keyframe, keyframes, motion, turning};
 use crate::scene::grammar::{bodies, camera};
 use crate::scene::motion::{BodyMotion, TimedOrientation};
 use crate::scene::source::{Node, Value};
@@ -72,10 +72,11 @@ fn by_formula(
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
 ) -> BodyMotion {
-    finite_while(presence, view.raw(&formula::LOCATION), simulation, context);
+    finite_while(presence, view.node(&formula::LOCATION), simulation, context);
     let orientation = if view.has(&formula::ORIENTATION) {
         let table = view.table(&formula::ORIENTATION);
-        for node in [view.raw(&formula::ORIENTATION), table.raw(&turning::EULER), table.raw(&turning::ANGLE)]
+        for node in
+            [view.node(&formula::ORIENTATION), table.node(&turning::EULER), table.node(&turning::ANGLE)]
         {
             finite_while(presence, node, simulation, context);
         }
@@ -311,7 +312,7 @@ fn by_trajectory(
     }
     let (presence, gaps) = presence::of_rows(&keys, &recording.times, simulation);
     if interpolation == Interpolation::Cubic
-        && let Some(node) = view.raw(&trajectory_keys::FILE)
+        && let Some(node) = view.node(&trajectory_keys::FILE)
     {
         let asset = asset::asset(node, context.folder, context.trust).ok()?;
         let is_named = recording.rows.contains_key(&Some(wanted.to_owned()));
@@ -347,15 +348,15 @@ pub(super) struct Rows {
 
 /// Returns the recording in the file that the table names. `None` if the file has errors, which have been reported.
 fn recording(view: &View<'_>, span: Span, context: &mut Context<'_>) -> Option<Arc<Recording>> {
-    let node = view.raw(&trajectory_keys::FILE)?;
+    let node = view.node(&trajectory_keys::FILE)?;
     // An error in the path has already been reported.
     let path = asset::asset(node, context.folder, context.trust).ok()?.path;
     let table = view.table(&trajectory_keys::COLUMNS);
-    for key in ["velocity", "angular_velocity"] {
+    for key in [&columns::VELOCITY.spec, &columns::ANGULAR_VELOCITY.spec] {
         let names = table.list(key).map_or(0, <[_]>::len);
         if let (1 | 2, Some(at)) = (names, table.span(key)) {
-            let message = format!("`{key}` needs 3 columns, or none");
-            let help = format!("`{key} = []` leaves them out");
+            let message = format!("`{}` needs 3 columns, or none", key.name);
+            let help = format!("`{} = []` leaves them out", key.name);
             context.diagnostics.push(Diagnostic::error(Code::CsvColumn, message).at(at, "").help(help));
             return None;
         }

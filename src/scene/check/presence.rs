@@ -26,7 +26,7 @@ pub(super) fn read(
     {
         let message = format!("`{name}` starts at {} s and ends at {} s", figure(start), figure(end));
         let error = Diagnostic::error(Code::EndBeforeStart, message);
-        let spans = [("end", "this must be later"), ("start", "than this")];
+        let spans = [(&body::END.spec, "this must be later"), (&body::START.spec, "than this")];
         let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
         context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         return Presence::ALWAYS;

@@ -7,6 +7,7 @@ use super::view::View;
 use super::{Context, body, mesh};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::{Compound, Part, Shape};
+use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::shapes::{
     axes, capsule, compound, cone, cuboid, cylinder, part, plane, sdl, shape, sphere, torus,
 };
@@ -30,7 +31,7 @@ pub(super) fn read(name: &str, view: &View<'_>, context: &mut Context<'_>) -> Sh
     }
     if let Some(sdl) = view.variant(&shape::SDL) {
         if sdl.get(&sdl::OBJECT).is_some_and(|text| text.trim().is_empty()) {
-            impossible(&sdl, "object", "an object in SDL needs words", "there are none", context);
+            impossible(&sdl, &sdl::OBJECT.spec, "an object in SDL needs words", "there are none", context);
         }
         return solid(&sdl.table(&sdl::STAND_IN), context).unwrap_or(Shape::Sphere { radius: 1.0 });
     }
@@ -76,7 +77,13 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
         let most = size.min_element() / 2.0;
         if rounding > most {
             let why = format!("half its smallest edge is {}", figure(most));
-            impossible(&cuboid, "rounding", "a box cannot be rounder than its smallest edge", &why, context);
+            impossible(
+                &cuboid,
+                &cuboid::ROUNDING.spec,
+                "a box cannot be rounder than its smallest edge",
+                &why,
+                context,
+            );
         }
         return Some(Shape::RoundedBox { size, rounding });
     }
@@ -89,7 +96,7 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
         if height < 2.0 * radius {
             let why = format!("its two half balls alone are {} high", figure(2.0 * radius));
             let what = "the height of a capsule is that from tip to tip, at least twice its radius";
-            impossible(&capsule, "height", what, &why, context);
+            impossible(&capsule, &capsule::HEIGHT.spec, what, &why, context);
         }
         return Some(Shape::Capsule { radius, height });
     }
@@ -102,13 +109,19 @@ fn solid(view: &View<'_>, context: &mut Context<'_>) -> Option<Shape> {
     let (radius, tube_radius) = (torus.get(&torus::RADIUS)?, torus.get(&torus::TUBE_RADIUS)?);
     if tube_radius > radius {
         let why = format!("more than its `radius`, {}", figure(radius));
-        impossible(&torus, "tube_radius", "the tube of a torus would go through itself", &why, context);
+        impossible(
+            &torus,
+            &torus::TUBE_RADIUS.spec,
+            "the tube of a torus would go through itself",
+            &why,
+            context,
+        );
     }
     Some(Shape::Torus { radius, tube_radius })
 }
 
 /// Reports a shape that is geometrically impossible.
-fn impossible(view: &View<'_>, key: &str, what: &str, why: &str, context: &mut Context<'_>) {
+fn impossible(view: &View<'_>, key: &KeySpec, what: &str, why: &str, context: &mut Context<'_>) {
     let error = Diagnostic::error(Code::ImpossibleShape, what);
     context.diagnostics.extend(view.span(key).map(|span| error.at(span, why)));
 }

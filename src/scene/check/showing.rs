@@ -4,6 +4,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::Shape;
+use crate::scene::grammar::KeySpec;
 use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::forces::spring;
 use crate::scene::grammar::showing::{arrow, arrows, axes, coil, ghosts, trail};
@@ -12,6 +13,11 @@ use crate::scene::{
 };
 
 /// The maximum number of ghosts of a body, which are its drawn past positions.
+/// The keys for what is drawn with a moving body.
+static MOVING_KEYS: [&KeySpec; 3] = [&body::ARROWS.spec, &body::GHOSTS.spec, &body::TRAIL.spec];
+/// The keys for what is drawn with any body.
+static SHOWING_KEYS: [&KeySpec; 4] =
+    [&body::ARROWS.spec, &body::AXES.spec, &body::GHOSTS.spec, &body::TRAIL.spec];
 const MAX_GHOSTS: f64 = 10_000.0;
 
 /// Reads the arrows, axes, ghosts and trail of a body. Warns of keys that have no effect for a plane or a fixed body.
@@ -24,16 +30,18 @@ pub(super) fn of_body(
     context: &mut Context<'_>,
 ) -> Showing {
     let useless = match (shape.is_unbounded(), fixed) {
-        (true, _) => Some((&["arrows", "axes", "ghosts", "trail"][..], "a plane is endless")),
-        (false, true) => Some((&["arrows", "ghosts", "trail"][..], "it is fixed")),
+        (true, _) => Some((&SHOWING_KEYS[..], "a plane is endless")),
+        (false, true) => Some((&MOVING_KEYS[..], "it is fixed")),
         _ => None,
     };
     let mut showing = Showing {
-        arrows: Quantity::OF_BODIES.map(|quantity| arrow(&view.table(&body::ARROWS), quantity.name())),
-        loads: Quantity::OF_LOADS.map(|quantity| arrow(&view.table(&body::ARROWS), quantity.name())),
-        axes: wanted(view, "axes").map(|axes| BodyAxes { length: axes.get(&axes::LENGTH) }),
+        arrows: Quantity::OF_BODIES
+            .map(|quantity| arrow(&view.table(&body::ARROWS), arrows::TABLE.key(quantity.name())?)),
+        loads: Quantity::OF_LOADS
+            .map(|quantity| arrow(&view.table(&body::ARROWS), arrows::TABLE.key(quantity.name())?)),
+        axes: wanted(view, &body::AXES).map(|axes| BodyAxes { length: axes.get(&axes::LENGTH) }),
         ghosts: view.variant(&body::GHOSTS).and_then(|ghosts| ghosts_of(&ghosts, simulation, context)),
-        trail: wanted(view, "trail").map(|trail| Trail {
+        trail: wanted(view, &body::TRAIL).map(|trail| Trail {
             duration: trail.get(&trail::DURATION),
             width: trail.get(&trail::WIDTH),
             color: trail.get(&trail::COLOR),
@@ -45,7 +53,7 @@ pub(super) fn of_body(
     }
     if let Some((keys, why)) = useless {
         for key in keys {
-            let message = format!("`{key}` of `{name}` has no effect");
+            let message = format!("`{}` of `{name}` has no effect", key.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             context.diagnostics.extend(view.key_span(key).map(|span| warning.at(span, why)));
         }
@@ -58,7 +66,7 @@ pub(super) fn of_body(
 /// contacts.
 fn loads_without_cause(
     name: &str,
-    arrows: &View<'_>,
+    view: &View<'_>,
     showing: &Showing,
     simulation: &SimulationSettings,
     context: &mut Context<'_>,
@@ -68,17 +76,20 @@ fn loads_without_cause(
         let warning =
             Diagnostic::warning(Code::NoEffect, format!("`arrows.weight` of `{name}` has no effect"));
         let why = "there is no `simulation.gravity`";
-        context.diagnostics.extend(arrows.key_span(&arrows::WEIGHT).map(|span| warning.at(span, why)));
+        context.diagnostics.extend(view.key_span(&arrows::WEIGHT).map(|span| warning.at(span, why)));
     }
     if simulation.contacts.is_some() {
         return;
     }
-    for (key, _) in [("normal", normal), ("friction", friction)].iter().filter(|(_, arrow)| arrow.is_some()) {
-        let error =
-            Diagnostic::error(Code::NoContacts, format!("`arrows.{key}` needs `simulation.contacts`"))
-                .help("write `contacts = \"event-driven\"` in [simulation]");
+    let loads = [(&arrows::NORMAL, normal), (&arrows::FRICTION, friction)];
+    for (key, _) in loads.iter().filter(|(_, arrow)| arrow.is_some()) {
+        let error = Diagnostic::error(
+            Code::NoContacts,
+            format!("`arrows.{}` needs `simulation.contacts`", key.spec.name),
+        )
+        .help("write `contacts = \"event-driven\"` in [simulation]");
         let why = "without it, bodies pass through each other";
-        context.diagnostics.extend(arrows.key_span(key).map(|span| error.at(span, why)));
+        context.diagnostics.extend(view.key_span(*key).map(|span| error.at(span, why)));
     }
 }
 
@@ -86,7 +97,7 @@ fn loads_without_cause(
 fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) -> Option<Ghosts> {
     let every = view.get(&ghosts::EVERY)?;
     if simulation.timeline.duration / every <= MAX_GHOSTS {
-        return Some(Ghosts { every, arrows: view.get_as::<bool>(&body::ARROWS)? });
+        return Some(Ghosts { every, arrows: view.get(&ghosts::ARROWS) });
     }
     let message = format!("a ghost every {} s is more than {MAX_GHOSTS} in all", super::read::figure(every));
     let error = Diagnostic::error(Code::TooManyGhosts, message);
@@ -96,7 +107,7 @@ fn ghosts_of(view: &View<'_>, simulation: &SimulationSettings, context: &mut Con
 }
 
 /// Reads an arrow's scale and color. `None` if the scene does not switch the arrow on.
-pub(super) fn arrow(arrows: &View<'_>, key: &str) -> Option<Arrow> {
+pub(super) fn arrow(arrows: &View<'_>, key: &KeySpec) -> Option<Arrow> {
     let arrow = wanted(arrows, key)?;
     Some(Arrow { scale: arrow.get(&arrow::SCALE), color: arrow.get(&arrow::COLOR) })
 }
@@ -136,6 +147,7 @@ pub(super) fn spring(spring: &View<'_>, context: &mut Context<'_>) -> Option<Spr
 
 /// Returns the table under a key that takes `true` or a table. The table is empty for `true`. `None` if the value is `false` or the key is
 /// missing.
-pub(super) fn wanted<'a>(view: &View<'a>, key: &str) -> Option<View<'a>> {
-    (view.boolean(key) == Some(true) || view.variant(key).is_some()).then(|| view.table(key))
+pub(super) fn wanted<'a>(view: &View<'a>, key: impl AsRef<KeySpec>) -> Option<View<'a>> {
+    let key = key.as_ref();
+    (view.get_as::<bool>(key) == Some(true) || view.variant(key).is_some()).then(|| view.table(key))
 }

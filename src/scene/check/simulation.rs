@@ -52,9 +52,11 @@ pub(super) fn read(root: &View<'_>, needs_steps: bool) -> (SimulationSettings, C
 /// if the integrator comes from `--set`, because the scene was written for another integrator.
 pub(super) fn check(view: &View<'_>, simulation: &SimulationSettings, context: &mut Context<'_>) {
     let method = simulation.method;
+    let (step, tolerance) = (&simulation::STEP.spec, &simulation::TOLERANCE.spec);
     let (wrong, right, value) =
-        if method.adaptive { ("step", "tolerance", "1e-9") } else { ("tolerance", "step", "0.001") };
+        if method.adaptive { (step, tolerance, "1e-9") } else { (tolerance, step, "0.001") };
     let Some(span) = view.key_span(wrong) else { return };
+    let (wrong, right) = (wrong.name, right.name);
     if view.span(&simulation::INTEGRATOR).is_some_and(|span| !is_file(span.source(), &context.sources)) {
         return;
     }

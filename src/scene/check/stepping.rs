@@ -8,8 +8,11 @@ use super::read::figure;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{METHODS, Motor, suitable_step};
+use crate::scene::grammar::Key;
+use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::joints::hinge;
 use crate::scene::grammar::scene::{environment, scene, simulation};
+use crate::scene::grammar::showing::joint_arrows;
 use crate::scene::{Body, ContactLaw, Joint, JointKind, SimulationSettings, is_by_moreau, thinnest};
 
 /// The smallest restitution for which a warning says that rebounds lose height.
@@ -66,28 +69,28 @@ pub(super) fn check(
         context.diagnostics.extend(span.map(|span| error.at(span, why)));
     }
     let ground = root.table(&scene::ENVIRONMENT).variant(&environment::GROUND);
-    let of_ground = |key: &str| {
+    let of_ground = |key: &Key<Option<f64>>| {
         let ground = ground.as_ref()?;
-        Some((ground.key_span(key)?, ground.number(key)?))
+        Some((ground.key_span(key)?, ground.get(key)?))
     };
     let (mut said, mut rolling) = (HashSet::new(), Vec::new());
     let mut elastic = None;
-    let mut see = |key: &str, span: Span, value: f64| match key {
-        "rolling_friction" if value > 0.0 && said.insert(span) => rolling.push(span),
-        "restitution" if value >= MIN_RESTITUTION_TO_WARN && elastic.is_none() => {
+    let mut see = |is_rebound: bool, span: Span, value: f64| {
+        if is_rebound && value >= MIN_RESTITUTION_TO_WARN && elastic.is_none() {
             elastic = Some((span, value));
+        } else if !is_rebound && value > 0.0 && said.insert(span) {
+            rolling.push(span);
         }
-        _ => {}
     };
-    for key in ["rolling_friction", "restitution"] {
-        for (body, checked) in root.bodies().zip(bodies) {
+    for (is_rebound, key) in [(false, &body::ROLLING_FRICTION), (true, &body::RESTITUTION)] {
+        for (table, checked) in root.bodies().zip(bodies) {
             // Take the value that was checked with the body: copies of a body share their keys, but not always their values.
             let Some(surface) = checked.collider.as_ref().map(|collider| collider.surface) else { continue };
-            let value = if key == "restitution" { surface.restitution } else { surface.rolling_friction };
-            let span = value.and_then(|_| body.look(|view| view.key_span(key)));
-            span.zip(value).into_iter().for_each(|(span, value)| see(key, span, value));
+            let value = if is_rebound { surface.restitution } else { surface.rolling_friction };
+            let span = value.and_then(|_| table.look(|view| view.key_span(key)));
+            span.zip(value).into_iter().for_each(|(span, value)| see(is_rebound, span, value));
         }
-        of_ground(key).into_iter().for_each(|(span, value)| see(key, span, value));
+        of_ground(key).into_iter().for_each(|(span, value)| see(is_rebound, span, value));
     }
     for span in rolling.into_iter().filter(|_| !is_by_moreau) {
         let error = Diagnostic::error(Code::BadContacts, "time stepping has no rolling friction");
@@ -156,7 +159,7 @@ pub(super) fn check_joints(
             wrong(format!("the motor of `{name}` cannot keep its value exactly"), place, "", help);
         }
         let arrows = kind.map(|kind| kind.table(&hinge::ARROWS));
-        for key in ["force", "torque"] {
+        for key in [&joint_arrows::FORCE.spec, &joint_arrows::TORQUE.spec] {
             let place = arrows.as_ref().and_then(|arrows| arrows.key_span(key));
             if let Some(place) = place.filter(|_| joint.arrows.iter().any(Option::is_some)) {
                 let what = format!("time stepping does not know the {key} of the joint `{name}`");

@@ -1,8 +1,9 @@
 //! The declaration of a table: its keys, each with the type that a reader gets.
 
+use std::fmt;
 use std::marker::PhantomData;
 
-use super::{DefaultValue, KeySpec, Kind};
+use super::{DefaultValue, KeySpec, Kind, TableSpec};
 
 /// A key of a table, with the type `T` that [`View::get`](crate::scene::view::View::get) reads its value as.
 ///
@@ -66,10 +67,22 @@ impl<T: Declared> Key<T> {
     }
 }
 
-impl<T> Key<T> {
-    /// Returns the name of the key.
-    pub(in crate::scene) const fn name(&self) -> &'static str {
-        self.spec.name
+impl<T> AsRef<KeySpec> for Key<T> {
+    fn as_ref(&self) -> &KeySpec {
+        &self.spec
+    }
+}
+
+/// A key is shown by its name, as it stands in scenes and messages.
+impl fmt::Display for KeySpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl AsRef<KeySpec> for KeySpec {
+    fn as_ref(&self) -> &KeySpec {
+        self
     }
 }
 
@@ -108,9 +121,22 @@ impl Kind {
 
     /// Returns the kind that is read as the given type: this one, or one of several that a key takes.
     pub(in crate::scene) fn for_type(&self, wanted: ReadAs) -> Option<&Kind> {
+        self.one_of(|kind| kind.reads_as(wanted))
+    }
+
+    /// Returns this kind, or the first of several that a key takes, if `is` accepts it.
+    pub(in crate::scene) fn one_of(&self, is: impl Fn(&Kind) -> bool) -> Option<&Kind> {
         match self {
-            Kind::Either(kinds) => kinds.iter().find(|kind| kind.reads_as(wanted)),
-            kind => kind.reads_as(wanted).then_some(kind),
+            Kind::Either(kinds) => kinds.iter().find(|kind| is(kind)),
+            kind => is(kind).then_some(kind),
+        }
+    }
+
+    /// Returns the grammar of the named tables that a value of this kind holds. `None` for other kinds.
+    pub(in crate::scene) fn named(&self) -> Option<&'static TableSpec> {
+        match self {
+            Kind::Named(spec) => Some(spec),
+            _ => None,
         }
     }
 }
@@ -154,6 +180,7 @@ macro_rules! table {
             $($(#[$about])* pub(in crate::scene) static $key: Key<$read_as> = Key::new($spec);)*
 
             /// The grammar of the table.
+            #[allow(unreachable_pub, reason = "the grammar of the scene is public")]
             pub static TABLE: $crate::scene::grammar::TableSpec = $crate::scene::grammar::TableSpec {
                 noun: $noun,
                 rule: $rule,

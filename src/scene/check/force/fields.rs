@@ -49,7 +49,7 @@ impl Reader<'_, '_> {
         self.report(Code::NoBuoyancy, span, error);
     }
 
-    pub(super) fn dipoles(&mut self, view: &View<'_>) -> ForceKind {
+    pub(super) fn dipoles(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let all = self.bodies;
         let field = view.get(&dipoles::FIELD);
         (self.lack, self.softens) = ("it has no `magnetic_moment`", false);
@@ -59,13 +59,13 @@ impl Reader<'_, '_> {
         let (bodies, against) = self.pairs_or_one(view, 0.0, is_magnet, alone);
         let moments = bodies.iter().chain(against.iter().flatten());
         let moments = moments.map(|body| all[body.index()].magnetic_moment).collect();
-        let constant = view.get(&j2::CONSTANT);
-        ForceKind::Dipoles(Dipoles { bodies, against, moments, constant, field })
+        let constant = view.get(&dipoles::CONSTANT);
+        Some(ForceKind::Dipoles(Dipoles { bodies, against, moments, constant, field }))
     }
 
     pub(super) fn j2(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let all = self.bodies;
-        let node = view.raw(&j2::OF)?;
+        let node = view.node(&j2::OF)?;
         let planet = self.body(node)?;
         let usable = |i: usize| i != planet && !all[i].shape.is_unbounded();
         let named = self.named(view);

@@ -93,7 +93,7 @@ impl Reader<'_, '_> {
                 continue;
             }
             let axis = (0..3).max_by(|a, b| off[*a].abs().total_cmp(&off[*b].abs())).unwrap_or(0);
-            let items = view.raw(&formula::FORCE).map(|node| &node.value);
+            let items = view.node(&formula::FORCE).map(|node| &node.value);
             let item = match items {
                 Some(crate::scene::source::Value::Array(items)) => items.get(axis).map(|item| item.span),
                 _ => None,

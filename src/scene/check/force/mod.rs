@@ -12,8 +12,9 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{ConstantForce, Coulomb, Drag, Gravitation, LennardJones, Lorentz};
-use crate::scene::grammar::forces::{constant, coulomb, drag, gravitation, lennard_jones, lorentz};
+use crate::scene::grammar::forces::{constant, coulomb, drag, force, gravitation, lennard_jones, lorentz};
 use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::{Any, Key, KeySpec};
 use crate::scene::source::Node;
 use crate::scene::{Body, Emitter, Force, ForceKind, SimulationSettings};
 
@@ -64,7 +65,7 @@ pub(super) fn read(
         };
         let emitters = reader.emitters_of(&view);
         reader.has_particles = !emitters.is_empty();
-        let kind = reader.kind(&view);
+        let kind = chosen(&view).and_then(|(kind, view)| (kind.read)(&mut reader, &view));
         if context.wrong_forces.contains(name) {
             // Drop the warning that the force has no effect: the key with the error may be the key that the warning calls missing.
             let mut said = context.diagnostics.split_off(before);
@@ -78,58 +79,96 @@ pub(super) fn read(
     tables.into_iter().filter_map(read).collect()
 }
 
-impl Reader<'_, '_> {
-    fn kind(&mut self, view: &View<'_>) -> Option<ForceKind> {
-        let (kind, view) = view.chosen()?;
-        match kind {
-            "constant" => Some(self.constant(&view)),
-            "drag" => Some(self.drag(&view)),
-            "spring" => self.spring(&view),
-            "gravitation" => Some(self.gravitation(&view)),
-            "coulomb" => Some(self.coulomb(&view)),
-            "lorentz" => Some(self.lorentz(&view)),
-            "lennard_jones" => self.lennard_jones(&view),
-            "buoyancy" => self.buoyancy(&view),
-            "dipoles" => Some(self.dipoles(&view)),
-            "j2" => self.j2(&view),
-            "formula" => self.formula(&view),
-            kind => unreachable!("a `{kind}` is in the grammar, and nothing reads it"),
-        }
-    }
+/// A kind of force: its key, the particles that it acts on, and the function that reads its table.
+struct Kind {
+    key: &'static Key<Any>,
+    particles: ActsOn,
+    read: fn(&mut Reader<'_, '_>, &View<'_>) -> Option<ForceKind>,
+}
 
-    fn constant(&mut self, view: &View<'_>) -> ForceKind {
-        ForceKind::Constant(ConstantForce {
+/// The particles that a kind of force acts on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ActsOn {
+    /// All particles.
+    Particles,
+    /// Particles with a charge.
+    ChargedParticles,
+    /// No particles, although its key `on` takes emitters.
+    NoParticles,
+    /// Only the bodies that it connects: it has no key `on`.
+    ItsEnds,
+}
+
+/// All kinds of forces.
+static KINDS: [Kind; 11] = [
+    Kind { key: &force::CONSTANT, particles: ActsOn::Particles, read: |reader, view| reader.constant(view) },
+    Kind { key: &force::DRAG, particles: ActsOn::Particles, read: |reader, view| reader.drag(view) },
+    Kind { key: &force::SPRING, particles: ActsOn::ItsEnds, read: |reader, view| reader.spring(view) },
+    Kind {
+        key: &force::GRAVITATION,
+        particles: ActsOn::Particles,
+        read: |reader, view| reader.gravitation(view),
+    },
+    Kind {
+        key: &force::COULOMB,
+        particles: ActsOn::ChargedParticles,
+        read: |reader, view| reader.coulomb(view),
+    },
+    Kind {
+        key: &force::LORENTZ,
+        particles: ActsOn::ChargedParticles,
+        read: |reader, view| reader.lorentz(view),
+    },
+    Kind {
+        key: &force::LENNARD_JONES,
+        particles: ActsOn::Particles,
+        read: |reader, view| reader.lennard_jones(view),
+    },
+    Kind { key: &force::BUOYANCY, particles: ActsOn::Particles, read: |reader, view| reader.buoyancy(view) },
+    Kind { key: &force::DIPOLES, particles: ActsOn::NoParticles, read: |reader, view| reader.dipoles(view) },
+    Kind { key: &force::J2, particles: ActsOn::Particles, read: |reader, view| reader.j2(view) },
+    Kind { key: &force::FORMULA, particles: ActsOn::Particles, read: |reader, view| reader.formula(view) },
+];
+
+/// Returns the kind of a force, and its table. `None` if the force has no kind, which the validation has reported.
+fn chosen<'a>(force: &View<'a>) -> Option<(&'static Kind, View<'a>)> {
+    KINDS.iter().find_map(|kind| Some((kind, force.variant(kind.key)?)))
+}
+
+impl Reader<'_, '_> {
+    fn constant(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        Some(ForceKind::Constant(ConstantForce {
             bodies: self.movable(view),
             force: view.get(&constant::FORCE),
             torque: view.get(&constant::TORQUE),
-        })
+        }))
     }
 
-    fn drag(&mut self, view: &View<'_>) -> ForceKind {
-        self.needs_one_of(view, &["linear", "quadratic"]);
-        ForceKind::Drag(Drag {
+    fn drag(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        self.needs_one_of(view, &[&drag::LINEAR.spec, &drag::QUADRATIC.spec]);
+        Some(ForceKind::Drag(Drag {
             bodies: self.movable(view),
             linear: view.get(&drag::LINEAR),
             quadratic: view.get(&drag::QUADRATIC),
             wind: view.get(&drag::WIND),
-        })
+        }))
     }
 
-    fn gravitation(&mut self, view: &View<'_>) -> ForceKind {
-        let softening = view.get(&coulomb::SOFTENING);
+    fn gravitation(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        let softening = view.get(&gravitation::SOFTENING);
         let (bodies, against) = self.pairs(view, softening, |_| true);
         let constant = view.get(&gravitation::CONSTANT);
         // With an opening angle of 0, no Barnes–Hut tree is used: the force is the exact sum over all pairs of bodies.
         let opening_angle = view.get(&gravitation::OPENING_ANGLE).filter(|&angle| angle > 0.0);
-        ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle })
+        Some(ForceKind::Gravitation(Gravitation { bodies, against, constant, softening, opening_angle }))
     }
 
-    fn coulomb(&mut self, view: &View<'_>) -> ForceKind {
+    fn coulomb(&mut self, view: &View<'_>) -> Option<ForceKind> {
         let softening = view.get(&coulomb::SOFTENING);
         let all = self.bodies;
         let (bodies, against) = self.pairs(view, softening, |i| all[i].start.charge != 0.0);
-        let constant = view.get(&gravitation::CONSTANT);
-        ForceKind::Coulomb(Coulomb { bodies, against, constant, softening })
+        let constant = view.get(&coulomb::CONSTANT);
+        Some(ForceKind::Coulomb(Coulomb { bodies, against, constant, softening }))
     }
 
     fn lennard_jones(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -141,20 +180,20 @@ impl Reader<'_, '_> {
         Some(ForceKind::LennardJones(LennardJones { bodies, against, epsilon, sigma, cutoff, smooth }))
     }
 
-    fn lorentz(&mut self, view: &View<'_>) -> ForceKind {
-        self.needs_one_of(view, &["electric", "magnetic"]);
-        ForceKind::Lorentz(Lorentz {
+    fn lorentz(&mut self, view: &View<'_>) -> Option<ForceKind> {
+        self.needs_one_of(view, &[&lorentz::ELECTRIC.spec, &lorentz::MAGNETIC.spec]);
+        Some(ForceKind::Lorentz(Lorentz {
             bodies: self.charged(view),
             electric: view.get(&lorentz::ELECTRIC),
             magnetic: view.get(&lorentz::MAGNETIC),
-        })
+        }))
     }
 
     /// Warns of a force that has none of the given keys. Such a force is zero.
-    fn needs_one_of(&mut self, view: &View<'_>, keys: &[&str]) {
+    fn needs_one_of(&mut self, view: &View<'_>, keys: &[&KeySpec]) {
         if !keys.iter().any(|key| view.has(key)) {
             let name = self.name;
-            let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
+            let keys: Vec<String> = keys.iter().map(|key| format!("`{}`", key.name)).collect();
             let message = || format!("the force `{name}` has no effect");
             self.no_effect(message, self.span, format!("it has no {}", keys.join(" and no ")));
         }
@@ -175,5 +214,20 @@ impl Reader<'_, '_> {
     /// Returns the index of the body that `node` names. `None` if no body has this name; validation has already reported that error.
     fn body(&self, node: &Node) -> Option<usize> {
         node.as_str().and_then(|name| self.context.names.bodies.get(name)).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::KINDS;
+    use crate::scene::grammar::Rule;
+    use crate::scene::grammar::forces::force;
+
+    #[test]
+    fn each_kind_of_force_in_the_grammar_is_read() {
+        let Rule::ExactlyOne(names) = force::TABLE.rule else { panic!("a force has one kind") };
+        let read: Vec<&str> = KINDS.iter().map(|kind| kind.key.spec.name).collect();
+        assert!(names.iter().all(|name| read.contains(name)), "{names:?} {read:?}");
+        assert_eq!(names.len(), read.len());
     }
 }

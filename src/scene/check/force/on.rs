@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::super::view::View;
-use super::Reader;
+use super::{ActsOn, Reader, chosen};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::BodyId;
 use crate::scene::Emitter;
@@ -13,18 +13,16 @@ impl Reader<'_, '_> {
     /// Returns the indices of the emitters whose particles the force acts on: those in `on`, or all emitters if the force has no `on`.
     /// Springs, dipole forces and forces with `between` act on no particles. Electric forces act on charged particles only.
     pub(super) fn emitters_of(&mut self, force: &View<'_>) -> Vec<usize> {
-        let Some((kind, view)) = force.chosen().filter(|(_, view)| view.takes("on")) else {
+        let Some((kind, view)) = chosen(force).filter(|(kind, _)| kind.particles != ActsOn::ItsEnds) else {
             return Vec::new();
         };
         let emitters = self.emitters;
-        let able = |i: &usize| match kind {
-            "coulomb" | "lorentz" => emitters[*i].source.charge != 0.0,
-            "dipoles" => false,
-            _ => true,
+        let able = |i: &usize| match kind.particles {
+            ActsOn::Particles => true,
+            ActsOn::ChargedParticles => emitters[*i].source.charge != 0.0,
+            ActsOn::NoParticles | ActsOn::ItsEnds => false,
         };
-        if matches!(kind, "gravitation" | "coulomb" | "lennard_jones" | "dipoles")
-            && view.has(&gravitation::BETWEEN)
-        {
+        if view.takes(&gravitation::BETWEEN) && view.has(&gravitation::BETWEEN) {
             return Vec::new();
         }
         let Some(items) = view.list(&constant::ON) else { return (0..emitters.len()).filter(able).collect() };
@@ -34,7 +32,8 @@ impl Reader<'_, '_> {
             let Some(number) = emitters.iter().position(named) else { continue };
             if !able(&number) {
                 let message = || format!("the force has no effect on `{}`", emitters[number].name);
-                let lack = if kind == "dipoles" { "magnetic moment" } else { "charge" };
+                let needs_charge = kind.particles == ActsOn::ChargedParticles;
+                let lack = if needs_charge { "charge" } else { "magnetic moment" };
                 self.no_effect(message, item.span, format!("its particles have no {lack}"));
             } else if !on.contains(&number) {
                 on.push(number);

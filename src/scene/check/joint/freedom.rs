@@ -8,8 +8,10 @@ use crate::physics::{Coordinate, Freedom, Motor, Servo};
 use crate::scene::check::motion;
 use crate::scene::check::read::figure;
 use crate::scene::check::view::View;
-use crate::scene::grammar::joints::{hinge, turning};
+use crate::scene::grammar::joints::{hinge, moving, turning};
+use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::joint::PrescribedCoordinate;
+use crate::scene::value;
 
 /// The unit, symbol and keys for the coordinate of a joint: an angle for a hinge, a distance for a slider.
 struct Words {
@@ -18,16 +20,21 @@ struct Words {
     /// The symbol of the joint coordinate's unit in diagnostics.
     symbol: &'static str,
     /// The key for the motor's maximum torque or force.
-    strength: &'static str,
+    strength: &'static Key<Option<f64>>,
     /// The key for the target angle or position of the motor.
-    value: &'static str,
+    value: &'static Key<Option<value::Timed>>,
 }
 
 /// The words for a joint whose coordinate is an angle.
-const ANGLE_WORDS: Words =
-    Words { unit: std::f64::consts::PI / 180.0, symbol: "°", strength: "torque", value: "angle" };
+static ANGLE_WORDS: Words = Words {
+    unit: std::f64::consts::PI / 180.0,
+    symbol: "°",
+    strength: &turning::TORQUE,
+    value: &turning::ANGLE,
+};
 /// The words for a joint whose coordinate is a distance.
-const DISTANCE_WORDS: Words = Words { unit: 1.0, symbol: " m", strength: "force", value: "position" };
+static DISTANCE_WORDS: Words =
+    Words { unit: 1.0, symbol: " m", strength: &moving::FORCE, value: &moving::POSITION };
 
 /// A full turn, in degrees.
 const FULL_TURN: f64 = 360.0;
@@ -38,8 +45,8 @@ impl Reader<'_, '_> {
         let words = if coordinate.is_angle() { &ANGLE_WORDS } else { &DISTANCE_WORDS };
         let limits = self.limits(view, words);
         let Some(motor) = view.variant(&hinge::MOTOR) else { return (Freedom { limits, motor: None }, None) };
-        if let Some(value) = motor.timed(words.value) {
-            motion::finite(motor.raw(words.value), self.simulation, self.context);
+        if let Some(value) = motor.get(words.value) {
+            motion::finite(motor.node(words.value), self.simulation, self.context);
             let target = Arc::new(PrescribedCoordinate { value, unit: words.unit });
             let servo = motor.get(&turning::STIFFNESS).map(|stiffness| Servo {
                 coordinate,
@@ -49,34 +56,41 @@ impl Reader<'_, '_> {
             });
             self.unused(
                 &motor,
-                words.strength,
-                &format!("with `{}`, a motor is as strong as its `stiffness`", words.value),
+                &words.strength.spec,
+                &format!("with `{}`, a motor is as strong as its `stiffness`", words.value.spec.name),
             );
             if servo.is_some() {
                 return (Freedom { limits, motor: None }, servo);
             }
-            self.unused(&motor, "damping", "without `stiffness`, the motor keeps its value exactly");
+            self.unused(
+                &motor,
+                &turning::DAMPING.spec,
+                "without `stiffness`, the motor keeps its value exactly",
+            );
             self.begins_at_zero(&motor, &target, words);
             return (Freedom { limits, motor: Some(Motor::Value(target)) }, None);
         }
         let speed = motor.get(&turning::SPEED);
-        for key in ["stiffness", "damping"].into_iter().filter(|_| motor.has(&turning::SPEED)) {
+        for key in [&turning::STIFFNESS.spec, &turning::DAMPING.spec]
+            .into_iter()
+            .filter(|_| motor.has(&turning::SPEED))
+        {
             self.unused(
                 &motor,
                 key,
-                &format!("with `speed`, a motor is as strong as its `{}`", words.strength),
+                &format!("with `speed`, a motor is as strong as its `{}`", words.strength.spec.name),
             );
         }
-        let limit = motor.number(words.strength);
+        let limit = motor.get(words.strength);
         if let (Some(_), None, false) = (speed, limit, motor.has(words.strength)) {
             let message = format!("the motor of the joint `{}` does not say how strong it is", self.name);
             let span = view.span(&hinge::MOTOR).unwrap_or(self.span);
             let error = Diagnostic::error(Code::MissingKey, message);
-            let error = error.at(span, format!("needs `{}`", words.strength));
+            let error = error.at(span, format!("needs `{}`", words.strength.spec.name));
             let help = format!(
                 "such as `motor = {{ speed = {}, {} = 10 }}`",
                 figure(speed.unwrap_or(1.0)),
-                words.strength
+                words.strength.spec.name
             );
             self.context.diagnostics.push(error.help(help));
         }
@@ -138,10 +152,10 @@ impl Reader<'_, '_> {
     }
 
     /// Warns that a key has no effect, if the scene gives this key.
-    fn unused(&mut self, view: &View<'_>, key: &'static str, why: &str) {
+    fn unused(&mut self, view: &View<'_>, key: &KeySpec, why: &str) {
         let span: Option<Span> = view.key_span(key);
         if let Some(span) = span {
-            let message = format!("`{key}` has no effect here");
+            let message = format!("`{}` has no effect here", key.name);
             self.context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, why));
         }
     }

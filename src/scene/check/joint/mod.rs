@@ -17,6 +17,7 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{Anchor, Ball, Fixed, Freedom, Hinge, Rod, Servo, Slider};
 use crate::scene::grammar::joints::{hinge, joint, look, rod};
 use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::showing::joint_arrows;
 use crate::scene::source::Node;
 use crate::scene::value;
 use crate::scene::{Arrow, Body, Joint, JointKind, JointLook, Quantity, SimulationSettings};
@@ -83,7 +84,9 @@ pub(super) fn kind<'a>(joint: &View<'a>) -> Option<View<'a>> {
 /// Reads the arrows that show the reaction force and the reaction torque of a joint.
 fn arrows(view: &View<'_>) -> [Option<Arrow>; 2] {
     let kind = kind(view);
-    let arrow = |quantity: Quantity| showing::arrow(&kind.as_ref()?.table(&hinge::ARROWS), quantity.name());
+    let arrow = |quantity: Quantity| {
+        showing::arrow(&kind.as_ref()?.table(&hinge::ARROWS), joint_arrows::TABLE.key(quantity.name())?)
+    };
     Quantity::OF_JOINTS.map(arrow)
 }
 

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::{Reader, words};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::Collection;
+use crate::scene::grammar::scene::{scene, simulation};
 use crate::scene::{BodyMeasure, ContactLaw, JointMeasure, Measure};
 
 impl Reader<'_, '_, '_> {
@@ -129,7 +130,7 @@ impl Reader<'_, '_, '_> {
 
     /// Reports the use of `impacts` in a scene without contacts, in which no impacts are detected.
     pub(super) fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
-        if self.root.table("simulation").has("contacts") {
+        if self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS) {
             return Some(());
         }
         let error = Diagnostic::error(Code::NoContacts, "`impacts` needs `simulation.contacts`")
@@ -181,7 +182,8 @@ impl Reader<'_, '_, '_> {
             let is_servo = known == JointMeasure::Motor && joint.servo.is_some();
             if known.is_reaction()
                 && !is_servo
-                && self.root.table("simulation").text("contacts") == Some(ContactLaw::TimeStepping.name())
+                && self.root.table(&scene::SIMULATION).get(&simulation::CONTACTS)
+                    == Some(ContactLaw::TimeStepping.name())
             {
                 let message = format!("time stepping does not know the `{measure}` of a joint");
                 let help = "the other scheme does: `simulation.contacts = \"event-driven\"`";

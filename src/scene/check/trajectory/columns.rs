@@ -5,7 +5,8 @@ use csv::StringRecord;
 use super::super::view::View;
 use super::rows::Reader;
 use crate::diagnostic::{Code, nearest};
-use crate::scene::grammar::quoted;
+use crate::scene::grammar::motion::columns;
+use crate::scene::grammar::{Any, Key, quoted};
 use crate::scene::units;
 
 /// The names of the columns in a trajectory file.
@@ -24,20 +25,25 @@ pub(in super::super) struct Columns {
 
 impl Columns {
     pub(in super::super) fn read(view: &View<'_>) -> Columns {
-        let one = |key: &str, usual: &str| view.text(key).unwrap_or(usual).to_owned();
-        let many = |key: &str, usual: &[&str]| {
+        let many = |key: &Key<Any>, usual: &[&str]| {
             let given =
                 view.list(key).map(|items| items.iter().filter_map(|item| item.as_str()).collect::<Vec<_>>());
             given.unwrap_or_else(|| usual.to_vec()).into_iter().map(str::to_owned).collect()
         };
+        let found = [
+            &columns::BODY.spec,
+            &columns::ORIENTATION.spec,
+            &columns::VELOCITY.spec,
+            &columns::ANGULAR_VELOCITY.spec,
+        ];
         Columns {
-            time: one("time", "t"),
-            body: one("body", "body"),
-            location: many("location", &["x", "y", "z"]),
-            orientation: many("orientation", &["qx", "qy", "qz", "qw"]),
-            velocity: many("velocity", &["vx", "vy", "vz"]),
-            angular_velocity: many("angular_velocity", &["wx", "wy", "wz"]),
-            given: ["body", "orientation", "velocity", "angular_velocity"].map(|key| view.has(key)),
+            time: view.get(&columns::TIME).unwrap_or("t").to_owned(),
+            body: view.get(&columns::BODY).unwrap_or("body").to_owned(),
+            location: many(&columns::LOCATION, &["x", "y", "z"]),
+            orientation: many(&columns::ORIENTATION, &["qx", "qy", "qz", "qw"]),
+            velocity: many(&columns::VELOCITY, &["vx", "vy", "vz"]),
+            angular_velocity: many(&columns::ANGULAR_VELOCITY, &["wx", "wy", "wz"]),
+            given: found.map(|key| view.has(key)),
         }
     }
 }

@@ -17,6 +17,7 @@ use self::scatter::Scatter;
 use super::Expander;
 use super::groups::Group;
 use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::{Bound, MAX_COPIES, TableSpec};
 use crate::scene::read;
 use crate::scene::source::{CopiedTable, Entry, Name, Node, Table, Value};
@@ -238,7 +239,7 @@ impl Expander<'_> {
             put(copy, "orientation", Value::Table(table), repeat);
         }
         if is_whole(copy, "location") {
-            let own = View::new(spec, Some(copy)).vector("location").unwrap_or_default();
+            let own = View::new(spec, Some(copy)).get(&body::LOCATION);
             let location = numbers(&(own + offset).to_array(), repeat.node.span);
             // A location with an error stays as it is, because the validation reports it.
             if copy.get("location").is_none_or(|own| read::vector(&own.node, Bound::Any).is_some()) {
