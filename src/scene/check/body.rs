@@ -10,7 +10,6 @@ use super::{Context, contact, corrections, look, mesh, motion, presence, shape, 
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{RigidBody, Shape};
 use crate::scene::grammar::bodies::{body, orientation};
-use crate::scene::grammar::scene::povray;
 use crate::scene::grammar::shapes::shape as shape_keys;
 use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::palette::Palette;
@@ -341,7 +340,7 @@ fn material(
         return Some(own_material(name, look, materials, context));
     }
     // Raw SDL has its own textures, which a material would cover.
-    let has_own = view.table(&body::SHAPE).has(&povray::SDL);
+    let has_own = view.table(&body::SHAPE).has(&shape_keys::SDL);
     let Some(name) = view.get_as::<value::Text>(&body::MATERIAL) else {
         return (!has_own).then(|| palette.material(usual, materials));
     };

@@ -4,7 +4,7 @@ use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::grammar::materials::material;
-use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::scene::{povray, scene};
 use crate::scene::{Color, Finish, LibraryMaterial, Look, Material};
 
 /// Reads the materials in all `[material.NAME]` tables.
@@ -41,7 +41,7 @@ pub(super) fn look(view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) 
 /// Reports a texture in a scene that has neither include files nor SDL, so that nothing can declare the texture.
 fn is_declared(texture: &str, view: &View<'_>, root: &View<'_>, context: &mut Context<'_>) {
     let povray = root.table(&scene::POVRAY);
-    if povray.has(&scene::INCLUDE) || povray.has(&material::SDL) {
+    if povray.has(&povray::INCLUDE) || povray.has(&povray::SDL) {
         return;
     }
     let error =

@@ -55,7 +55,7 @@ pub(super) fn read(
 
 /// Warns that the `location` of a body has no effect because its motion gives the location.
 fn unused_location(name: &str, view: &View<'_>, context: &mut Context<'_>) {
-    let Some(span) = view.key_span(&formula::LOCATION) else { return };
+    let Some(span) = view.key_span(&bodies::body::LOCATION) else { return };
     // The copies of a body have their locations from the key `repeat`.
     let is_of_repeat = context.sources.raw(span) == "repeat";
     let key = if is_of_repeat { "the place that `repeat` gives" } else { "`location`" };
