@@ -65,7 +65,7 @@ fn light_kind(view: &View<'_>) -> Option<LightKind> {
         return Some(LightKind::Area { location: area.get(&area::LOCATION)?, size: area.get(&area::SIZE)? });
     }
     let direction = view.variant(&light::SUN)?.get(&sun::DIRECTION)?;
-    Some(LightKind::Sun { direction: direction })
+    Some(LightKind::Sun { direction })
 }
 
 pub(super) fn environment(root: &View<'_>, bodies: &[Body]) -> Environment {

@@ -186,6 +186,13 @@ macro_rules! table {
                 rule: $rule,
                 keys: &[$(&$key.spec),*],
             };
+
+            #[cfg(test)]
+            #[test]
+            fn each_default_has_the_type_of_its_key() {
+                let empty = $crate::scene::view::View::new(&TABLE, None);
+                $(let _ = empty.get(&$key);)*
+            }
         }
     };
 }

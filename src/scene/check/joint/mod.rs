@@ -116,7 +116,7 @@ impl Reader<'_, '_> {
     fn kind(&mut self, view: &View<'_>, joints: &[Joint]) -> Option<(JointKind, Option<Servo>)> {
         if let Some(hinge) = view.variant(&joint::HINGE) {
             let (between, _) = self.joined(&hinge, true)?;
-            let axis = DVec3::from(hinge.get(&hinge::AXIS)?).normalize();
+            let axis = hinge.get(&hinge::AXIS)?.normalize();
             let axis = self.in_axes_of(between[0], axis);
             let joint = Hinge::new(between, axis, self.turned(between));
             let (freedom, servo) = self.freedom(&hinge, joint.coordinate());
@@ -124,7 +124,7 @@ impl Reader<'_, '_> {
         }
         if let Some(slider) = view.variant(&joint::SLIDER) {
             let (between, _) = self.joined(&slider, false)?;
-            let axis = DVec3::from(slider.get(&hinge::AXIS)?).normalize();
+            let axis = slider.get(&hinge::AXIS)?.normalize();
             let axis = self.in_axes_of(between[0], axis);
             let turned = self.turned(between);
             let joint = Slider { between, axis, turned, freedom: Freedom::default() };
