@@ -93,7 +93,7 @@ impl<'a> View<'a> {
     /// another kind is given.
     fn value<T: Value>(&self, key: &KeySpec) -> Option<T::Read<'a>> {
         let kind = key.kind.for_type(T::TYPE);
-        debug_assert!(kind.is_some(), "`{key}` of {} is {:?}", self.spec.noun, key.kind);
+        debug_assert!(kind.is_some(), "`{key}` of {} has another type", self.spec.noun);
         let given = self.node(key);
         let value = given.and_then(|node| T::read(node, kind?));
         let is_of_other_kind = given.is_some() && matches!(key.kind, Kind::Either(_));

@@ -268,7 +268,7 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
     if table.has(&orientation::QUATERNION) {
         return DQuat::from_array(table.get(&orientation::QUATERNION));
     }
-    together(name, &table, context);
+    together(name, &table, [&orientation::AXIS.spec, &orientation::ANGLE.spec], context);
     match (table.get(&orientation::AXIS), table.get(&orientation::ANGLE)) {
         (Some(axis), Some(angle)) => DQuat::from_axis_angle(axis, angle.to_radians()),
         _ => DQuat::IDENTITY,
@@ -276,8 +276,12 @@ pub(super) fn orientation(name: &str, view: &View<'_>, context: &mut Context<'_>
 }
 
 /// Reports an orientation with an `axis` but no `angle`, or with an `angle` but no `axis`.
-pub(super) fn together(name: &str, table: &View<'_>, context: &mut Context<'_>) {
-    let (axis, angle) = (&orientation::AXIS.spec, &orientation::ANGLE.spec);
+pub(super) fn together(
+    name: &str,
+    table: &View<'_>,
+    [axis, angle]: [&KeySpec; 2],
+    context: &mut Context<'_>,
+) {
     for (key, other, value) in [(axis, angle, "45"), (angle, axis, "[0, 0, 1]")] {
         if let (Some(span), false) = (table.key_span(key), table.has(other)) {
             let (key, other) = (key.name, other.name);

@@ -15,7 +15,6 @@ use crate::scene::expand::in_string;
 use crate::scene::grammar::emitters::{cuboid, disc, emitter, from, shape, sphere};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec};
-use crate::scene::value;
 use crate::scene::{Body, Color, ContactLaw, Emitter, SimulationSettings};
 
 /// The maximum number of particles of one emitter that are alive at the same time.
@@ -284,10 +283,9 @@ impl Reader<'_, '_> {
     fn origin(&mut self, direction: Option<DVec3>) -> (Origin, Option<BodyId>) {
         let from = self.view.table(&emitter::FROM);
         let number = |name: Option<&str>| self.context.names.bodies.get(name?).copied();
-        let (surface, body) =
-            (number(from.get(&from::SURFACE)), number(from.get_as::<value::Text>(&scene::BODY)));
+        let (surface, body) = (number(from.get(&from::SURFACE)), number(from.get(&from::BODY)));
         let carrier = surface.or(body).map(BodyId::new);
-        if let (Some(_), Some(span)) = (surface, from.key_span(&scene::BODY)) {
+        if let (Some(_), Some(span)) = (surface, from.key_span(&from::BODY)) {
             let message = format!("`body` of `{}` has no effect", self.name);
             let warning = Diagnostic::warning(Code::NoEffect, message);
             self.context.diagnostics.push(warning.at(span, "`surface` names the body"));

@@ -14,7 +14,8 @@ use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::grammar::{KeySpec, quoted};
+use crate::scene::grammar::{Key, KeySpec, quoted};
+use crate::scene::value;
 use crate::scene::{
     Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
     ScaleBar, Side,
@@ -46,7 +47,7 @@ pub(super) fn read(
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
     let bar = wanted(root, &scene::SCALE_BAR)?;
-    Some(ScaleBar { length: bar.get(&scale_bar::LENGTH), corner: corner(&bar) })
+    Some(ScaleBar { length: bar.get(&scale_bar::LENGTH), corner: corner(&bar, &scale_bar::CORNER) })
 }
 
 pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
@@ -55,8 +56,8 @@ pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
     Some(Grid { spacing: grid.get(&grid::SPACING), plane })
 }
 
-fn corner(view: &View<'_>) -> Corner {
-    view.choice(&label::CORNER, Corner::ALL, Corner::name)
+fn corner(view: &View<'_>, key: &Key<value::Text>) -> Corner {
+    view.choice(key, Corner::ALL, Corner::name)
 }
 
 fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> LabelPlace {
@@ -70,7 +71,7 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
             useless(&label::SIDE.spec, "without `body`");
             useless(&label::GHOSTS.spec, "without `body`");
         }
-        return LabelPlace::Corner(corner(view));
+        return LabelPlace::Corner(corner(view, &label::CORNER));
     };
     let ghosts = view.get(&label::GHOSTS);
     if ghosts && bodies[body].showing.ghosts.is_none() {

@@ -97,7 +97,7 @@ fn turning(name: &str, view: &View<'_>, context: &mut Context<'_>) -> TimedOrien
     {
         return TimedOrientation::Euler(angles);
     }
-    body::together(name, &table, context);
+    body::together(name, &table, [&turning::AXIS.spec, &turning::ANGLE.spec], context);
     match (table.get(&turning::AXIS), table.get(&turning::ANGLE)) {
         (Some(axis), Some(angle)) => TimedOrientation::Axis { axis, angle },
         _ => TimedOrientation::Constant(DQuat::IDENTITY),
