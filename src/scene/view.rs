@@ -132,11 +132,12 @@ impl<'a> View<'a> {
         self.node(key).is_some()
     }
 
-    /// Returns the key of the table with its value. Tables that share a key may name each other's, if they read it alike.
+    /// Returns the key of the table with its value. `None` if the table has no such key: a joint of any kind can be asked for its motor.
+    /// Tables that share a key may name each other's, if they read it alike.
     fn entry(&self, key: &KeySpec) -> Option<&'a Entry> {
         debug_assert!(
-            self.spec.key(key.name).is_some_and(|own| own.reads_like(key)),
-            "{} has no such key `{key}`",
+            self.spec.key(key.name).is_none_or(|own| own.reads_like(key)),
+            "{} has another key `{key}`",
             self.spec.noun
         );
         self.table?.get(key.name)

@@ -171,7 +171,7 @@ fn by_keyframes(
             continue;
         }
         let before = keys.last();
-        let turned = frame.has(&formula::ORIENTATION).then(|| body::orientation(name, &frame, context));
+        let turned = frame.has(&keyframe::ORIENTATION).then(|| body::orientation(name, &frame, context));
         keys.push(Keyframe {
             time,
             location: frame.get(&keyframe::LOCATION).or(before.map(|key| key.location)).unwrap_or(location),
