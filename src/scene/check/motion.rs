@@ -180,7 +180,7 @@ fn by_keyframes(
             angular_velocity: None,
         });
     }
-    let interpolation = interpolation(view);
+    let interpolation = interpolation(view.get(&keyframes::INTERPOLATION));
     if keys.is_empty() || !has_room(keys.len(), view.span(&keyframes::AT), context) {
         return None;
     }
@@ -235,7 +235,7 @@ pub(super) fn camera_keyframes(
         aims.extend(aim.map(key));
     }
     [places, aims].map(|keys| {
-        let track = Track::new(keys, interpolation(view), true);
+        let track = Track::new(keys, interpolation(view.get(&camera::keyframes::INTERPOLATION)), true);
         track.span().is_some().then(|| TimedVector::Track(Arc::new(track)))
     })
 }
@@ -252,8 +252,8 @@ fn out_of_order(last: &mut Option<(f64, Span)>, time: f64, span: Span, context: 
     false
 }
 
-fn interpolation(view: &View<'_>) -> Interpolation {
-    match view.get(&keyframes::INTERPOLATION) {
+fn interpolation(word: &str) -> Interpolation {
+    match word {
         "linear" => Interpolation::Linear,
         _ => Interpolation::Cubic,
     }
@@ -292,7 +292,7 @@ fn by_trajectory(
             context,
         );
     }
-    let interpolation = interpolation(view);
+    let interpolation = interpolation(view.get(&trajectory_keys::INTERPOLATION));
     let same = Rows {
         address: keys.as_ptr().addr(),
         orientation: (!recording.is_turned).then(|| orientation.to_array().map(f64::to_bits)),
