@@ -5,7 +5,7 @@ use std::fmt::{self, Write};
 use sha2::{Digest, Sha256};
 
 use crate::scene::{Body, Force, ForceKind, Joint, Scene, SimulationSettings};
-use crate::simulate::Moments;
+use crate::simulate::{self, Moments};
 
 /// The SHA-256 that identifies a run.
 pub(super) type CacheKey = [u8; 32];
@@ -55,6 +55,8 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     writeln!(text, "{timeline:?} {step:?} {tolerance:?}")?;
     writeln!(text, "{} {gravity:?}", method.name)?;
     writeln!(text, "{contacts:?} {:?} {pairs:?}", contacts.and(scene.ground_that_stops()))?;
+    // A run that shows no contact forces may lack contacts.
+    writeln!(text, "{}", simulate::lists_contacts(scene))?;
     for body in bodies {
         let Body {
             start,
@@ -67,6 +69,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
             name: _,
             material: _,
             look: _,
+            // `moments` contains the times of ghosts.
             showing: _,
         } = body;
         writeln!(text, "{start:?} {presence:?} {motion:?}")?;
@@ -101,6 +104,9 @@ impl Write for Text {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod keys;
 
 #[cfg(test)]
 mod tests {
@@ -150,6 +156,19 @@ mod tests {
         ] {
             assert_ne!(plain, digest(&scene(other)), "{other}");
         }
+    }
+
+    /// The recording contains the impacts of the pairs of bodies that labels count.
+    #[test]
+    fn a_label_that_counts_the_impacts_of_a_pair_counts() {
+        let scene = |text: &str| {
+            digest(&format!(
+                "simulation.contacts = 'event-driven'\n[body.ball]\nshape.sphere.radius = 1\nlocation = [0, 3, 0]\n\
+                 [label.a]\ntext = '{text}'\n"
+            ))
+        };
+        assert_eq!(scene("${t}"), scene("${impacts}"));
+        assert_ne!(scene("${t}"), scene("${ball.impacts.ground}"));
     }
 
     /// The digest must not contain memory addresses, since they differ between processes.

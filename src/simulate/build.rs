@@ -14,18 +14,14 @@ use self::joints::constraint;
 use crate::physics::{
     Accuracy, BodyId, ContactPolicy, Contacts, Dynamics, PairCounter, RigidBody, Shape, UniformGravity, World,
 };
-#[cfg(feature = "time-stepping")]
-use crate::scene::is_by_moreau;
-use crate::scene::{Body, ContactLaw, Scene};
+use crate::scene::{Body, ContactLaw, Scene, is_by_moreau};
 
 /// Builds the dynamics that a scene asks for: a plain world, a world that an adaptive method advances, or, for many bodies in contact, the
 /// time-stepping engine.
 /// `pair_counter` counts the evaluated interactions between pairs of bodies.
 pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dynamics> {
     #[cfg(feature = "time-stepping")]
-    if scene.simulation.contacts == Some(ContactLaw::TimeStepping)
-        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty())
-    {
+    if is_for_many_bodies(scene) {
         return Box::new(stepping::stepping(scene, pair_counter));
     }
     let mut world = world(scene);
@@ -38,6 +34,20 @@ pub(super) fn dynamics(scene: &Scene, pair_counter: &PairCounter) -> Box<dyn Dyn
         }
         _ => Box::new(world),
     }
+}
+
+/// Returns true if the engine for many bodies simulates a scene.
+fn is_for_many_bodies(scene: &Scene) -> bool {
+    cfg!(feature = "time-stepping")
+        && scene.simulation.contacts == Some(ContactLaw::TimeStepping)
+        && !is_by_moreau(&scene.bodies, !scene.joints.is_empty())
+}
+
+/// Returns true if a run lists its contacts. The engine for many bodies lists them only if the scene shows contact forces, since there are
+/// tens of thousands in a pile.
+pub fn lists_contacts(scene: &Scene) -> bool {
+    let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
+    !is_for_many_bodies(scene) || scene.bodies.iter().any(shows)
 }
 
 /// Builds the world of a scene in its initial state. A body has the same index in the scene and in the world. A ground that stops bodies

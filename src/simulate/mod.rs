@@ -100,7 +100,7 @@ use crate::scene::law::quantities_at;
 use crate::scene::{ForceKind, Scene, in_string};
 
 pub(crate) use build::forces;
-pub use build::world;
+pub use build::{lists_contacts, world};
 pub use diverged::{Cause, Diverged, ShorterStep};
 pub(crate) use energy_error::EnergyError;
 pub use energy_error::EnergyScale;

@@ -1,8 +1,8 @@
 //! Builds the time-stepping engine for a scene.
 
-use super::{add_ground, contacts, free_world};
+use super::{add_ground, contacts, free_world, lists_contacts};
 use crate::physics::{Link, LinkKind, PairCounter, TimeStepping};
-use crate::scene::{Body, Joint, JointKind, Scene};
+use crate::scene::{Joint, JointKind, Scene};
 
 /// Builds a time-stepping engine with all bodies, forces, joints and contacts of a scene. `pair_counter` counts the evaluated interactions
 /// between pairs of bodies.
@@ -12,7 +12,7 @@ pub(super) fn stepping(scene: &Scene, pair_counter: &PairCounter) -> TimeSteppin
     world.watch(pair_counter);
     let links: Vec<Link> = scene.joints.iter().filter_map(link).collect();
     let mut stepping = TimeStepping::new(world, &contacts(scene), &links);
-    stepping.show_contacts(shows_contacts(scene));
+    stepping.show_contacts(lists_contacts(scene));
     stepping
 }
 
@@ -29,10 +29,4 @@ fn link(joint: &Joint) -> Option<Link> {
         JointKind::Pulley(_) | JointKind::Gear(_) => return None,
     };
     Some(Link { kind, collides: joint.collides })
-}
-
-/// True if the scene shows contact forces. Otherwise the engine does not report its contacts, which are tens of thousands in a pile.
-fn shows_contacts(scene: &Scene) -> bool {
-    let shows = |body: &Body| body.showing.loads[1..].iter().any(Option::is_some);
-    scene.bodies.iter().any(shows)
 }
