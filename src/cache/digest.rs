@@ -38,6 +38,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         views: _,
         lights: _,
         labels: _,
+        plots: _,
         scale_bar: _,
         grid: _,
         povray: _,

@@ -5,10 +5,11 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format};
+use jabuka::export::{Contents, DRAWING, ExportError, FORMATS, FileKind, Format, PlotDrawing};
 use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
+use jabuka::scene::Scene;
 use jabuka::simulate::{Moments, Selection};
 use jabuka::system::Dir;
 
@@ -41,6 +42,9 @@ pub(super) struct Arguments {
     /// FILE.csv`
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
     events: Option<Option<PathBuf>>,
+    /// Write the plot `[plot.NAME]` of the scene as a drawing (SVG), with its curves over the whole run
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["joints", "particles", "events", "frames"])]
+    plot: Option<String>,
     /// Select frames by number, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
@@ -74,6 +78,24 @@ impl Arguments {
 }
 
 impl Arguments {
+    /// Returns the drawing of the plot that `--plot` names.
+    fn drawing(&self, scene: &Scene, output: &Path) -> Result<Option<PlotDrawing>, Failure> {
+        let Some(name) = &self.plot else { return Ok(None) };
+        let FileKind { noun, extension } = DRAWING;
+        if !output.extension().is_some_and(|given| given.eq_ignore_ascii_case(extension)) {
+            return Err(Failure::Usage(format!("`--plot` makes {noun}, `.{extension}`")));
+        }
+        let number = scene.plots.iter().position(|plot| plot.name == *name);
+        let names: Vec<&str> = scene.plots.iter().map(|plot| plot.name.as_str()).collect();
+        let known = if names.is_empty() {
+            "it has none".to_owned()
+        } else {
+            format!("it has `{}`", names.join("`, `"))
+        };
+        let unknown = || Failure::Usage(format!("the scene has no plot `{name}`: {known}"));
+        number.map(|number| Some(PlotDrawing(number))).ok_or_else(unknown)
+    }
+
     /// Returns the selected format: that of an option, or else that of the file's extension.
     fn format(&self, output: &Path) -> Result<&'static dyn Format, Failure> {
         let is_given = |option: &str| match option {
@@ -108,8 +130,12 @@ impl Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = arguments.files()?;
     let output = files.output;
-    let format = arguments.format(output)?;
+    let format = if arguments.plot.is_none() { Some(arguments.format(output)?) } else { None };
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
+    let drawing = arguments.drawing(&scene, output)?;
+    let Some(format) = drawing.as_ref().map(|it| it as &dyn Format).or(format) else {
+        unreachable!("without a drawing, there is a format")
+    };
     terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
     if let Some(lack) = format.lack(&scene) {
         return Err(Failure::Scene(lack));

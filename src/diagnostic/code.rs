@@ -47,6 +47,7 @@ codes! {
     BadIntegrator = "bad-integrator",
     BadJoint = "bad-joint",
     BadMesh = "bad-mesh",
+    BadPlot = "bad-plot",
     BadSet = "bad-set",
     BadTemplate = "bad-template",
     BadVariableName = "bad-variable-name",

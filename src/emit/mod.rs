@@ -136,6 +136,7 @@ impl Emitter {
         let meshes = Meshes::new(scene);
         let mut common = templates.render(COMMON, &values::common(scene, &stage, &materials))?;
         meshes.declare(&mut common, scene.output.layout, style.digits);
+        Showing::declare(&mut common, &plan, scene.output.layout, style);
         let (in_every_script, shared) = match scene.output.layout {
             Layout::SelfContained => (common, None),
             Layout::Shared => (format!("#include \"{COMMON}\"\n"), Some(common)),

@@ -60,6 +60,9 @@ pub static TABLE: FileKind = FileKind { noun: "a table", extension: "csv" };
 /// Animated models in binary glTF.
 pub static MODEL: FileKind = FileKind { noun: "a model", extension: "glb" };
 
+/// Drawings of lines and letters in SVG.
+pub static DRAWING: FileKind = FileKind { noun: "a drawing", extension: "svg" };
+
 /// What a written file contains.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
@@ -71,7 +74,7 @@ pub struct Contents {
     pub faster: f64,
 }
 
-/// All formats. Each stands here once.
+/// All formats that need no further choice. Each stands here once.
 pub static FORMATS: [&dyn Format; 5] = [&Bodies, &Joints, &Particles, &Events, &Model];
 
 impl Contents {

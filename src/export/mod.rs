@@ -1,4 +1,4 @@
-//! Exports frames as tables and models for other programs.
+//! Exports frames as tables, models and drawings for other programs.
 //!
 //! # Models
 //!
@@ -22,12 +22,14 @@ mod format;
 mod glb;
 mod joints;
 mod particles;
+mod plot;
 mod table;
 
 pub use self::bodies::{HEADER, write_csv};
 pub use self::error::ExportError;
 pub use self::events::{EVENT_HEADER, write_events};
-pub use self::format::{Contents, FORMATS, FileKind, Format, MODEL, TABLE};
+pub use self::format::{Contents, DRAWING, FORMATS, FileKind, Format, MODEL, TABLE};
 pub use self::glb::{Exported, write_glb};
 pub use self::joints::{JOINT_HEADER, write_joints};
 pub use self::particles::{PARTICLE_HEADER, write_particles};
+pub use self::plot::PlotDrawing;

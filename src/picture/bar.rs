@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
-use super::framing::decimal_step;
+use super::framing::{Free, decimal_step};
 use super::grid::{LEAST_PIXELS, SIZE};
 use super::length::{prefixed, value};
 use super::occupancy::Rectangle;
+use super::plots;
 use super::screen::Screen;
 use super::stage::Scenery;
-use super::text::{MARGIN, Text, Vertical, across, is_top, least_height};
+use super::text::{MARGIN, Text, Vertical, across_free, is_top, least_height};
 use crate::scene::{Color, ScaleBar, Scene};
 
 /// A scale bar in the image plane, where the picture has a width of 2.
@@ -46,6 +47,8 @@ pub(super) struct ScaleBars {
     /// The height of a line of text in the image plane.
     height: f64,
     ink: Color,
+    /// The part of the picture that plots at its sides leave free.
+    free: Free,
 }
 
 impl ScaleBars {
@@ -53,7 +56,7 @@ impl ScaleBars {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
         let height = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
-        ScaleBars { bar, middle, height, ink }
+        ScaleBars { bar, middle, height, ink, free: plots::free(scene) }
     }
 
     /// The length that the bar represents, m, and its width in the image plane of a camera. `None` if the center of the framed bounds is
@@ -68,7 +71,7 @@ impl ScaleBars {
     /// Returns the bar and its number in the image plane of a camera. `None` if the center of the framed bounds is behind the camera.
     pub(super) fn on(&self, screen: &Screen) -> Option<(Bar, Text<'static>)> {
         let (length, width) = self.extent(screen)?;
-        let (x, align) = across(self.bar.corner);
+        let (x, align) = across_free(self.bar.corner, self.free);
         let left = x - align * width;
         let y = match is_top(self.bar.corner) {
             true => Vertical::Top(MARGIN + 1.6 * self.height),

@@ -2,7 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::framing::{self, Field, Framing};
+use super::framing::{self, Field, Framing, Free};
+use super::plots;
 use super::screen::Screen;
 use crate::scene::{Blur, Body, Camera, Output, Projection, Scene};
 use crate::simulate::{Bounds, Frame};
@@ -39,16 +40,20 @@ pub enum Lens {
 impl Placed {
     /// Places a camera. If the scene gives no position, the camera looks at the bounds from the direction `towards`, at the distance that
     /// shows all of the bounds.
-    fn new(camera: &Camera, bounds: Bounds, towards: DVec3, output: Output) -> Placed {
+    fn new(camera: &Camera, bounds: Bounds, towards: DVec3, scene: &Scene) -> Placed {
+        let output = scene.output;
+        // A camera that is placed or moved by the scene keeps what it looks at in the middle.
+        let is_free = camera.location.is_none() && camera.look_at.is_none() && !camera.motion.moves();
+        let free = if is_free { plots::free(scene) } else { Free::ALL };
         let (lens, auto) = match camera.projection {
             Projection::Perspective { angle } => {
-                let field = Field::new(angle, output);
+                let field = Field::new(angle, output).within(free);
                 (Lens::Perspective { angle }, framing::perspective(bounds, field, camera.look_at, towards))
             }
             Projection::Orthographic { width } => {
                 let given = camera.location.zip(camera.look_at).map(|(location, look_at)| location - look_at);
                 let towards = given.unwrap_or(towards);
-                let (auto, seen) = framing::orthographic(bounds, output, camera.look_at, towards);
+                let (auto, seen) = framing::orthographic(bounds, output, camera.look_at, towards, free);
                 (Lens::Orthographic { width: width.unwrap_or(seen) }, auto)
             }
         };
@@ -195,7 +200,7 @@ impl MovingCamera {
             (follow.body, body.start.location, half_width(body).unwrap_or(1.0))
         });
         let moving = camera.motion.moves().then(|| Moving { camera: camera.clone(), followed, within: None });
-        MovingCamera { placed: Placed::new(camera, bounds, towards, scene.output), moving }
+        MovingCamera { placed: Placed::new(camera, bounds, towards, scene), moving }
     }
 
     /// Limits the camera to follow its body only within a box.

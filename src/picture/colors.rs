@@ -1,6 +1,6 @@
 //! Colors derived from other colors.
 
-use crate::scene::{Color, Scene};
+use crate::scene::Color;
 
 /// The color of a body's ghost: the body's color, mixed with the color of a `dark` or light background.
 pub fn pale(color: Color, dark: bool) -> Color {
@@ -18,9 +18,9 @@ pub(super) fn seen(color: Color, dark: bool) -> Color {
     Color(color.0.map(|part| part + white * (1.0 - part)))
 }
 
-/// The default color of text in a scene.
-pub(super) fn ink(scene: &Scene) -> Color {
-    if scene.environment.is_dark() { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
+/// The default color of text on a `dark` or light background.
+pub(super) fn ink(dark: bool) -> Color {
+    if dark { Color([0.95, 0.96, 0.97]) } else { Color([0.05, 0.07, 0.10]) }
 }
 
 #[cfg(test)]

@@ -52,11 +52,29 @@ pub(super) struct Framing {
     pub(super) look_at: DVec3,
 }
 
-/// The field of view: the tangents of half of its horizontal and vertical angles.
+/// The field of view: the tangents of half of its horizontal and vertical angles, and the part of it that the motion may fill.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Field {
     pub(super) horizontal: f64,
     vertical: f64,
+    /// The tangent of the horizontal angle of the middle of the free part.
+    center: f64,
+    /// Half of the width of the free part, as a difference of tangents.
+    half: f64,
+}
+
+/// The part of the picture's width that plots at its sides leave free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Free {
+    /// The middle of the free part, in half-widths of the picture: negative if plots stand at the right side.
+    pub(super) center: f64,
+    /// Half of its width, in half-widths of the picture.
+    pub(super) half: f64,
+}
+
+impl Free {
+    /// The whole picture.
+    pub(super) const ALL: Free = Free { center: 0.0, half: 1.0 };
 }
 
 impl Field {
@@ -64,7 +82,17 @@ impl Field {
     pub(super) fn new(angle: f64, output: Output) -> Field {
         // An angle may reach 180°, for which no distance is large enough.
         let horizontal = libm::tan(angle.min(160.0).to_radians() / 2.0);
-        Field { horizontal, vertical: horizontal * f64::from(output.height) / f64::from(output.width) }
+        Field {
+            horizontal,
+            vertical: horizontal * f64::from(output.height) / f64::from(output.width),
+            center: 0.0,
+            half: horizontal,
+        }
+    }
+
+    /// Limits the motion to a part of the picture.
+    pub(super) fn within(self, free: Free) -> Field {
+        Field { center: free.center * self.horizontal, half: free.half * self.horizontal, ..self }
     }
 }
 
@@ -80,7 +108,7 @@ pub(super) fn perspective(bounds: Bounds, field: Field, look_at: Option<DVec3>, 
         // centered. Each iteration removes most of the error.
         for _ in 0..6 {
             let (x, y) = middle_of_picture(&corners, aim, (right, up, back), distance);
-            aim += (right * x + up * y) * distance;
+            aim += (right * (x - field.center) + up * y) * distance;
             distance = self::distance(&corners, aim, (right, up, back), field);
         }
     }
@@ -95,15 +123,18 @@ pub(super) fn orthographic(
     output: Output,
     look_at: Option<DVec3>,
     towards: DVec3,
+    free: Free,
 ) -> (Framing, f64) {
     let (right, up, back) = axes(towards);
-    let aim = look_at.unwrap_or((bounds.min + bounds.max) / 2.0);
+    let middle = (bounds.min + bounds.max) / 2.0;
+    let aim = look_at.unwrap_or(middle);
     let aspect = f64::from(output.width) / f64::from(output.height);
     let half = |corner: DVec3| {
         let offset = corner - aim;
-        offset.dot(right).abs().max(offset.dot(up).abs() * aspect)
+        (offset.dot(right).abs() / free.half).max(offset.dot(up).abs() * aspect)
     };
     let width = 2.0 * corners(bounds).into_iter().map(half).fold(0.0, f64::max) / FILL;
+    let aim = look_at.unwrap_or(aim - right * (free.center * width / 2.0));
     // With parallel rays, the picture is the same from any distance in front of all bodies.
     let distance = 2.0 * ((bounds.max - bounds.min).length() + aim.distance((bounds.min + bounds.max) / 2.0));
     (rounded(aim, back, distance), width)
@@ -140,7 +171,9 @@ fn distance(corners: &[DVec3; 8], aim: DVec3, axes: (DVec3, DVec3, DVec3), field
     let (right, up, back) = axes;
     let needed = |corner: &DVec3| {
         let offset = *corner - aim;
-        let across = offset.dot(right).abs() / (field.horizontal * FILL);
+        let edge = field.half * FILL;
+        let across = offset.dot(right);
+        let across = (across / (field.center + edge)).max(across / (field.center - edge));
         let upward = offset.dot(up).abs() / (field.vertical * FILL);
         across.max(upward) + offset.dot(back)
     };
@@ -217,13 +250,43 @@ mod tests {
         }
     }
 
+    /// Plots at the right side take 40 % of the width: the corners are in the 60 % at the left, and fill them.
+    #[test]
+    fn beside_plots_all_corners_are_in_the_free_part() {
+        let free = Free { center: -0.4, half: 0.6 };
+        for bounds in [
+            Bounds { min: DVec3::splat(-1.0), max: DVec3::splat(1.0) },
+            Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 12.0, 1.0) },
+        ] {
+            let field = Field::new(40.0, WIDE).within(free);
+            let framing = perspective(bounds, field, None, towards_camera(bounds, Sight::default()));
+            let (right, up, back) = axes(framing.location - framing.look_at);
+            let (flat, width) =
+                orthographic(bounds, WIDE, None, towards_camera(bounds, Sight::default()), free);
+            let mut fullest = [0.0_f64; 2];
+            for corner in corners(bounds) {
+                let offset = corner - framing.location;
+                let depth = -offset.dot(back);
+                let across = offset.dot(right) / depth / field.horizontal;
+                let upward = offset.dot(up).abs() / depth / field.vertical;
+                fullest[0] = fullest[0].max((across - free.center).abs() / free.half).max(upward);
+                let offset = (corner - flat.look_at) / (width / 2.0);
+                let across = (offset.dot(right) - free.center).abs() / free.half;
+                fullest[1] = fullest[1].max(across).max(offset.dot(up).abs() * 1280.0 / 720.0);
+            }
+            for fullest in fullest {
+                assert!((fullest - FILL).abs() < 0.05, "{bounds:?} fills {fullest}");
+            }
+        }
+    }
+
     #[test]
     fn without_perspective_all_corners_are_in_the_picture_too() {
         let bounds = Bounds { min: DVec3::new(-2.0, 0.0, -1.0), max: DVec3::new(62.0, 52.0, 1.0) };
         for towards in
             [towards_camera(bounds, Sight::default()), DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 1.0)]
         {
-            let (framing, width) = orthographic(bounds, WIDE, None, towards);
+            let (framing, width) = orthographic(bounds, WIDE, None, towards, Free::ALL);
             let (right, up, _) = axes(towards);
             let mut fullest: f64 = 0.0;
             for corner in corners(bounds) {

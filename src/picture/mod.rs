@@ -1,7 +1,7 @@
 //! Frames → the contents of their pictures.
 //!
 //! A [`Plan`] is made once for a run and a camera. For any frame, in any order and from several threads, the plan computes the camera, the
-//! lights, and everything that is drawn besides the bodies: arrows, axes, springs, joints, ghosts, trails, texts, a grid, a scale bar. All
+//! lights, and everything that is drawn besides the bodies: arrows, axes, springs, joints, ghosts, trails, texts, plots, a grid, a scale bar. All
 //! lengths are in meters and independent of the renderer, so all renderers draw the same picture.
 //!
 //! Texts are placed on a plane in front of the camera (`screen.rs`); their heights are relative to the image. Springs and joints are planned
@@ -35,6 +35,7 @@ pub(crate) mod number;
 mod occupancy;
 mod pace;
 mod plan;
+mod plots;
 mod pulley;
 mod scope;
 mod screen;
@@ -57,6 +58,8 @@ pub use not_drawn::{NotDrawn, Reason, RequestedItem};
 pub use pace::Pace;
 pub(crate) use plan::has_texts;
 pub use plan::{Largest, Plan, Written};
+pub(crate) use plots::plot_alone;
+pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotLine};
 pub use scope::Part;
 pub use screen::{Screen, ScreenPoint};
 pub use stage::{Scenery, Stage, StageGround};

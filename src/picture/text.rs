@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::framing::Free;
 use super::occupancy::Rectangle;
 use crate::font;
 use crate::scene::{Color, Corner, Output};
@@ -94,6 +95,15 @@ pub(super) fn across(corner: Corner) -> (f64, f64) {
         Corner::TopLeft | Corner::BottomLeft => (MARGIN - 1.0, 0.0),
         Corner::Top | Corner::Bottom => (0.0, 0.5),
         Corner::TopRight | Corner::BottomRight => (1.0 - MARGIN, 1.0),
+    }
+}
+
+/// The horizontal position of a text in a corner of the part of the picture that is free, and its alignment.
+pub(super) fn across_free(corner: Corner, free: Free) -> (f64, f64) {
+    match across(corner).1 {
+        0.5 => (free.center, 0.5),
+        0.0 => (MARGIN + (free.center - free.half), 0.0),
+        align => (free.center + free.half - MARGIN, align),
     }
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::run::{Outcome, PreviewRun};
 use crate::physics::{self, Shape};
-use crate::picture::{PlacedLight, Plan, pale};
+use crate::picture::{PlacedLight, Plan, has_texts, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance, ground, pieces};
@@ -125,6 +125,8 @@ struct Stage {
     trails: Vec<Trail>,
     /// The lines of the grid for each camera. The list is empty for a camera that moves.
     grids: Vec<Vec<super::shown::Line>>,
+    /// The plots of the scene, with their curves over the whole run.
+    plots: Vec<super::shown::Plot>,
     /// The initial position and direction of each camera.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
@@ -295,7 +297,7 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         .iter()
         .any(|force| matches!(force.kind, crate::scene::ForceKind::Spring { look: Some(_), .. }));
     let trails = scene.bodies.iter().any(|body| body.showing.trail.is_some());
-    let texts = !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some();
+    let texts = has_texts(scene);
     let moves = |plan: &Plan| plan.camera_moves() || plan.lights_move();
     bodies
         || springs
@@ -341,6 +343,7 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
             .iter()
             .map(|plan| plan.still_grid().map_or_else(Vec::new, super::shown::lines))
             .collect(),
+        plots: super::shown::plots(&run.scene, plan),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
         lights: match plan.lights(0.0) {
             given if given.is_empty() => lights(&plan.usual_lights()),

@@ -29,6 +29,7 @@ pub(super) const FILES: &[(&str, &str, &[u8])] = &[
     ("/render.js", JAVASCRIPT_TYPE, include_bytes!("page/render.js")),
     ("/run.js", JAVASCRIPT_TYPE, include_bytes!("page/run.js")),
     ("/runs.js", JAVASCRIPT_TYPE, include_bytes!("page/runs.js")),
+    ("/scene_plots.js", JAVASCRIPT_TYPE, include_bytes!("page/scene_plots.js")),
     ("/server.js", JAVASCRIPT_TYPE, include_bytes!("page/server.js")),
     ("/shaders.js", JAVASCRIPT_TYPE, include_bytes!("page/shaders.js")),
     ("/surroundings.js", JAVASCRIPT_TYPE, include_bytes!("page/surroundings.js")),

@@ -27,6 +27,8 @@ pub(super) struct Shown {
     links: Vec<Link>,
     texts: Vec<Text>,
     bar: Option<Bar>,
+    /// What the frame shows of the curves of each plot.
+    plots: Vec<Vec<CurveNow>>,
 }
 
 /// The position, direction and lens of a camera at one time, for the page.
@@ -109,6 +111,44 @@ struct Text {
     in_world: bool,
 }
 
+/// What a frame shows of a curve: the number of points up to its time, and the position of its own values.
+#[derive(Serialize)]
+struct CurveNow {
+    count: usize,
+    here: Option<[f64; 2]>,
+}
+
+/// A plot of the scene. Positions are relative to the lower left corner of the panel, in units of the image plane; those of texts are in the
+/// image plane.
+#[derive(Serialize)]
+pub(super) struct Plot {
+    name: String,
+    left: f64,
+    bottom: f64,
+    size: [f64; 2],
+    paper: Vector,
+    lines: Vec<PlotLine>,
+    texts: Vec<Text>,
+    curves: Vec<Curve>,
+    dot: f64,
+}
+
+#[derive(Serialize)]
+struct PlotLine {
+    from: [f64; 2],
+    to: [f64; 2],
+    color: Vector,
+}
+
+#[derive(Serialize)]
+struct Curve {
+    color: Vector,
+    /// The color of the part that is still ahead. `None` if this part is not drawn.
+    pale: Option<Vector>,
+    /// The points of the whole run. `None` is a gap.
+    points: Vec<Option<[f64; 2]>>,
+}
+
 #[derive(Serialize)]
 struct Bar {
     from: f64,
@@ -169,8 +209,7 @@ pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
 }
 
 fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
-    let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-    let height = |y: Vertical| y.above_middle(aspect);
+    let height = |y: Vertical| y.above_middle(aspect(scene));
     let mut arrows = plan.arrows_in_front(frame);
     arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows_in_front(frame, ghost)));
     let arrow = |arrow: &picture::Arrow| Arrow {
@@ -184,17 +223,7 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         turn: axes.orientation.to_array(),
         length: axes.length,
     };
-    let text = |text: &picture::Text<'_>| Text {
-        name: text.name.to_owned(),
-        says: text.says.to_string(),
-        x: text.x,
-        y: height(text.y),
-        height: text.height,
-        align: text.align,
-        color: text.color.0,
-        beside: beside(scene, text.name),
-        in_world: ["grid", "scale bar"].contains(&text.name),
-    };
+    let now = |now: &picture::CurveNow| CurveNow { count: now.count, here: now.here };
     let bar = |bar: picture::Bar| Bar {
         from: bar.from,
         to: bar.to,
@@ -210,9 +239,51 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         arrows: arrows.iter().map(arrow).collect(),
         axes: plan.axes(frame).iter().map(axes).collect(),
         links: plan.links(frame).into_iter().map(link).collect(),
-        texts: plan.texts(frame).iter().map(text).collect(),
+        texts: plan.texts(frame).iter().map(|each| text(scene, each)).collect(),
         bar: plan.bar(frame).map(bar),
+        plots: plan.plots(frame).iter().map(|curves| curves.iter().map(now).collect()).collect(),
     }
+}
+
+/// The height of the picture, relative to its width.
+fn aspect(scene: &Scene) -> f64 {
+    f64::from(scene.output.height) / f64::from(scene.output.width)
+}
+
+fn text(scene: &Scene, text: &picture::Text<'_>) -> Text {
+    Text {
+        name: text.name.to_owned(),
+        says: text.says.to_string(),
+        x: text.x,
+        y: text.y.above_middle(aspect(scene)),
+        height: text.height,
+        align: text.align,
+        color: text.color.0,
+        beside: beside(scene, text.name),
+        in_world: ["grid", "scale bar"].contains(&text.name),
+    }
+}
+
+/// Describes the plots of a scene: what all frames have in common.
+pub(super) fn plots(scene: &Scene, plan: &Plan) -> Vec<Plot> {
+    let curve = |curve: &picture::PlannedCurve| Curve {
+        color: curve.color.0,
+        pale: curve.pale.map(|color| color.0),
+        points: curve.points.iter().map(|point| point.at).collect(),
+    };
+    let line = |line: &picture::PlotLine| PlotLine { from: line.from, to: line.to, color: line.color.0 };
+    let plot = |plot: &picture::PlannedPlot| Plot {
+        name: plot.name.clone(),
+        left: plot.left,
+        bottom: plot.bottom.above_middle(aspect(scene)),
+        size: plot.size,
+        paper: plot.paper.0,
+        lines: plot.lines.iter().map(line).collect(),
+        texts: plot.texts.iter().map(|each| text(scene, each)).collect(),
+        curves: plot.curves.iter().map(curve).collect(),
+        dot: plot.dot,
+    };
+    plan.planned_plots().iter().map(plot).collect()
 }
 
 fn link(link: picture::Link<'_>) -> Link {

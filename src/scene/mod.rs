@@ -88,11 +88,13 @@ mod label;
 pub mod law;
 mod library;
 mod look;
+mod measure;
 mod mesh;
 mod model;
 pub mod motion;
 mod palette;
 mod places;
+mod plot;
 mod preset;
 mod read;
 pub mod sdl;
@@ -114,18 +116,17 @@ pub use emitter::Emitter;
 pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};
 pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
-pub use label::{
-    BodyMeasure, Corner, Format, Grid, GridPlane, JointMeasure, JointState, Label, LabelPlace, Measure,
-    Piece, RunMeasure, ScaleBar, Side,
-};
+pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
     Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
+pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::Places;
+pub use plot::{Curve, Plot, PlotPlace};
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
 pub use source::Override;
@@ -174,6 +175,8 @@ pub struct Scene {
     pub pairs: Vec<[usize; 2]>,
     /// The labels in the picture, in the order of the file.
     pub labels: Vec<Label>,
+    /// The plots in the picture, in the order of the file.
+    pub plots: Vec<Plot>,
     /// The scale bar in the picture. `None` if the scene has no scale bar.
     pub scale_bar: Option<ScaleBar>,
     /// The grid in the picture. `None` if the scene has no grid.

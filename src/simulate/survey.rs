@@ -4,6 +4,7 @@
 
 mod corrected;
 mod crossing;
+mod curves;
 mod stretched;
 #[cfg(test)]
 mod tests;
@@ -11,6 +12,8 @@ mod tests;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
+pub use curves::CurvePoint;
+use curves::Curves;
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
@@ -55,6 +58,9 @@ pub struct Survey {
     pub laws: Vec<LawResidual>,
     /// The joint that gives way most under time-stepping. `None` if all joints hold well.
     pub stretched: Option<StretchedJoint>,
+    /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
+    /// values of neighboring frames.
+    pub curves: Vec<Vec<CurvePoint>>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -132,6 +138,7 @@ pub struct Surveyor<'a> {
     gaps: Gaps,
     /// The largest energy error so far.
     error: EnergyError,
+    curves: Curves<'a>,
 }
 
 impl Survey {
@@ -166,6 +173,7 @@ impl<'a> Surveyor<'a> {
             laws: Vec::new(),
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
+            curves: Curves::new(scene),
         }
     }
 
@@ -223,6 +231,7 @@ impl<'a> Surveyor<'a> {
         }
         self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
+        self.curves.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -240,6 +249,7 @@ impl<'a> Surveyor<'a> {
             laws,
             gaps,
             error,
+            curves,
             ..
         } = self;
         let interval = scene.simulation.timeline.interval();
@@ -258,6 +268,7 @@ impl<'a> Surveyor<'a> {
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             laws,
             stretched: gaps.finish(scene),
+            curves: curves.finish(),
             drift: error.drift(law),
             drift_scale,
             drift_energy,

@@ -305,6 +305,54 @@ fn a_grid_has_its_lines_where_its_numbers_say() {
     }
 }
 
+/// A curve is drawn where its values are: a spring with a damper, whose potential energy falls from 4.5 J. The panel and its axes are known
+/// from the plan; each point of the table must be a pixel in the color of the curve, and none lies ahead of the frame.
+#[test]
+fn a_curve_of_a_plot_is_where_its_values_are() {
+    let text = "[simulation]\nduration = 4\nintegrator = 'velocity-verlet'\n[output]\nsize = [960, 540]\n\
+        [body.wall]\nshape.box.size = [0.1, 0.3, 0.3]\nfixed = true\n\
+        [body.sled]\nshape.box.size = [0.3, 0.3, 0.3]\nlocation = [2.2, 0, 0]\nmass = 1\n\
+        [force.s]\nspring = { between = ['wall', 'sled'], stiffness = 9, damping = 0.4, rest_length = 1.2 }\n\
+        [plot.energy]\ny = ['kinetic', 'potential', 'total']\nrange = [0, 5]\nside = 'right'\n";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let (last, aspect) = (60, 540.0 / 960.0);
+    let frames: Vec<_> = run.frames().take(last + 1).map(Result::unwrap).collect();
+    let image = render(&run.emitter().script(&frames[last]).unwrap(), [960, 540]);
+    let plot = &run.emitter().plan().planned_plots()[0];
+    let pixel = |[x, y]: [f64; 2]| {
+        let up = plot.bottom.above_middle(aspect) + y;
+        DVec2::new(480.0 * (1.0 + plot.left + x), 270.0 - 480.0 * up)
+    };
+    // The values of a frame, and the corner of the axes: the upright axis goes from 0 J to 5 J, the level one from 0 s to 4 s.
+    let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+    let (origin, top) = (axes[axes.len() - 1].from, axes[axes.len() - 1].to);
+    let right = axes[axes.len() - 2].to;
+    let place = |time: f64, joule: f64| {
+        let across = origin[0] + (right[0] - origin[0]) * time / 4.0;
+        [across, origin[1] + (top[1] - origin[1]) * joule / 5.0]
+    };
+    let is_near = |color: [f64; 3]| {
+        move |[r, g, b]: Rgb| {
+            let wanted = color.map(|part| (255.0 * part) as i32);
+            [r, g, b].iter().zip(wanted).all(|(part, wanted)| (i32::from(*part) - wanted).abs() < 60)
+        }
+    };
+    let (kinetic, total) = (plot.curves[0].color.0, plot.curves[2].color.0);
+    for frame in &frames {
+        // The total stands before the others.
+        let at = pixel(place(frame.time, frame.balance.total));
+        assert!(is_near(total)(image.at(at)), "{}: {:?}", frame.time, image.at(at));
+    }
+    for part in 70..95 {
+        let x = origin[0] + (right[0] - origin[0]) * f64::from(part) / 100.0;
+        let mut column =
+            (0..200).map(|y| pixel([x, origin[1] + (top[1] - origin[1]) * f64::from(y) / 200.0]));
+        let is_ahead = |at: DVec2| is_near(kinetic)(image.at(at)) || is_near(total)(image.at(at));
+        assert!(!column.any(is_ahead), "the curve is drawn ahead, at {part} % of the time");
+    }
+}
+
 /// Checks that each moment of an image with motion blur shows its own past in ghosts and trails, and its own time in labels.
 #[test]
 fn the_moments_of_a_shutter_have_their_own_past() {

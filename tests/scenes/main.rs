@@ -7,6 +7,7 @@ mod first;
 mod given_motion;
 mod joints;
 mod many;
+mod measures;
 mod not_drawn;
 mod particles;
 mod particles_and_meshes;

@@ -6,6 +6,7 @@ mod arrows;
 mod ghosts;
 mod grid;
 mod links;
+mod plots;
 mod texts;
 mod trails;
 
@@ -19,7 +20,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::picture::{Plan, Written, has_texts};
-use crate::scene::{Color, ForceKind, Scene, SpringLine, SpringLook};
+use crate::scene::{Color, ForceKind, Layout, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
@@ -32,6 +33,7 @@ pub(super) struct Showing {
     grid: String,
     /// The names of the joints, by index in the scene.
     joints: Vec<String>,
+    layout: Layout,
     style: Style,
 }
 
@@ -51,6 +53,8 @@ pub(super) struct NeededMacros {
     coils: bool,
     /// True if the pictures contain texts.
     labels: bool,
+    /// True if the pictures contain plots.
+    plots: bool,
     /// True if bodies have trails.
     trails: bool,
 }
@@ -64,6 +68,7 @@ impl NeededMacros {
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
+            plots: !scene.plots.is_empty(),
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
     }
@@ -83,8 +88,14 @@ impl Showing {
             trails: Trails::new(scene.output.layout, style),
             grid: plan.still_grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
             joints: scene.joints.iter().map(|joint| joint.name.clone()).collect(),
+            layout: scene.output.layout,
             style,
         }
+    }
+
+    /// Appends the declarations of plots to the common part of all scripts.
+    pub(super) fn declare(out: &mut String, plan: &Plan, layout: Layout, style: Style) {
+        plots::declare(out, plan.planned_plots(), layout, style);
     }
 
     /// Returns the trail files that the script of a frame includes, except those whose names `has` accepts.
@@ -114,6 +125,7 @@ impl Showing {
                 true => out.extend(plan.grid(frame).map(|grid| grid::lines(&grid, style))),
                 false => out.push_str(&self.grid),
             }
+            plots::write(out, plan.planned_plots(), &plan.plots(frame), self.layout, style);
             grid.iter().for_each(|text| texts::write(out, text, style));
             if let Some((bar, number)) = bar {
                 texts::write_bar(out, &bar, &number, style);

@@ -3,16 +3,16 @@
 use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::{Screen, ScreenPoint};
 use super::super::text::{MARGIN, Text, Vertical};
-use super::said::Moment;
 use super::{LINE, Labels, Planned};
 use crate::physics::BodySnapshot;
 use crate::scene::Side;
+use crate::simulate::MomentState;
 
 impl Labels {
     /// The position of a body or ghost in the picture, and the rectangle that it covers. `None` if it is behind the camera. The rectangle
     /// of a plane is empty.
     pub(super) fn seen(&self, at: &BodySnapshot, screen: &Screen) -> Option<(ScreenPoint, Rectangle)> {
-        let shape = self.bodies[at.id].drawn();
+        let shape = self.measures.body(at.id).drawn();
         let point = screen.project(at.location)?;
         let reach = |direction| shape.support(at.orientation, direction).unwrap_or(0.0) * point.scale;
         let (up, right) = (screen.up(), screen.right());
@@ -31,7 +31,7 @@ impl Labels {
         &'a self,
         planned: &'a Planned,
         (at, side): (&BodySnapshot, Side),
-        moment: &Moment<'_>,
+        moment: &MomentState<'_>,
         screen: &Screen,
         (room, crowd): (&mut Occupancy, &Occupancy),
     ) -> Option<Text<'a>> {

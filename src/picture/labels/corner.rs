@@ -1,16 +1,18 @@
 //! Places labels in the corners of a picture, one below another.
 
+use super::super::framing::Free;
 use super::super::grid;
-use super::super::text::{MARGIN, Text, Vertical, across, is_top};
-use super::said::Moment;
+use super::super::occupancy::Rectangle;
+use super::super::text::{MARGIN, Text, Vertical, across_free, is_top};
 use super::{LINE, Labels, Planned};
 use crate::scene::{Corner, LabelPlace};
+use crate::simulate::MomentState;
 
 impl Labels {
     /// Places a label in its corner. `None` for a label beside a body.
-    pub(super) fn in_corner<'a>(&'a self, planned: &'a Planned, now: &Moment<'_>) -> Option<Text<'a>> {
+    pub(super) fn in_corner<'a>(&'a self, planned: &'a Planned, now: &MomentState<'_>) -> Option<Text<'a>> {
         let LabelPlace::Corner(corner) = planned.label.place else { return None };
-        let (x, align) = across(corner);
+        let (x, align) = across_free(corner, self.free);
         let y = match is_top(corner) {
             true => Vertical::Top(planned.inset + 0.3 * planned.height),
             false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
@@ -29,14 +31,21 @@ pub(super) struct Taken {
 }
 
 /// The rectangle of a scale bar, whose length is at most a quarter of the picture's width.
-pub(super) fn under_bar(corner: Corner, aspect: f64) -> Taken {
-    let (x, align) = across(corner);
+pub(super) fn under_bar(corner: Corner, aspect: f64, free: Free) -> Taken {
+    let (x, align) = across_free(corner, free);
     let left = x - 0.5 * align;
     Taken {
         is_top: is_top(corner),
         across: [left, left + 0.5],
         inset: [0.0, MARGIN + 4.0 * aspect * grid::SIZE],
     }
+}
+
+/// The rectangle of a plot, as seen from the upper and from the lower edge of the picture.
+pub(super) fn under_plot(area: Rectangle, aspect: f64) -> [Taken; 2] {
+    let across = [area.left, area.right];
+    let inset = [[aspect - area.top, aspect - area.bottom], [area.bottom + aspect, area.top + aspect]];
+    [Taken { is_top: true, across, inset: inset[0] }, Taken { is_top: false, across, inset: inset[1] }]
 }
 
 /// Finds room for a line of text in a corner: the smallest distance from the edge at which the line overlaps no other. Returns the
@@ -46,9 +55,9 @@ pub(super) fn inset_without_overlap(
     taken: &mut Vec<Taken>,
     corner: Corner,
     [wide, height]: [f64; 2],
-    most: f64,
+    (free, most): (Free, f64),
 ) -> f64 {
-    let (x, align) = across(corner);
+    let (x, align) = across_free(corner, free);
     let across = [x - align * wide, x - align * wide + wide];
     let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] - 1e-9 && b[0] < a[1] - 1e-9;
     let mut begin = MARGIN;

@@ -7,14 +7,15 @@ mod said;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use self::corner::{Taken, inset_without_overlap, under_bar};
-use self::said::{Moment, longest};
-use super::occupancy::Occupancy;
+use self::corner::{Taken, inset_without_overlap, under_bar, under_plot};
+use self::said::longest;
+use super::framing::Free;
+use super::occupancy::{Occupancy, Rectangle};
+use super::plots;
 use super::screen::Screen;
 use super::text::{MARGIN, Text, Vertical, least_height, width};
-use crate::physics::Coordinate;
-use crate::scene::{Body, Color, Label, LabelPlace, Scene};
-use crate::simulate::{Frame, Ghost};
+use crate::scene::{Color, Label, LabelPlace, Output, Scene};
+use crate::simulate::{Frame, Ghost, Measures, MomentState};
 
 /// The default height of a line of text, relative to the height of the picture.
 const SIZE: f64 = 0.055;
@@ -27,10 +28,9 @@ const LINE: f64 = 1.15;
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
-    /// The bodies of the scene. Empty if the scene has no labels.
-    bodies: Vec<Body>,
-    /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
-    joints: Vec<Option<Coordinate>>,
+    measures: Measures,
+    /// The part of the picture that plots at its sides leave free.
+    free: Free,
     /// The height of the picture, relative to its width.
     aspect: f64,
 }
@@ -46,27 +46,27 @@ struct Planned {
 }
 
 impl Labels {
-    /// Plans the labels of a scene. `ink` is their default color.
-    pub(super) fn new(scene: &Scene, ink: Color) -> Labels {
+    /// Plans the labels of a scene. `ink` is their default color. `panels` are those of plots, which no label covers.
+    pub(super) fn new(scene: &Scene, ink: Color, panels: impl Iterator<Item = Rectangle>) -> Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let free = plots::free(scene);
         let mut taken: Vec<Taken> =
-            scene.scale_bar.map(|bar| under_bar(bar.corner, aspect)).into_iter().collect();
+            scene.scale_bar.map(|bar| under_bar(bar.corner, aspect, free)).into_iter().collect();
+        taken.extend(panels.flat_map(|area| under_plot(area, aspect)));
         let plan = |label: &Label| {
-            let usual = (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, scene.output));
-            let mut height = label.size.map_or(usual, |size| 2.0 * aspect * size);
+            let mut height = height(label, scene.output);
             let mut inset = 0.0;
             if let LabelPlace::Corner(corner) = label.place {
                 // A line wider than the picture gets smaller letters.
                 let wide = width(&longest(label), 1.0);
-                height = height.min(2.0 * (1.0 - MARGIN) / wide.max(1e-9));
-                inset = inset_without_overlap(&mut taken, corner, [wide * height, height], 2.0 * aspect);
+                height = height.min(2.0 * (free.half - MARGIN) / wide.max(1e-9));
+                inset =
+                    inset_without_overlap(&mut taken, corner, [wide * height, height], (free, 2.0 * aspect));
             }
             Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
-        let bodies = if labels.is_empty() { Vec::new() } else { scene.bodies.clone() };
-        let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
-        Labels { labels, bodies, joints, aspect }
+        Labels { labels, measures: Measures::new(scene), free, aspect }
     }
 
     /// The number of labels in the scene.
@@ -81,7 +81,7 @@ impl Labels {
 
     /// Returns the labels in the corners of a frame, each with its index in the scene.
     pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
-        let now = Moment::now(frame);
+        let now = MomentState::now(frame);
         let labels = self.labels.iter().enumerate();
         let text = |(number, planned)| Some((number, self.in_corner(planned, &now)?));
         labels.filter_map(text).collect()
@@ -95,7 +95,7 @@ impl Labels {
         screen: &Screen,
         room: &mut Occupancy,
     ) -> Vec<(usize, Text<'_>)> {
-        let now = Moment::now(frame);
+        let now = MomentState::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);
         let mut crowd = self.room();
         let ghosts = frame.past.ghosts.iter().map(|ghost| &ghost.body);
@@ -110,7 +110,7 @@ impl Labels {
             texts.extend(text.map(|text| (number, text)));
             let its = ghosts_of.get(&body).filter(|_| ghosts);
             for ghost in its.into_iter().flatten() {
-                let then = Moment::then(ghost);
+                let then = MomentState::then(ghost);
                 let text = self.beside(planned, (&ghost.body, side), &then, screen, (room, &crowd));
                 texts.extend(text.map(|text| (number, text)));
             }
@@ -128,6 +128,18 @@ impl Labels {
         }
         by_body
     }
+}
+
+/// The height of a label's line of text in the image plane.
+fn height(label: &Label, output: Output) -> f64 {
+    let aspect = f64::from(output.height) / f64::from(output.width);
+    let usual = (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, output));
+    label.size.map_or(usual, |size| 2.0 * aspect * size)
+}
+
+/// The height that a label takes in a corner of the picture.
+pub(super) fn least_room(label: &Label, output: Output) -> f64 {
+    LINE * height(label, output)
 }
 
 impl Planned {

@@ -22,6 +22,7 @@ use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::{Link, Links, PlannedLink};
 use super::not_drawn::{self, NotDrawn};
+use super::plots::{CurveNow, PlannedPlot, Plots};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
@@ -50,6 +51,7 @@ pub struct Plan {
     ruled: Option<GridLayout>,
     bar: Option<ScaleBars>,
     labels: Labels,
+    plots: Plots,
     /// The image plane at the start. `None` if the pictures have no texts.
     screen: Option<Screen>,
     /// The sizes of arrows and lines for the camera at the start.
@@ -70,9 +72,9 @@ struct Sizes {
     arrows: ArrowSizes,
 }
 
-/// True if the pictures of a scene have texts: labels, a grid or a scale bar.
+/// True if the pictures of a scene have texts: labels, plots, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
-    !scene.labels.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
+    !scene.labels.is_empty() || !scene.plots.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
 impl Plan {
@@ -88,7 +90,7 @@ impl Plan {
         // grid.
         let first = eye_on(span.seen);
         let view = first.early(0.0).width_of_view(whole);
-        let ink = colors::ink(scene);
+        let ink = colors::ink(scene.environment.is_dark());
         let scenery = Scenery::new(scene, span.bounds, whole, view, scope.part);
         let part = first.moves().then_some(view);
         let ruler = scene.grid.map(|grid| GridPlan::new(scene, grid, &scenery, part, ink));
@@ -124,6 +126,7 @@ impl Plan {
         let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
+        let plots = Plots::new(scene, survey);
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
         Plan {
             lights_move: lights.moves(),
@@ -137,7 +140,8 @@ impl Plan {
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
             bar,
-            labels: Labels::new(scene, ink),
+            labels: Labels::new(scene, ink, plots.areas()),
+            plots,
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),
             part: scope.part,
@@ -286,6 +290,16 @@ impl Plan {
     pub fn bar(&self, frame: &Frame) -> Option<Bar> {
         let bar = self.bar.as_ref()?;
         Some(bar.on(&self.screen(frame)?)?.0)
+    }
+
+    /// The plots, which all frames have in common.
+    pub fn planned_plots(&self) -> &[PlannedPlot] {
+        self.plots.planned()
+    }
+
+    /// What a frame shows of the curves of each plot.
+    pub fn plots(&self, frame: &Frame) -> Vec<Vec<CurveNow>> {
+        self.plots.at(frame)
     }
 
     /// The image plane of a frame's camera. `None` if the pictures have no texts.

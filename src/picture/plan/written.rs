@@ -38,6 +38,7 @@ impl Plan {
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
         let mut room = self.labels.room();
+        self.plots.areas().for_each(|area| room.take(area));
         let bar = self.bar.as_ref().and_then(|bar| bar.on(&screen));
         if let Some((bar, number)) = &bar {
             room.take_text(number);

@@ -1,7 +1,8 @@
-// Labels and numbers over the picture. They are set as plain text, so that texts of a scene are never interpreted as HTML.
+// Labels, numbers and plots over the picture. They are set as plain text, so that texts of a scene are never interpreted as HTML.
 
 import { AXES } from "./lines.js";
 import { add, css, projected, sub, times, turned } from "./math.js";
+import { scenePlots } from "./scene_plots.js";
 
 /** The largest number of triads of axes with letters. More letters would hide the picture. */
 const MOST_TRIADS = 20;
@@ -11,8 +12,8 @@ export class Texts {
     this.element = element;
   }
 
-  /** Shows the texts of a frame, and the letters at triads of axes. `at(body)` returns the location of a body. */
-  show(shown, view, space, at, triads) {
+  /** Shows the plots and the texts of a frame, and the letters at triads of axes. `at(body)` returns the location of a body. */
+  show(shown, view, space, at, triads, plots) {
     const [left, top, width, height] = view.rectangle;
     const spans = [];
     // The coordinates of texts go from -1 to 1 across the picture of the scene's camera.
@@ -28,7 +29,13 @@ export class Texts {
     }
     if (triads.length <= MOST_TRIADS) spans.push(...triads.flatMap((triad) => this.letters(triad, view, space)));
     if (shown?.bar && !view.own) spans.push(this.bar(shown.bar, place, width));
-    this.element.replaceChildren(...spans);
+    const charts = plots.length ? [scenePlots(plots, shown?.plots, place, width)] : [];
+    for (const text of plots.flatMap((plot) => plot.texts)) {
+      const span = this.span(text, ...place(text.x, text.y), (text.height / 2) * width);
+      span.style.textShadow = "none";
+      spans.push(span);
+    }
+    this.element.replaceChildren(...charts, ...spans);
   }
 
   span(text, x, y, height) {

@@ -15,6 +15,7 @@ use axis::Axis;
 pub use chart::{Chart, Curve};
 #[cfg(feature = "render")]
 pub use png::png;
+pub(crate) use svg::escaped;
 pub use svg::svg;
 
 /// A color: red, green and blue, 0 to 255.

@@ -50,7 +50,7 @@ fn hex([red, green, blue]: Rgb) -> String {
 }
 
 /// Escapes a text for use between XML tags. Control characters are removed.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().filter(|c| !c.is_control()) {
         match c {

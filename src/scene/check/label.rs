@@ -1,24 +1,19 @@
 //! Reads the labels, the scale bar and the grid of a scene from `[label.NAME]`, `[scale_bar]` and `[grid]`.
 
-mod dotted;
-mod words;
-
 use std::ops::Range;
 
 use super::Context;
+use super::measures::Reader;
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::font;
-use crate::scene::expand::place;
-use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
-use crate::scene::grammar::scene::{scene, simulation};
+use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
 use crate::scene::{
-    Body, BodyMeasure, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, RunMeasure,
-    ScaleBar, Side,
+    Body, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, ScaleBar, Side,
 };
 
 /// The maximum length of a label's text, in bytes. POV-Ray limits the length of strings, and the values need room.
@@ -56,7 +51,7 @@ pub(super) fn grid(root: &View<'_>) -> Option<Grid> {
     Some(Grid { spacing: grid.get(&grid::SPACING), plane })
 }
 
-fn corner(view: &View<'_>, key: &Key<value::Text>) -> Corner {
+pub(super) fn corner(view: &View<'_>, key: &Key<value::Text>) -> Corner {
     view.choice(key, Corner::ALL, Corner::name)
 }
 
@@ -90,7 +85,8 @@ fn pieces(
     joints: &[Joint],
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
-    let mut reader = Reader { text, span, root, place, bodies, joints, context, missing: Vec::new() };
+    let mut reader =
+        Reader { noun: "label", text, span, root, place, bodies, joints, context, missing: Vec::new() };
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
         reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
@@ -158,30 +154,8 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
     found
 }
 
-struct Reader<'a, 'b, 'c> {
-    text: &'a str,
-    span: Span,
-    root: &'a View<'b>,
-    place: LabelPlace,
-    bodies: &'a [Body],
-    joints: &'a [Joint],
-    context: &'a mut Context<'c>,
-    /// The letters that the font does not have, each once, with its first range in the text.
-    missing: Vec<(char, Range<usize>)>,
-}
-
 impl Reader<'_, '_, '_> {
-    fn report(&mut self, error: Diagnostic, range: Range<usize>, label: &str) {
-        let at = self.at(&range);
-        self.context.diagnostics.push(error.at(at, label));
-    }
-
-    /// Returns the source span of a byte range of the label's text.
-    fn at(&self, range: &Range<usize>) -> Span {
-        place::in_string(self.context.sources.raw(self.span), self.text, range, self.span)
-    }
-
-    fn words(&mut self, range: Range<usize>) -> Option<Piece> {
+    pub(super) fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
         for (at, letter) in words.char_indices().filter(|(_, letter)| !font::has(*letter)) {
             if self.missing.iter().all(|(known, _)| *known != letter) {
@@ -206,7 +180,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Reports all letters of the text that the font does not have.
-    fn report_missing(&mut self) {
+    pub(super) fn report_missing(&mut self) {
         let missing = std::mem::take(&mut self.missing);
         let Some((_, first)) = missing.first() else { return };
         let letters: Vec<String> =
@@ -235,94 +209,12 @@ impl Reader<'_, '_, '_> {
                 (formula, format)
             }
         };
-        let start = range.start;
-        let (plain, dotted) = self.without_dots(formula, start)?;
-        let name = plain.trim();
-        let is_count = dotted.iter().any(|(known, measure)| known == name && measure.is_count());
+        let formula = self.formula(range.start..range.start + formula.len())?;
         let format = match format {
-            Format::Short if is_count || name == "impacts" => Format::Decimals(0),
+            Format::Short if formula.single.is_some_and(Measure::is_count) => Format::Decimals(0),
             format => format,
         };
-        let parsed = self.keep(Formula::parse(&plain), start)?;
-        let (scope, inputs) = self.scope(dotted);
-        let formula = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
-        let formula = self.keep(formula, start)?;
-        Some(Piece::Value { formula, inputs, format })
-    }
-
-    /// Returns the name and the value of each variable of the scene.
-    fn variables(&self) -> impl Iterator<Item = (&str, f64)> {
-        self.root.variables()
-    }
-
-    /// Returns the names that formulas of the label can use, and the measure for each input of these formulas.
-    fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<Measure>) {
-        let mut scope = Scope::default();
-        for (name, value) in self.variables() {
-            scope.constant(name, value);
-        }
-        let mut inputs = Vec::new();
-        let mut add = |name: &str, measure: Measure| {
-            scope.slot(name);
-            inputs.push(measure);
-        };
-        let mut with_run = true;
-        let has_contacts = self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS);
-        let of_body = matches!(self.place, LabelPlace::Body { .. });
-        if let LabelPlace::Body { body, ghosts, .. } = self.place {
-            with_run = !ghosts;
-            let known = BodyMeasure::ALL.into_iter();
-            let known =
-                known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
-            known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
-        }
-        for (name, measure, _) in RunMeasure::ALL {
-            // In a label beside a body, `impacts` means the impacts of that body.
-            let is_known = measure != RunMeasure::Impacts || has_contacts && !of_body;
-            // A ghost keeps only the state of its own body, so offer the time but no other measure of the run.
-            if is_known && (with_run || measure == RunMeasure::Time) {
-                add(name, Measure::Run(measure));
-            }
-        }
-        for (name, measure) in dotted {
-            let of_ghost = matches!(self.place, LabelPlace::Body { body, .. } if matches!(measure, Measure::Body(b, _) if b == body));
-            if with_run || of_ghost {
-                add(&name, measure);
-            }
-        }
-        (scope, inputs)
-    }
-
-    /// Returns the value in `found`, or reports the errors in it. The formula begins at the byte `start` of the label's text.
-    fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
-        let errors = match found {
-            Ok(value) => return Some(value),
-            Err(errors) => errors,
-        };
-        for error in errors {
-            let range = start + error.range.start..start + error.range.end;
-            if self.text.get(range.clone()) == Some("impacts") && self.needs_contacts(range).is_none() {
-                continue;
-            }
-            let at = self.at(&(start + error.range.start..start + error.range.end));
-            // For an unknown name without a similar name, do not list all names that labels know.
-            let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
-            let diagnostic = Diagnostic::error(error.code, error.message);
-            let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
-            if let Some(other) = words::of_run(word).filter(|_| own) {
-                let diagnostic = diagnostic.at(at, format!("did you mean `{other}`?"));
-                let diagnostic = self.corrected(diagnostic, at, other, word.len());
-                self.context.diagnostics.push(diagnostic);
-                continue;
-            }
-            self.context.diagnostics.push(if own {
-                let known = "`t`, `ball.speed` and their kin: see «Labels» in docs/scene-language.md";
-                diagnostic.at(at, "not known to this label").help(known)
-            } else {
-                diagnostic.at(at, error.label)
-            });
-        }
-        None
+        Some(Piece::Value { formula, format })
     }
 }
 

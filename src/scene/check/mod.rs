@@ -17,9 +17,11 @@ mod joint;
 mod label;
 mod look;
 mod material;
+mod measures;
 mod mesh;
 mod motion;
 mod planets;
+mod plot;
 mod povray;
 mod presence;
 mod sdl;
@@ -337,8 +339,9 @@ fn build(
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, &bodies, &joints, context);
+    let plots = plot::read(&root, &bodies, &joints, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
-    if !labels.is_empty() || scale_bar.is_some() || grid.is_some() {
+    if !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some() {
         asset::add_font(&mut povray.assets);
     }
     let camera = camera::read(&root, &simulation, &bodies, context);
@@ -353,6 +356,7 @@ fn build(
         simulation,
         environment,
         labels,
+        plots,
         scale_bar,
         grid,
         pairs: std::mem::take(&mut context.pairs),

@@ -1,10 +1,10 @@
-//! The grammar of the keys that draw measurements into the image: labels, the scale bar and the grid.
+//! The grammar of the keys that draw measurements into the image: labels, plots, the scale bar and the grid.
 
-use super::Kind::{Boolean, Choice, Color, Either, Named, Number, Reference, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, List, Named, Number, Reference, Table, Text};
 use super::key::table;
 use super::kind::POSITIVE;
 use super::{Bound, Collection, KeySpec, Kind, Rule};
-use crate::scene::{Corner, GridPlane, Side};
+use crate::scene::{Corner, GridPlane, Plot, Side};
 
 fn corners() -> Vec<&'static str> {
     Corner::ALL.iter().map(|corner| corner.name()).collect()
@@ -12,6 +12,10 @@ fn corners() -> Vec<&'static str> {
 
 fn sides() -> Vec<&'static str> {
     Side::ALL.iter().map(|side| side.name()).collect()
+}
+
+fn sides_of_plots() -> Vec<&'static str> {
+    vec!["left", "right"]
 }
 
 fn planes() -> Vec<&'static str> {
@@ -24,6 +28,12 @@ static GRID_KINDS: [Kind; 2] = [Boolean, Table(&grid::TABLE)];
 pub(super) const LABEL: KeySpec =
     KeySpec::new("label", Named(&label::TABLE), "Texts in the picture, with [values of the moment](#labels)")
         .also(&["labels", "text", "caption"]);
+pub(super) const PLOT: KeySpec = KeySpec::new(
+    "plot",
+    Named(&plot::TABLE),
+    "Plots in the picture: curves of [measures](#labels) against the time",
+)
+.also(&["plots", "graph", "graphs", "chart", "diagram"]);
 pub(super) const SCALE_BAR: KeySpec = KeySpec::new(
     "scale_bar",
     Either(&SCALE_BAR_KINDS),
@@ -68,6 +78,48 @@ table! {
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("dark, or light on a dark background")
         .also(&["colour"]),
+}
+
+static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
+const NUMBER: Kind = Number(Bound::Any);
+
+table! {
+    plot: "a plot", Rule::AtMostOne(&[&["corner", "side"]]);
+    Y: Any = KeySpec::new(
+        "y",
+        Either(&TEXTS),
+        "The measures to draw, each a curve: `\"ball.speed\"`, or a formula of measures, or a list of them",
+    )
+    .required()
+    .also(&["ys", "curves", "series", "values", "of"]),
+    X: value::Text = KeySpec::new("x", Text, "The measure across: the time, or any other for a phase plot").default_word("t"),
+    X_NAME: Option<value::Text> = KeySpec::new("x_name", Text, "The name of the measure across")
+        .default("the formula")
+        .also(&["xlabel", "x_label"]),
+    NAMES: Any = KeySpec::new("names", Either(&TEXTS), "The names of the curves, one for each")
+        .default("the formulas")
+        .also(&["name", "labels", "legend"]),
+    TITLE: Option<value::Text> = KeySpec::new("title", Text, "Its title")
+        .default("none")
+        .also(&["caption", "text"]),
+    CORNER: value::Text = KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
+        .default_word("top-right")
+        .also(&["place", "position", "location", "at"]),
+    SIDE: Option<value::Text> = KeySpec::new(
+        "side",
+        Choice(sides_of_plots),
+        "Its side of the picture, instead of a corner: a camera without a location shows the bodies beside it",
+    )
+    .default("none: it stands in a corner"),
+    WIDTH: f64 = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
+        .default_number(0.36)
+        .also(&["size"]),
+    RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its upright axis")
+        .default("that of the curves")
+        .also(&["y_range", "ylim", "limits"]),
+    AHEAD: bool = KeySpec::new("ahead", Boolean, "Whether the rest of each curve is drawn, too, in a pale color")
+        .default_flag(false)
+        .also(&["whole", "future"]),
 }
 
 table! {

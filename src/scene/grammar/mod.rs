@@ -211,6 +211,7 @@ mod tests {
                 (Kind::List { min, max, .. }, DefaultValue::Numbers(numbers)) => {
                     (*min..=*max).contains(&numbers.len()) || numbers.is_empty()
                 }
+                (Kind::Text, DefaultValue::Word(_)) => true,
                 (Kind::Choice(words), DefaultValue::Word(word)) => words().contains(&word),
                 (Kind::Color, DefaultValue::Word(word)) => crate::scene::Color::parse(word).is_some(),
                 (Kind::Either(kinds), _) => kinds.iter().any(|kind| fits(default, kind)),

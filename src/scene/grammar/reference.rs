@@ -398,11 +398,44 @@ decimals and `.2e` two decimals with a power of ten. The default is three signif
 a body, the names of that body's values need no prefix, and take precedence over variables of the same name; with `ghosts`, only these and `t` are
 available.
 
+Elsewhere, a variable of the scene hides a measure of the run with the same name.
+
 A label at a body is left out of pictures without the body. If it would cover an arrow or another
 label, it moves to another side, or farther away. It hides the grid numbers that it would cover.
 
 | name | meaning |
 | --- | --- |
+";
+
+/// The documentation section on plots.
+const PLOTS: &str = "
+## Plots
+
+```toml
+[body.ball]
+shape.sphere.radius = 0.2
+velocity = [3, 4, 0]
+
+[plot.energy]
+y = [\"kinetic\", \"potential\", \"total\"]
+side = \"right\"
+
+[plot.path]
+y = \"ball.y\"
+x = \"ball.x\"
+names = \"height\"
+x_name = \"way\"
+```
+
+A plot draws [measures](#labels), or formulas of them, as curves: in each frame up to its time, with a dot at the present values. The axes
+show the whole run from the first frame on. Where a value is undefined, as that of an absent body or the root of a negative number, the curve has a
+gap. A unit stands at an axis if all of its curves are single measures of one unit. A curve has the color of the
+body that its formula names, if it names only one. In runs of more than 600 frames, a curve is drawn through the lowest and highest values of neighboring
+frames, so no peak is lost. `output.layout = \"shared\"` writes the curves once for all frames, which saves space in long runs.
+
+A plot in a corner stands in front of the bodies. Several plots at the same place stand below each other and share the height of the picture.
+If words have too little room, the letters get smaller, and the longest words are cut. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
+rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the whole plot for paper.
 ";
 
 /// The documentation page under construction.
@@ -458,6 +491,7 @@ impl Page {
         for (name, _, what) in JointMeasure::ALL {
             let _ = writeln!(self.text, "| `{name}` | {what} |");
         }
+        self.text.push_str(PLOTS);
     }
 
     fn row(&mut self, key: &KeySpec) {

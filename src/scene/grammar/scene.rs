@@ -95,6 +95,7 @@ table! {
     .default("\"daylight\"")
     .also(&["world"]),
     LABEL: Any = labels::LABEL,
+    PLOT: Any = labels::PLOT,
     SCALE_BAR: Any = labels::SCALE_BAR,
     GRID: Any = labels::GRID,
     POVRAY: Any = KeySpec::new("povray", Table(&povray::TABLE), "Passed to POV-Ray unchanged"),

@@ -23,6 +23,7 @@ mod bodies;
 mod large;
 mod methods;
 mod page;
+mod plots;
 mod readme;
 mod rendering;
 mod saving;

@@ -97,14 +97,6 @@ static NOT_BUILT: &[NotBuilt] = &[
     },
     NotBuilt {
         of: "a scene",
-        words: &["plot", "plots", "graph", "graphs", "chart", "diagram"],
-        help: "there are no plots in pictures yet: `[label.NAME]` shows numbers, `jabuka preview` has plots, \
-               and `jabuka export` writes tables",
-        comes_with: "plot",
-        is_removable: false,
-    },
-    NotBuilt {
-        of: "a scene",
         words: &["contact", "contacts", "collision", "collisions"],
         help: "it is a key of [simulation]: `contacts = \"event-driven\"`",
         comes_with: "",

@@ -69,7 +69,7 @@ impl Reader<'_, '_, '_> {
             };
             let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
                 let names = BodyMeasure::ALL.map(|(name, ..)| name);
-                let message = format!("a body has no `{measure}` that a label could show");
+                let message = format!("a body has no `{measure}` that a {} could show", self.noun);
                 let rest = formula[end..].strip_prefix('.');
                 let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
                 let other = words::of_body(measure, axis);
@@ -199,7 +199,7 @@ impl Reader<'_, '_, '_> {
         let here = self.at(&(behind..behind + measure.len()));
         let error = Diagnostic::error(
             Code::UnknownName,
-            format!("this joint has no `{measure}` that a label could show"),
+            format!("this joint has no `{measure}` that a {} could show", self.noun),
         );
         let known = format!("there are {}", crate::scene::grammar::quoted(&names));
         let near = words::of_joint(measure).or_else(|| crate::diagnostic::nearest(measure, names));

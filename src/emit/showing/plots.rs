@@ -1,0 +1,106 @@
+//! Writes plots in SDL.
+//!
+//! What all frames have in common, the panel with its numbers and the points of the curves, is a macro and arrays in the common part. A frame
+//! draws the panel, the curves up to its time, and a dot on each.
+
+use std::fmt::Write as _;
+
+use super::super::{sdl::Style, text};
+use super::color;
+use super::texts::{self, length, short};
+use crate::picture::{CurveNow, PlannedPlot};
+use crate::scene::Layout;
+use crate::simulate::CurvePoint;
+
+/// The height in front of the panel that marks a gap of a curve. Points of curves lie at height 0.
+const GAP: &str = "1";
+
+/// Appends the declarations of all plots to the common part. A script that contains everything has its
+/// own arrays, with no more points than it draws.
+pub(super) fn declare(out: &mut String, plots: &[PlannedPlot], layout: Layout, style: Style) {
+    for (number, plot) in plots.iter().enumerate() {
+        let [wide, high] = plot.size.map(short);
+        let paper = color(plot.paper, style);
+        let _ = writeln!(out, "// the plot {}", text::comment(&plot.name));
+        let _ = writeln!(out, "#macro Plot_{number}()");
+        let _ = writeln!(out, "Panel({}, {wide}, {high}, {paper})", corner(plot));
+        for line in &plot.lines {
+            let ([from, to], ink) = ([line.from, line.to].map(|at| point(at, "0")), color(line.color, style));
+            let above = u8::from(line.is_axis);
+            let _ = writeln!(out, "Ruled({}, {from}, {to}, {above}, {ink})", corner(plot));
+        }
+        plot.texts.iter().for_each(|text| texts::write_on_panel(out, text, style));
+        out.push_str("#end\n");
+        for (k, curve) in plot.curves.iter().enumerate().filter(|_| layout == Layout::Shared) {
+            array(out, "declare", &name(number, k), &curve.points);
+        }
+    }
+}
+
+/// Appends the plots of a frame.
+pub(super) fn write(
+    out: &mut String,
+    plots: &[PlannedPlot],
+    now: &[Vec<CurveNow>],
+    layout: Layout,
+    style: Style,
+) {
+    for (number, (plot, now)) in plots.iter().zip(now).enumerate() {
+        let _ = writeln!(out, "Plot_{number}() // {}", text::comment(&plot.name));
+        let corner = corner(plot);
+        for (k, (curve, now)) in plot.curves.iter().zip(now).enumerate() {
+            let (layer, ink, all) = (k + 1, color(curve.color, style), curve.points.len());
+            if layout == Layout::SelfContained {
+                let drawn = if curve.pale.is_some() { all } else { now.count };
+                array(out, "local", &name(number, k), &curve.points[..drawn]);
+            }
+            // POV-Ray warns about a union of one object.
+            if let Some(pale) = curve.pale.filter(|_| all > 1) {
+                let pale = color(pale, style);
+                let _ = writeln!(out, "Curve({corner}, {}, {all}, 0, {pale})", name(number, k));
+            }
+            if now.count > 1 {
+                let _ = writeln!(out, "Curve({corner}, {}, {}, {layer}, {ink})", name(number, k), now.count);
+            }
+            if let Some(here) = now.here {
+                let last = now.count.checked_sub(1).and_then(|last| curve.points[last].at);
+                if let Some(last) = last.filter(|last| point(*last, "0") != point(here, "0")) {
+                    // The last stretch of a long run, whose points are thinned.
+                    let ends = [last, here].map(|at| point(at, "0"));
+                    let _ = writeln!(out, "Stretch({corner}, {}, {}, {layer}, {ink})", ends[0], ends[1]);
+                }
+                let _ = writeln!(
+                    out,
+                    "Dot({corner}, {}, {}, {layer}, {ink})",
+                    point(here, "0"),
+                    length(plot.dot)
+                );
+            }
+        }
+    }
+}
+
+/// The lower left corner of a panel, as an SDL vector.
+fn corner(plot: &PlannedPlot) -> String {
+    format!("<{}, {}, 0>", short(plot.left), texts::height(plot.bottom, short))
+}
+
+fn name(plot: usize, curve: usize) -> String {
+    format!("Plot_{plot}_{curve}")
+}
+
+/// Appends the points of a curve as an SDL array, several in a line. A single point is never drawn as a curve.
+fn array(out: &mut String, scope: &str, name: &str, points: &[CurvePoint]) {
+    if points.len() < 2 {
+        return;
+    }
+    let item = |each: &CurvePoint| each.at.map_or_else(|| format!("<0, 0, {GAP}>"), |at| point(at, "0"));
+    let items: Vec<String> = points.iter().map(item).collect();
+    let lines: Vec<String> = items.chunks(8).map(|items| items.join(", ")).collect();
+    let _ = writeln!(out, "#{scope} {name} = array[{}] {{\n{}\n}}", points.len(), lines.join(",\n"));
+}
+
+/// A position in a panel as an SDL vector.
+fn point([x, y]: [f64; 2], z: &str) -> String {
+    format!("<{}, {}, {z}>", short(x), short(y))
+}

@@ -1,0 +1,165 @@
+//! The axes of plots: their ranges, and the numbers beside them.
+
+use super::super::framing::decimal_step;
+use super::super::number::typeset;
+
+/// A range of numbers is flat if it is smaller than this part of the numbers: the difference is then rounding.
+const FLAT: f64 = 1e-9;
+/// Numbers from this on are written with a power of ten that stands at the unit.
+const LARGE: f64 = 1e5;
+/// Numbers below this are written with a power of ten that stands at the unit.
+const SMALL: f64 = 1e-2;
+
+/// An axis of a plot: the range that it shows, and its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// The distance between two numbers.
+    step: f64,
+    /// The power of ten that all numbers are divided by, as an exponent.
+    exponent: i32,
+}
+
+/// A number beside an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tick {
+    /// The position along the axis, from 0 to 1.
+    pub(super) at: f64,
+    pub(super) value: f64,
+    pub(super) says: String,
+}
+
+/// What an axis must show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    /// The lowest and the highest value.
+    pub(super) span: [f64; 2],
+    /// Whether the axis may show a little more, up to the next half of a step.
+    pub(super) is_wider: bool,
+    /// Whether the values are whole numbers.
+    pub(super) is_count: bool,
+}
+
+impl Axis {
+    /// Makes the axis of a range. It has about `count` numbers.
+    pub(super) fn new(range: &Range, count: f64) -> Axis {
+        let [low, high] = range.span;
+        let largest = low.abs().max(high.abs());
+        let (low, high) = match high - low <= FLAT * largest {
+            true if largest == 0.0 => (-1.0, 1.0),
+            // A quantity that keeps its value is a line between 0 and twice the value.
+            true => (low.min(0.0) * 2.0, high.max(0.0) * 2.0),
+            false => (low, high),
+        };
+        let step = round_up((high - low) / count.max(1.0)).max(if range.is_count { 1.0 } else { 0.0 });
+        let half = step / 2.0;
+        let (low, high) = match range.is_wider {
+            true => (libm::floor(low / half + 1e-9) * half, libm::ceil(high / half - 1e-9) * half),
+            false => (low, high),
+        };
+        let largest = low.abs().max(high.abs());
+        let exponent = match largest {
+            large if !(SMALL..LARGE).contains(&large) => exponent_of(large),
+            _ => 0,
+        };
+        Axis { low, high, step, exponent }
+    }
+
+    /// Returns the position of a value along the axis: 0 at the low end, 1 at the high end.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        (value - self.low) / (self.high - self.low)
+    }
+
+    /// Returns the numbers beside the axis.
+    pub(super) fn ticks(&self) -> Vec<Tick> {
+        let power = libm::pow(10.0, f64::from(self.exponent));
+        let decimals = usize::try_from(-exponent_of(self.step / power)).unwrap_or(0);
+        let first = libm::ceil(self.low / self.step - 1e-9);
+        let count = libm::floor(self.high / self.step + 1e-9) - first;
+        let mut ticks = Vec::new();
+        let mut number = 0.0;
+        while number <= count {
+            // `+ 0.0` avoids a negative zero.
+            let value = (first + number) * self.step + 0.0;
+            let says = typeset(&format!("{:.decimals$}", value / power));
+            ticks.push(Tick { at: self.place(value), value, says });
+            number += 1.0;
+        }
+        ticks
+    }
+
+    /// Returns the unit that stands at the axis: the power of ten of its numbers, and the symbol of the unit.
+    pub(super) fn unit(&self, symbol: &str) -> String {
+        let power = typeset(&format!("1e{}", self.exponent));
+        match (self.exponent, symbol) {
+            (0, symbol) => symbol.to_owned(),
+            (_, "") => power.replace("1·", "·"),
+            (_, symbol) => format!("{} {symbol}", power.replace("1·", "")),
+        }
+    }
+}
+
+/// Returns the exponent of the largest power of ten that does not exceed a positive number.
+#[allow(clippy::cast_possible_truncation, reason = "exponents of f64 are small")]
+fn exponent_of(number: f64) -> i32 {
+    libm::round(libm::log10(decimal_step(number))) as i32
+}
+
+/// Returns the smallest of 1, 2 and 5 times a power of ten that is not below a positive number.
+fn round_up(number: f64) -> f64 {
+    let power = decimal_step(number);
+    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * power >= number * (1.0 - 1e-9));
+    digit.unwrap_or(10.0) * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(span: [f64; 2], count: f64, is_wider: bool) -> Axis {
+        Axis::new(&Range { span, is_wider, is_count: false }, count)
+    }
+
+    fn said(axis: &Axis) -> Vec<String> {
+        axis.ticks().into_iter().map(|tick| tick.says).collect()
+    }
+
+    #[test]
+    fn numbers_are_round_and_have_as_many_decimals_as_they_need() {
+        let scale = axis([0.0, 10.0], 5.0, false);
+        assert_eq!(said(&scale), ["0", "2", "4", "6", "8", "10"]);
+        let scale = axis([-0.13, 0.42], 4.0, true);
+        assert_eq!(said(&scale), ["−0.2", "0.0", "0.2", "0.4"]);
+        assert_eq!((scale.low, scale.high, scale.unit("m")), (-0.2, 0.5, "m".to_owned()));
+        let scale = axis([0.0, 0.25], 5.0, false);
+        assert_eq!(said(&scale), ["0.00", "0.05", "0.10", "0.15", "0.20", "0.25"]);
+    }
+
+    #[test]
+    fn counts_have_whole_numbers() {
+        let scale = Axis::new(&Range { span: [0.0, 2.0], is_wider: true, is_count: true }, 6.0);
+        assert_eq!(said(&scale), ["0", "1", "2"]);
+    }
+
+    #[test]
+    fn very_large_and_very_small_numbers_have_a_power_of_ten_at_the_unit() {
+        let scale = axis([0.0, 7.5e-6], 3.0, true);
+        assert_eq!(said(&scale), ["0", "5"]);
+        assert_eq!((scale.unit("J"), scale.unit("")), ("10⁻⁶ J".to_owned(), "·10⁻⁶".to_owned()));
+        let scale = axis([-3e30, 6e30], 3.0, true);
+        assert_eq!(
+            (said(&scale), scale.unit("J")),
+            (vec!["−5".into(), "0".into(), "5".into()], "10³⁰ J".into())
+        );
+    }
+
+    #[test]
+    fn what_does_not_change_is_a_line_in_the_middle() {
+        for value in [0.2, -3.0, 0.0] {
+            let scale = axis([value, value + 1e-12 * value], 4.0, true);
+            assert!((scale.place(value) - 0.5).abs() < 0.2, "{value} {scale:?}");
+            assert!(scale.low < scale.high);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Reads formulas of measures, such as `ball.speed` or `2 * kinetic`, in labels and plots.
+
+mod dotted;
+mod words;
+
+use std::ops::Range;
+
+use super::Context;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::expand::place;
+use crate::scene::expression::{ExpressionError, Formula, Scope};
+use crate::scene::grammar::scene::{scene, simulation};
+use crate::scene::{Body, BodyMeasure, Joint, LabelPlace, Measure, MeasureFormula, RunMeasure};
+
+/// Reads a text that contains formulas of measures.
+pub(super) struct Reader<'a, 'b, 'c> {
+    /// What the text belongs to, for messages: `label` or `plot`.
+    pub(super) noun: &'static str,
+    pub(super) text: &'a str,
+    pub(super) span: Span,
+    pub(super) root: &'a View<'b>,
+    /// The position of the label. In a label beside a body, measures of this body need no name.
+    pub(super) place: LabelPlace,
+    pub(super) bodies: &'a [Body],
+    pub(super) joints: &'a [Joint],
+    pub(super) context: &'a mut Context<'c>,
+    /// The letters that the font does not have, each once, with its first range in the text.
+    pub(super) missing: Vec<(char, Range<usize>)>,
+}
+
+impl Reader<'_, '_, '_> {
+    pub(super) fn report(&mut self, error: Diagnostic, range: Range<usize>, label: &str) {
+        let at = self.at(&range);
+        self.context.diagnostics.push(error.at(at, label));
+    }
+
+    /// Returns the source span of a byte range of the label's text.
+    pub(super) fn at(&self, range: &Range<usize>) -> Span {
+        place::in_string(self.context.sources.raw(self.span), self.text, range, self.span)
+    }
+
+    /// Reads the formula in a byte range of the text. `None` if it has an error, which is reported.
+    pub(super) fn formula(&mut self, range: Range<usize>) -> Option<MeasureFormula> {
+        let start = range.start;
+        let (plain, dotted) = self.without_dots(&self.text[range], start)?;
+        let parsed = self.keep(Formula::parse(&plain), start)?;
+        let (scope, inputs) = self.scope(dotted);
+        let single = inputs.iter().find(|(name, _)| name == plain.trim()).map(|(_, measure)| *measure);
+        let program = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
+        let program = self.keep(program, start)?;
+        let inputs = inputs.into_iter().map(|(_, measure)| measure).collect();
+        Some(MeasureFormula { program, inputs, single })
+    }
+
+    /// Returns the name and the value of each variable of the scene.
+    fn variables(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.root.variables()
+    }
+
+    /// Returns the names that formulas can use, and the name and the measure of each input of these formulas.
+    fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<(String, Measure)>) {
+        let mut scope = Scope::default();
+        for (name, value) in self.variables() {
+            scope.constant(name, value);
+        }
+        let mut inputs = Vec::new();
+        let mut add = |name: &str, measure: Measure| {
+            scope.slot(name);
+            inputs.push((name.to_owned(), measure));
+        };
+        let mut with_run = true;
+        let has_contacts = self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS);
+        let of_body = matches!(self.place, LabelPlace::Body { .. });
+        if let LabelPlace::Body { body, ghosts, .. } = self.place {
+            with_run = !ghosts;
+            let known = BodyMeasure::ALL.into_iter();
+            let known =
+                known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
+            known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
+        }
+        for (name, measure, _) in RunMeasure::ALL {
+            // In a label beside a body, a name such as `kinetic` means the measure of that body. A variable of the scene hides a measure.
+            let is_of_body = of_body && BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
+            let is_variable = self.variables().any(|(variable, _)| variable == name);
+            let is_known = !is_of_body && !is_variable && (measure != RunMeasure::Impacts || has_contacts);
+            // A ghost keeps only the state of its own body, so offer the time but no other measure of the run.
+            if is_known && (with_run || measure == RunMeasure::Time) {
+                add(name, Measure::Run(measure));
+            }
+        }
+        for (name, measure) in dotted {
+            let of_ghost = matches!(self.place, LabelPlace::Body { body, .. } if matches!(measure, Measure::Body(b, _) if b == body));
+            if with_run || of_ghost {
+                add(&name, measure);
+            }
+        }
+        (scope, inputs)
+    }
+
+    /// Returns the value in `found`, or reports the errors in it. The formula begins at the byte `start` of the label's text.
+    fn keep<T>(&mut self, found: Result<T, Vec<ExpressionError>>, start: usize) -> Option<T> {
+        let errors = match found {
+            Ok(value) => return Some(value),
+            Err(errors) => errors,
+        };
+        for error in errors {
+            let range = start + error.range.start..start + error.range.end;
+            if self.text.get(range.clone()) == Some("impacts") && self.needs_contacts(range).is_none() {
+                continue;
+            }
+            let at = self.at(&(start + error.range.start..start + error.range.end));
+            // For an unknown name without a similar name, do not list all names that labels know.
+            let own = error.code == Code::UnknownName && !error.label.starts_with("did you mean");
+            let diagnostic = Diagnostic::error(error.code, error.message);
+            let word = self.text.get(start + error.range.start..start + error.range.end).unwrap_or_default();
+            if let Some(other) = words::of_run(word).filter(|_| own) {
+                let diagnostic = diagnostic.at(at, format!("did you mean `{other}`?"));
+                let diagnostic = self.corrected(diagnostic, at, other, word.len());
+                self.context.diagnostics.push(diagnostic);
+                continue;
+            }
+            self.context.diagnostics.push(if own {
+                let known = "`t`, `ball.speed` and their kin: see «Labels» in docs/scene-language.md";
+                diagnostic.at(at, format!("not known to this {}", self.noun)).help(known)
+            } else {
+                diagnostic.at(at, error.label)
+            });
+        }
+        None
+    }
+}

@@ -1,0 +1,143 @@
+//! Reads the plots of a scene from `[plot.NAME]`.
+
+use super::Context;
+use super::label::corner;
+use super::measures::Reader;
+use super::view::View;
+use crate::diagnostic::{Code, Diagnostic, Span};
+use crate::scene::grammar::labels::plot;
+use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::{Any, Key};
+use crate::scene::source::Node;
+use crate::scene::value::Text;
+use crate::scene::{Body, Curve, Joint, LabelPlace, MeasureFormula, Plot, PlotPlace};
+
+/// A text of a plot, with the place where it is written.
+type Written<'a> = (&'a str, Span);
+
+/// Reads formulas and texts of plots.
+struct Plots<'a, 'b, 'c> {
+    root: &'a View<'b>,
+    bodies: &'a [Body],
+    joints: &'a [Joint],
+    context: &'a mut Context<'c>,
+}
+
+pub(super) fn read(
+    root: &View<'_>,
+    bodies: &[Body],
+    joints: &[Joint],
+    context: &mut Context<'_>,
+) -> Vec<Plot> {
+    let mut plots = Plots { root, bodies, joints, context };
+    root.named(&scene::PLOT)
+        .into_iter()
+        .filter_map(|(name, span, view)| plots.plot((name, span), &view))
+        .collect()
+}
+
+impl<'b, 'c> Plots<'_, 'b, 'c> {
+    fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<Plot> {
+        let x_formula = view.get(&plot::X);
+        let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
+        let written = texts(view, &plot::Y);
+        let formulas: Vec<Option<MeasureFormula>> = written.iter().map(|text| self.formula(*text)).collect();
+        let names = texts(view, &plot::NAMES);
+        names.iter().for_each(|name| self.check_letters(*name));
+        for key in [&plot::TITLE, &plot::X_NAME] {
+            view.get(key).zip(view.span(key)).into_iter().for_each(|written| self.check_letters(written));
+        }
+        if !names.is_empty() && names.len() != written.len() {
+            let counted =
+                |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+            let message = format!(
+                "the plot has {}, and {}",
+                counted(written.len(), "curve"),
+                counted(names.len(), "name")
+            );
+            self.report(view.span(&plot::NAMES), message, "each curve has one name");
+        }
+        let range = view.get(&plot::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
+        if range.is_some_and(|[low, high]| low >= high) {
+            self.report(
+                view.span(&plot::RANGE),
+                "this range is empty".to_owned(),
+                "the lower value comes first",
+            );
+        }
+        let place = match view.get(&plot::SIDE) {
+            Some("left") => PlotPlace::Left,
+            Some("right") => PlotPlace::Right,
+            _ => PlotPlace::Corner(corner(view, &plot::CORNER)),
+        };
+        let width = view.get(&plot::WIDTH);
+        if !matches!(place, PlotPlace::Corner(_)) && width > Plot::MAX_WIDTH_AT_SIDE {
+            let message = format!("a plot at a side is at most {} wide", Plot::MAX_WIDTH_AT_SIDE);
+            self.report(view.span(&plot::WIDTH), message, "the bodies need the rest of the picture");
+        }
+        let curve = |(number, formula): (usize, Option<MeasureFormula>)| {
+            let name = names.get(number).or(written.get(number))?.0.to_owned();
+            Some(Curve { name, y: formula? })
+        };
+        let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
+        Some(Plot {
+            name: name.to_owned(),
+            title: view.get(&plot::TITLE).map(str::to_owned),
+            x: x?,
+            x_name: view.get(&plot::X_NAME).unwrap_or(x_formula).trim().to_owned(),
+            curves,
+            place,
+            width,
+            range,
+            ahead: view.get(&plot::AHEAD),
+        })
+        .filter(|plot| !plot.curves.is_empty())
+    }
+
+    /// Reads a formula of measures. Reports its mistakes at their source positions.
+    fn formula(&mut self, (text, span): Written<'_>) -> Option<MeasureFormula> {
+        if let Some(inner) = text.trim().strip_prefix("${").and_then(|rest| rest.strip_suffix('}')) {
+            let error = Diagnostic::error(Code::BadPlot, "a plot takes a formula without `${…}`");
+            self.context.diagnostics.push(error.at(span, format!("write `{inner}`")));
+            return None;
+        }
+        self.reader((text, span)).formula(0..text.len())
+    }
+
+    /// Reports the letters that the font does not have.
+    fn check_letters(&mut self, written: Written<'_>) {
+        let mut reader = self.reader(written);
+        reader.words(0..written.0.len());
+        reader.report_missing();
+    }
+
+    fn reader<'t>(&'t mut self, (text, span): Written<'t>) -> Reader<'t, 'b, 'c> {
+        Reader {
+            noun: "plot",
+            text,
+            span,
+            root: self.root,
+            place: LabelPlace::Corner(crate::scene::Corner::TopRight),
+            bodies: self.bodies,
+            joints: self.joints,
+            context: self.context,
+            missing: Vec::new(),
+        }
+    }
+
+    fn report(&mut self, span: Option<Span>, message: String, label: &str) {
+        let error = Diagnostic::error(Code::BadPlot, message);
+        self.context.diagnostics.extend(span.map(|span| error.at(span, label)));
+    }
+}
+
+/// Returns the texts of a key that takes one text or a list of them.
+fn texts<'a>(view: &View<'a>, key: &Key<Any>) -> Vec<Written<'a>> {
+    match view.get_as::<Text>(key) {
+        Some(text) => view.span(key).map(|span| (text, span)).into_iter().collect(),
+        None => {
+            let nodes: &[Node] = view.list(key).unwrap_or_default();
+            nodes.iter().filter_map(|node| Some((node.as_str()?, node.span))).collect()
+        }
+    }
+}

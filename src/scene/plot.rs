@@ -1,0 +1,53 @@
+//! The plots of a scene: curves of measures, drawn in the picture.
+
+use super::{Corner, MeasureFormula};
+
+/// A plot in the picture: curves of measures against the time, or against another measure.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// The name of the plot, unique among plots.
+    pub name: String,
+    /// The title above the plot.
+    pub title: Option<String>,
+    /// The measure across.
+    pub x: MeasureFormula,
+    /// The name of the horizontal axis, such as `t` or `ball.x`.
+    pub x_name: String,
+    /// The curves, at least one.
+    pub curves: Vec<Curve>,
+    /// The position of the plot in the picture.
+    pub place: PlotPlace,
+    /// The width of the plot as a fraction of the picture's width.
+    pub width: f64,
+    /// The lowest and the highest value of the vertical axis. `None` for the values of the curves.
+    pub range: Option<[f64; 2]>,
+    /// Whether the future part of each curve is drawn in a pale color.
+    pub ahead: bool,
+}
+
+/// The position of a plot in the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotPlace {
+    /// In a corner, or at the middle of an edge, in front of the bodies.
+    Corner(Corner),
+    /// At the left side of the picture. A camera without a given position shows the bodies in the rest of the picture.
+    Left,
+    /// At the right side of the picture. A camera without a given position shows the bodies in the rest of the picture.
+    Right,
+}
+
+/// A curve of a plot.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The name of the curve in the legend.
+    pub name: String,
+    /// The measure upwards.
+    pub y: MeasureFormula,
+}
+
+impl Plot {
+    /// The maximum number of curves in a plot. More could not be told apart.
+    pub const MAX_CURVES: usize = 8;
+    /// The largest width of a plot at a side of the picture, as a fraction of the picture's width.
+    pub const MAX_WIDTH_AT_SIDE: f64 = 0.4;
+}

@@ -1,0 +1,152 @@
+//! Collects the points of the curves in plots, in bounded memory.
+//!
+//! The frames of a long run are divided into equal groups. Of each group, a curve keeps the points with the lowest and the highest values, so
+//! that no peak is lost, even one of a single frame.
+
+use crate::scene::{Plot, Scene};
+use crate::simulate::{Frame, Measures, MomentState};
+
+/// The number of groups of frames. A run with at most this many frames keeps all points.
+const MAX_GROUPS: usize = 600;
+
+/// A point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// The time of the frame, s.
+    pub time: f64,
+    /// The two measures. `None` where they have no finite value, such as the speed of an absent body: the curve has a gap there.
+    pub at: Option<[f64; 2]>,
+}
+
+/// Collects the curves of all plots.
+pub(super) struct Curves<'a> {
+    plots: &'a [Plot],
+    measures: Measures,
+    /// The number of frames in a group.
+    stride: usize,
+    /// The curves of all plots, in their order.
+    curves: Vec<Thinned>,
+}
+
+impl<'a> Curves<'a> {
+    pub(super) fn new(scene: &'a Scene) -> Curves<'a> {
+        let plots = &scene.plots;
+        Curves {
+            plots,
+            measures: Measures::new(scene),
+            stride: scene.simulation.timeline.frames().div_ceil(MAX_GROUPS).max(1),
+            curves: vec![Thinned::default(); plots.iter().map(|plot| plot.curves.len()).sum()],
+        }
+    }
+
+    /// Adds the points of the next frame.
+    pub(super) fn see(&mut self, frame: &Frame) {
+        let moment = MomentState::now(frame);
+        let mut curves = self.curves.iter_mut();
+        for plot in self.plots {
+            let x = self.measures.value(&plot.x, &moment);
+            for (curve, points) in plot.curves.iter().zip(&mut curves) {
+                let at = [x, self.measures.value(&curve.y, &moment)];
+                let at = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
+                points.add(CurvePoint { time: frame.time, at }, self.stride);
+            }
+        }
+    }
+
+    /// Returns the points of each curve of all plots.
+    pub(super) fn finish(self) -> Vec<Vec<CurvePoint>> {
+        self.curves.into_iter().map(Thinned::finish).collect()
+    }
+}
+
+/// The points that a curve keeps.
+#[derive(Clone, Default)]
+struct Thinned {
+    kept: Vec<CurvePoint>,
+    /// The number of points in the present group.
+    count: usize,
+    /// The first point of the group, then those with the lowest and the highest values of each measure, then the last point.
+    group: Option<[CurvePoint; 6]>,
+}
+
+impl Thinned {
+    fn add(&mut self, point: CurvePoint, stride: usize) {
+        let Some(at) = point.at else {
+            self.close();
+            if self.kept.last().is_some_and(|last| last.at.is_some()) {
+                self.kept.push(point);
+            }
+            return;
+        };
+        let group = self.group.get_or_insert([point; 6]);
+        for measure in 0..2 {
+            let of = |kept: CurvePoint| kept.at.map_or(f64::NAN, |at| at[measure]);
+            if at[measure] < of(group[1 + measure]) {
+                group[1 + measure] = point;
+            }
+            if at[measure] > of(group[3 + measure]) {
+                group[3 + measure] = point;
+            }
+        }
+        group[5] = point;
+        self.count += 1;
+        if self.count == stride {
+            // The next group begins where this one ends.
+            self.close();
+        }
+    }
+
+    /// Ends the group: keeps its points in order of time.
+    fn close(&mut self) {
+        self.count = 0;
+        let Some(mut points) = self.group.take() else { return };
+        points.sort_by(|one, other| one.time.total_cmp(&other.time));
+        for point in points {
+            if self.kept.last() != Some(&point) {
+                self.kept.push(point);
+            }
+        }
+    }
+
+    fn finish(mut self) -> Vec<CurvePoint> {
+        self.close();
+        self.kept
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run of a million frames with a spike of a single frame, and a gap.
+    #[test]
+    fn a_long_curve_keeps_its_peaks_and_gaps_in_bounded_memory() {
+        let frames: u32 = 1_000_000;
+        let mut curve = Thinned::default();
+        for frame in 0..frames {
+            let time = f64::from(frame);
+            let value = if frame == 777_777 { 5.0 } else { libm::sin(time / 1000.0) };
+            let is_there = !(200_000..300_000).contains(&frame);
+            curve.add(CurvePoint { time, at: is_there.then_some([time, value]) }, 1_000_000 / MAX_GROUPS);
+        }
+        let points = curve.finish();
+        assert!(points.len() <= 6 * (MAX_GROUPS + 2), "{}", points.len());
+        assert!(points.iter().any(|point| point.at == Some([777_777.0, 5.0])));
+        assert_eq!(points.iter().filter(|point| point.at.is_none()).count(), 1);
+        assert!(points.is_sorted_by(|one, other| one.time < other.time));
+        let ends = [points[0].time, points[points.len() - 1].time];
+        assert_eq!(ends, [0.0, 999_999.0]);
+    }
+
+    #[test]
+    fn a_short_curve_keeps_all_points() {
+        let mut curve = Thinned::default();
+        let points: Vec<CurvePoint> = [3.0, 1.0, 1.0, 2.0]
+            .into_iter()
+            .enumerate()
+            .map(|(frame, value)| CurvePoint { time: frame as f64, at: Some([frame as f64, value]) })
+            .collect();
+        points.iter().for_each(|point| curve.add(*point, 1));
+        assert_eq!(curve.finish(), points);
+    }
+}

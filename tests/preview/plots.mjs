@@ -1,0 +1,53 @@
+// Tests of the plots of a scene, over the picture.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { seek, tests, until } from "./browser.mjs";
+
+/** Returns the curves and dots of the plots, in CSS pixels, and the texts. */
+const shown = (page) => page.evaluate(() => {
+  const points = (line) => line.getAttribute("points").split(" ").map((point) => point.split(",").map(Number));
+  const { width } = document.getElementById("texts").getBoundingClientRect();
+  return {
+    width,
+    panels: [...document.querySelectorAll(".plots rect")].map((box) => ["x", "y", "width", "height"].map((key) => Number(box.getAttribute(key)))),
+    curves: [...document.querySelectorAll(".plots polyline")].map(points),
+    dots: [...document.querySelectorAll(".plots circle")].map((dot) => [Number(dot.getAttribute("cx")), Number(dot.getAttribute("cy"))]),
+    texts: [...document.querySelectorAll("#texts span")].map((span) => span.textContent),
+  };
+});
+
+await tests({
+  async the_plots_of_a_scene_are_drawn_as_far_as_time_has_come({ open, scene }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    await seek(page, 60);
+    const early = await shown(page);
+    await seek(page, 130);
+    const late = await shown(page);
+    assert.equal(late.panels.length, 2);
+    assert.equal(late.curves.length, 4);
+    for (const [k, curve] of late.curves.entries()) {
+      assert.ok(curve.length > early.curves[k].length, `curve ${k} grows`);
+      assert.deepEqual(curve.at(-1), late.dots[k], `a dot stands at the end of curve ${k}`);
+    }
+    for (const word of ["Energy", "kinetic", "potential", "total", "J", "t (s)"]) assert.ok(late.texts.includes(word), word);
+    // The script of the same frame places the dots at the same positions of the picture.
+    const { status, stderr } = spawnSync(process.env.JABUKA, ["compile", scene, "-o", "compiled", "--frames", "130"], { encoding: "utf8" });
+    assert.equal(status, 0, stderr);
+    const script = readFileSync("compiled/frame_0130.pov", "utf8");
+    const number = "(-?[\\d.e-]+)";
+    const calls = script.matchAll(new RegExp(`Dot\\(<${number}, [^>]*>, <${number}, ${number}, 0>`, "g"));
+    const places = [...calls].map((call) => call.slice(1).map(Number));
+    assert.equal(places.length, 4);
+    for (const [k, [left, x, y]] of places.entries()) {
+      const panel = late.panels[k < 3 ? 0 : 1];
+      // The picture is twice as wide as a unit of the image plane, and the panel lies at `left`.
+      const unit = panel[2] / 0.72;
+      const expected = [panel[0] + unit * x, panel[1] + panel[3] - unit * y];
+      assert.ok(Math.hypot(late.dots[k][0] - expected[0], late.dots[k][1] - expected[1]) < 1, `dot ${k}: ${late.dots[k]}, not ${expected}`);
+      assert.ok(Math.abs(left - 0.245) < 1e-3);
+    }
+  },
+});
