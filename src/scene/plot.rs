@@ -17,8 +17,8 @@ pub struct Plot {
     pub curves: Vec<Curve>,
     /// The position of the plot in the picture.
     pub place: PlotPlace,
-    /// The width of the plot as a fraction of the picture's width.
-    pub width: f64,
+    /// The width of the plot as a fraction of the picture's width. `None` for a width at which it is easy to read.
+    pub width: Option<f64>,
     /// The lowest and the highest value of the vertical axis. `None` for the values of the curves.
     pub range: Option<[f64; 2]>,
     /// Whether the future part of each curve is drawn in a pale color.

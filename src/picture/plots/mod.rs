@@ -17,7 +17,7 @@ use super::labels;
 use super::occupancy::Rectangle;
 use super::text::{MARGIN, Text, Vertical, least_height};
 use crate::scene::{
-    Color, Corner, Label, LabelPlace, Measure, MeasureFormula, Plot, PlotPlace, RunMeasure, Scene,
+    Color, Corner, Label, LabelPlace, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene,
 };
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
@@ -26,11 +26,21 @@ const SIZE: f64 = 0.036;
 /// The smallest height of a line of text, pixels.
 const LEAST_PIXELS: f64 = 10.5;
 
+/// The width of a plot, as a fraction of the picture's width.
+fn width(plot: &Plot, output: Output) -> f64 {
+    /// The usual width.
+    const USUAL: f64 = 0.36;
+    /// The smallest usual width, pixels: smaller plots cannot be read.
+    const LEAST: f64 = 140.0;
+    let most = if matches!(plot.place, PlotPlace::Corner(_)) { 0.5 } else { Plot::MAX_WIDTH_AT_SIDE };
+    plot.width.unwrap_or_else(|| (LEAST / f64::from(output.width)).clamp(USUAL, most))
+}
+
 /// The part of the picture's width that plots at its sides leave free.
 pub(super) fn free(scene: &Scene) -> Free {
     let taken = |place: PlotPlace| {
-        let widths =
-            scene.plots.iter().filter(|plot| plot.place == place).map(|plot| plot.width + MARGIN / 2.0);
+        let plots = scene.plots.iter().filter(|plot| plot.place == place);
+        let widths = plots.map(|plot| width(plot, scene.output) + MARGIN / 2.0);
         widths.fold(0.0, f64::max).min(0.44)
     };
     let [left, right] = [PlotPlace::Left, PlotPlace::Right].map(taken);
@@ -115,6 +125,7 @@ impl Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let line = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
         let around = Surroundings {
+            width: 0.0,
             line,
             aspect,
             used: 0.0,
@@ -139,8 +150,12 @@ impl Plots {
             let is_in_column = |other: &&Plot| column(other.place) == column(plot.place);
             let column = scene.plots.iter().filter(is_in_column).count();
             let others = others(scene, plot.place, aspect);
-            let (planned, axes) =
-                plan(scene, plot, &curves, Surroundings { used, count, column, others, ..around });
+            let (planned, axes) = plan(
+                scene,
+                plot,
+                &curves,
+                Surroundings { width: width(plot, scene.output), used, count, column, others, ..around },
+            );
             plots.planned.push(planned);
             plots.axes.push(axes);
         }
@@ -194,14 +209,23 @@ pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> Plann
     /// The height of a line of text, relative to half the width of the drawing.
     const LINE: f64 = 0.04;
     let before: usize = scene.plots[..number].iter().map(|plot| plot.curves.len()).sum();
-    let plot = Plot { width: 1.0, place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
+    let plot = Plot { place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
     let curves: Vec<&[CurvePoint]> =
         survey.curves.iter().skip(before).take(plot.curves.len()).map(Vec::as_slice).collect();
     plan(
         scene,
         &plot,
         &curves,
-        Surroundings { line: LINE, aspect: 1.0, used: 0.0, count: 1, column: 1, others: 0.0, dark: false },
+        Surroundings {
+            width: 1.0,
+            line: LINE,
+            aspect: 1.0,
+            used: 0.0,
+            count: 1,
+            column: 1,
+            others: 0.0,
+            dark: false,
+        },
     )
     .0
 }
@@ -209,6 +233,8 @@ pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> Plann
 /// The picture that a plot stands in.
 #[derive(Clone, Copy)]
 struct Surroundings {
+    /// The width of the plot, as a fraction of the picture's width.
+    width: f64,
     /// The height of a line of text in the image plane.
     line: f64,
     /// The height of the picture, relative to its width.

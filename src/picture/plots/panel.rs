@@ -74,9 +74,9 @@ impl Panel {
         plot: &Plot,
         legend: &Legend<'_>,
         ranges: &[Range; 2],
-        Surroundings { aspect, used, count, column, others, .. }: Surroundings,
+        Surroundings { width: share, aspect, used, count, column, others, .. }: Surroundings,
     ) -> (Panel, Axes, bool) {
-        let wide = (2.0 * plot.width).min(2.0 - 2.0 * MARGIN);
+        let wide = (2.0 * share).min(2.0 - 2.0 * MARGIN);
         let (pad, count, column) = (0.45 * line, count as f64, column as f64);
         // All plots of a column of the picture share the height that a scale bar and labels leave.
         let most = (2.0 * aspect - 2.0 * MARGIN - others - (column - 1.0) * GAP) / column;

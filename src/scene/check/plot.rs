@@ -71,7 +71,9 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             _ => PlotPlace::Corner(corner(view, &plot::CORNER)),
         };
         let width = view.get(&plot::WIDTH);
-        if !matches!(place, PlotPlace::Corner(_)) && width > Plot::MAX_WIDTH_AT_SIDE {
+        if !matches!(place, PlotPlace::Corner(_))
+            && width.is_some_and(|width| width > Plot::MAX_WIDTH_AT_SIDE)
+        {
             let message = format!("a plot at a side is at most {} wide", Plot::MAX_WIDTH_AT_SIDE);
             self.report(view.span(&plot::WIDTH), message, "the bodies need the rest of the picture");
         }

@@ -111,8 +111,8 @@ table! {
         "Its side of the picture, instead of a corner: a camera without a location shows the bodies beside it",
     )
     .default("none: it stands in a corner"),
-    WIDTH: f64 = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
-        .default_number(0.36)
+    WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
+        .default("0.36, and more in small pictures")
         .also(&["size"]),
     RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its upright axis")
         .default("that of the curves")
