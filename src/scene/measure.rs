@@ -11,7 +11,7 @@ use crate::physics::{BodyId, BodySnapshot, Coordinate, Reaction};
 pub struct MeasureFormula {
     /// The compiled formula. Its inputs are the values of the measures in `inputs`.
     pub program: Program,
-    /// The measures that the formula uses, in the order of the formula's inputs.
+    /// The measures that the formula can name, in the order of the program's inputs: all of the run, and the named ones of bodies and joints.
     pub inputs: Vec<Measure>,
     /// The measure that the formula consists of, if it is the name of a single one.
     pub single: Option<Measure>,

@@ -48,6 +48,8 @@ pub struct Curve {
 impl Plot {
     /// The maximum number of curves in a plot. More could not be told apart.
     pub const MAX_CURVES: usize = 8;
+    /// The largest value that an axis can have.
+    pub const MAX_VALUE: f64 = 1e290;
     /// The largest width of a plot at a side of the picture, as a fraction of the picture's width.
     pub const MAX_WIDTH_AT_SIDE: f64 = 0.4;
 }

@@ -5,6 +5,10 @@ use super::super::number::typeset;
 
 /// A range of numbers is flat if it is smaller than this part of the numbers: the difference is then rounding.
 const FLAT: f64 = 1e-9;
+/// The largest number of an axis: sums of larger ones could overflow.
+const MOST: f64 = 1e300;
+/// The smallest difference that an axis can show: parts of a smaller one could vanish.
+const LEAST: f64 = 1e-290;
 /// Numbers from this on are written with a power of ten that stands at the unit.
 const LARGE: f64 = 1e5;
 /// Numbers below this are written with a power of ten that stands at the unit.
@@ -44,10 +48,11 @@ pub(super) struct Range {
 impl Axis {
     /// Makes the axis of a range. It has about `count` numbers.
     pub(super) fn new(range: &Range, count: f64) -> Axis {
-        let [low, high] = range.span;
+        let [low, high] = range.span.map(|end| end.clamp(-MOST, MOST));
         let largest = low.abs().max(high.abs());
-        let (low, high) = match high - low <= FLAT * largest {
-            true if largest == 0.0 => (-1.0, 1.0),
+        let is_flat = high - low <= if range.is_wider { FLAT * largest } else { 0.0 };
+        let (low, high) = match is_flat || high - low < LEAST {
+            true if largest < LEAST => (-1.0, 1.0),
             // A quantity that keeps its value is a line between 0 and twice the value.
             true => (low.min(0.0) * 2.0, high.max(0.0) * 2.0),
             false => (low, high),
@@ -76,7 +81,9 @@ impl Axis {
         let power = libm::pow(10.0, f64::from(self.exponent));
         let decimals = usize::try_from(-exponent_of(self.step / power)).unwrap_or(0);
         let first = libm::ceil(self.low / self.step - 1e-9);
-        let count = libm::floor(self.high / self.step + 1e-9) - first;
+        /// More numbers than any axis has room for.
+        const MOST_TICKS: f64 = 50.0;
+        let count = (libm::floor(self.high / self.step + 1e-9) - first).min(MOST_TICKS);
         let mut ticks = Vec::new();
         let mut number = 0.0;
         while number <= count {
@@ -149,6 +156,28 @@ mod tests {
         assert_eq!((scale.unit("J"), scale.unit("")), ("10⁻⁶ J".to_owned(), "·10⁻⁶".to_owned()));
         let scale = axis([-3e30, 6e30], 3.0, true);
         assert_eq!((said(&scale), scale.unit("J")), (vec!["0".into(), "5".into()], "10³⁰ J".into()));
+    }
+
+    #[test]
+    fn extreme_ranges_have_a_few_numbers() {
+        let ends = [0.0, 1e-323, 1e-300, 1e-10, 1.0, 1e17, 1e308, f64::MAX];
+        for low in ends.into_iter().flat_map(|end| [end, -end]) {
+            for high in ends.into_iter().flat_map(|end| [end, -end]).filter(|high| *high >= low) {
+                for is_wider in [false, true] {
+                    let scale = axis([low, high], 4.0, is_wider);
+                    let ticks = scale.ticks();
+                    assert!(ticks.len() < 50, "{low} to {high}: {scale:?}");
+                    assert!(
+                        scale.high > scale.low && (scale.high - scale.low).is_finite(),
+                        "{low} to {high}: {scale:?}"
+                    );
+                    assert!(
+                        ticks.iter().all(|tick| tick.at.is_finite() && tick.value.is_finite()),
+                        "{ticks:?}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

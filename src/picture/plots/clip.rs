@@ -22,7 +22,9 @@ pub(super) fn clipped(
     };
     let mut before: Option<[f64; 2]> = None;
     for point in points {
-        let here = point.at.map(&place);
+        // A point that is too far away to compute with is drawn as one that is just far away.
+        let here = point.at.map(&place).filter(|at| at.iter().all(|part| !part.is_nan()));
+        let here = here.map(|at| at.map(|part| part.clamp(-FAR, FAR)));
         match (before, here) {
             (Some(from), Some(to)) => match visible(from, to) {
                 Some([first, last]) => {
@@ -72,12 +74,34 @@ fn keep(points: &[CurvePoint], part: (usize, usize), is_kept: &mut [bool]) {
     while let Some((first, last)) = parts.pop() {
         (is_kept[first], is_kept[last]) = (true, true);
         let (Some(from), Some(to)) = (points[first].at, points[last].at) else { continue };
+        if let Some(turn) = turn(points, (first, last)) {
+            parts.extend([(first, turn), (turn, last)]);
+            continue;
+        }
         let distance = |number: &usize| points[*number].at.map_or(0.0, |at| away(at, from, to));
         let farthest = (first + 1..last).max_by(|one, other| distance(one).total_cmp(&distance(other)));
         if let Some(middle) = farthest.filter(|number| distance(number) > FINE) {
             parts.extend([(first, middle), (middle, last)]);
         }
     }
+}
+
+/// Returns the point of a part of a curve at which it turns back along the line between the part's ends. A frame at an earlier time draws
+/// the way there and not the way back, so this point is needed.
+fn turn(points: &[CurvePoint], (first, last): (usize, usize)) -> Option<usize> {
+    let [from, to] = [first, last].map(|end| points[end].at.map(glam::DVec2::from_array));
+    let along = (to? - from?).normalize_or_zero();
+    let (mut farthest, mut most) = (first, 0.0);
+    for (number, point) in points.iter().enumerate().take(last + 1).skip(first + 1) {
+        let way = (glam::DVec2::from_array(point.at?) - from?).dot(along);
+        if way < most - 2.0 * FINE {
+            return (farthest > first).then_some(farthest).or((number < last).then_some(number));
+        }
+        if way > most {
+            (farthest, most) = (number, way);
+        }
+    }
+    None
 }
 
 /// The distance of a point from the line between two others.
@@ -87,6 +111,9 @@ fn away(at: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let part = ((at - from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
     at.distance(if part.is_nan() { from } else { from + part * way })
 }
+
+/// Points are at most this far away, in sizes of the plot.
+const FAR: f64 = 1e6;
 
 /// Edges count as inside, and so does what rounding puts beside them.
 const SLACK: f64 = 1e-9;
@@ -99,7 +126,7 @@ fn between(from: [f64; 2], to: [f64; 2], part: f64) -> [f64; 2] {
     match part {
         0.0 => from,
         1.0 => to,
-        part => std::array::from_fn(|k| from[k] + part * (to[k] - from[k])),
+        part => std::array::from_fn(|k| (from[k] + part * (to[k] - from[k])).clamp(0.0, 1.0)),
     }
 }
 
@@ -156,6 +183,32 @@ mod tests {
                 near.filter_map(|pair| Some(away(point.at?, pair[0].at?, pair[1].at?))).fold(0.0, f64::max);
             assert!(distance <= FINE, "{point:?}: {distance}");
         }
+    }
+
+    /// A spring without damping: its force against its length goes to and fro on a line. Each turn must be kept.
+    #[test]
+    fn a_curve_that_turns_back_on_itself_keeps_its_turns() {
+        let point = |number: u32| {
+            let x = 0.5 + 0.4 * libm::cos(f64::from(number) * 0.05);
+            CurvePoint { time: f64::from(number), at: Some([x, 1.0 - x]) }
+        };
+        let drawn = simplified((0..=190).map(point).collect());
+        let turns: Vec<f64> = drawn.iter().map(|point| point.time).collect();
+        assert!(turns.len() < 10, "{turns:?}");
+        for turn in [63.0, 126.0, 188.0] {
+            assert!(turns.iter().any(|time| (time - turn).abs() < 2.0), "{turn}: {turns:?}");
+        }
+    }
+
+    #[test]
+    fn points_far_outside_and_undefined_ones_do_not_spoil_the_others() {
+        let curve = [Some([0.0, 0.5]), Some([0.5, 1e300]), Some([0.6, f64::NAN]), Some([1.0, 0.5])];
+        let parts = drawn(&curve);
+        assert_eq!((parts[0], parts[parts.len() - 1]), (curve[0], curve[3]));
+        assert!(
+            parts.iter().flatten().all(|at| at.iter().all(|part| (0.0..=1.0).contains(part))),
+            "{parts:?}"
+        );
     }
 
     #[test]

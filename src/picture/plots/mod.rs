@@ -125,6 +125,8 @@ impl Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let line = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
         let around = Surroundings {
+            free: free(scene),
+            widest: 0.0,
             width: 0.0,
             line,
             aspect,
@@ -146,7 +148,9 @@ impl Plots {
             let curves: Vec<&[CurvePoint]> =
                 points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect();
             let used = plots.used(scene, plot);
-            let count = scene.plots.iter().filter(|other| other.place == plot.place).count();
+            let here = || scene.plots.iter().filter(|other| other.place == plot.place);
+            let widest = here().map(|other| width(other, scene.output)).fold(0.0, f64::max);
+            let count = here().count();
             let is_in_column = |other: &&Plot| column(other.place) == column(plot.place);
             let column = scene.plots.iter().filter(is_in_column).count();
             let others = others(scene, plot.place, aspect);
@@ -154,7 +158,15 @@ impl Plots {
                 scene,
                 plot,
                 &curves,
-                Surroundings { width: width(plot, scene.output), used, count, column, others, ..around },
+                Surroundings {
+                    widest,
+                    width: width(plot, scene.output),
+                    used,
+                    count,
+                    column,
+                    others,
+                    ..around
+                },
             );
             plots.planned.push(planned);
             plots.axes.push(axes);
@@ -217,6 +229,8 @@ pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> Plann
         &plot,
         &curves,
         Surroundings {
+            free: Free::ALL,
+            widest: 1.0,
             width: 1.0,
             line: LINE,
             aspect: 1.0,
@@ -233,6 +247,10 @@ pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> Plann
 /// The picture that a plot stands in.
 #[derive(Clone, Copy)]
 struct Surroundings {
+    /// The part of the picture that plots at its sides leave free.
+    free: Free,
+    /// The largest width of the plots in its place, as a fraction of the picture's width.
+    widest: f64,
     /// The width of the plot, as a fraction of the picture's width.
     width: f64,
     /// The height of a line of text in the image plane.
@@ -310,12 +328,14 @@ fn plan(
     (planned, (axes, area))
 }
 
-/// The position of the middle of a plot across the picture: -1 at the left, 0 in the middle, 1 at the right.
+/// The column of the picture that a plot stands in, from the left side to the right side. A plot in a corner stands beside those at a side.
 fn column(place: PlotPlace) -> i8 {
     match place {
-        PlotPlace::Left | PlotPlace::Corner(Corner::TopLeft | Corner::BottomLeft) => -1,
+        PlotPlace::Left => -2,
+        PlotPlace::Corner(Corner::TopLeft | Corner::BottomLeft) => -1,
         PlotPlace::Corner(Corner::Top | Corner::Bottom) => 0,
-        PlotPlace::Right | PlotPlace::Corner(Corner::TopRight | Corner::BottomRight) => 1,
+        PlotPlace::Right => 2,
+        PlotPlace::Corner(Corner::TopRight | Corner::BottomRight) => 1,
     }
 }
 

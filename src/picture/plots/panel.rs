@@ -1,7 +1,7 @@
 //! Lays out the panel of a plot: where its axes, its numbers and its legend stand.
 
 use super::super::occupancy::Rectangle;
-use super::super::text::{MARGIN, Text, Vertical, across, is_top, width};
+use super::super::text::{MARGIN, Text, Vertical, across_free, is_top, width};
 use super::axis::{Axis, Range, Tick};
 use super::{Axes, PlotLine, Surroundings};
 use crate::scene::{Color, Plot, PlotPlace};
@@ -74,7 +74,7 @@ impl Panel {
         plot: &Plot,
         legend: &Legend<'_>,
         ranges: &[Range; 2],
-        Surroundings { width: share, aspect, used, count, column, others, .. }: Surroundings,
+        Surroundings { width: share, widest, free, aspect, used, count, column, others, .. }: Surroundings,
     ) -> (Panel, Axes, bool) {
         let wide = (2.0 * share).min(2.0 - 2.0 * MARGIN);
         let (pad, count, column) = (0.45 * line, count as f64, column as f64);
@@ -98,15 +98,19 @@ impl Panel {
             least = head + foot + LEAST_LINES * line;
             let usual = match plot.place {
                 PlotPlace::Corner(_) => (SHAPE * wide).max(head + foot + 0.4 * wide),
-                _ => TALLEST * wide,
+                _ => TALLEST * 2.0 * widest,
             };
-            high = usual.max(least).min(most);
+            // A panel that has no room at all still has axes.
+            high = usual.max(least).min(most.max(head + foot + line));
             upright = Axis::new(&ranges[1], ((high - head - foot) / (2.0 * line)).clamp(1.0, 6.0));
             numbers = upright.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
         }
         let left = pad + numbers + 0.4 * line;
         let room = wide - left - 2.0 * pad;
         let level = Axis::new(&ranges[0], (room / (2.8 * line)).clamp(1.0, 8.0));
+        let widest_number = level.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
+        let level =
+            Axis::new(&ranges[0], (room / (widest_number + 0.8 * line).max(2.8 * line)).clamp(1.0, 8.0));
         let legend_begin = pad + title_row + 0.8 * line;
         let area = Rectangle {
             left,
@@ -117,9 +121,9 @@ impl Panel {
         let beside = Vertical::Middle((count * high + (count - 1.0) * GAP) / 2.0 - used - high);
         let ((x, align), bottom) = match plot.place {
             PlotPlace::Corner(corner) if is_top(corner) => {
-                (across(corner), Vertical::Top(MARGIN + used + high))
+                (across_free(corner, free), Vertical::Top(MARGIN + used + high))
             }
-            PlotPlace::Corner(corner) => (across(corner), Vertical::Bottom(MARGIN + used)),
+            PlotPlace::Corner(corner) => (across_free(corner, free), Vertical::Bottom(MARGIN + used)),
             PlotPlace::Left => ((MARGIN - 1.0, 0.0), beside),
             PlotPlace::Right => ((1.0 - MARGIN, 1.0), beside),
         };

@@ -16,8 +16,8 @@ use crate::scene::{
     Body, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, ScaleBar, Side,
 };
 
-/// The maximum length of a label's text, in bytes. POV-Ray limits the length of strings, and the values need room.
-const MAX_LENGTH: usize = 160;
+/// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
+pub(super) const MAX_LENGTH: usize = 160;
 
 pub(super) fn read(
     root: &View<'_>,
@@ -155,14 +155,9 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
 }
 
 impl Reader<'_, '_, '_> {
-    pub(super) fn words(&mut self, range: Range<usize>) -> Option<Piece> {
+    fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
-        for (at, letter) in words.char_indices().filter(|(_, letter)| !font::has(*letter)) {
-            if self.missing.iter().all(|(known, _)| *known != letter) {
-                let here = range.start + at..range.start + at + letter.len_utf8();
-                self.missing.push((letter, here));
-            }
-        }
+        self.note_letters(range.clone());
         for Other { range: inner, message, meant } in values_of_other_languages(words) {
             let here = range.start + inner.start..range.start + inner.end;
             let at = self.at(&here);
@@ -177,6 +172,17 @@ impl Reader<'_, '_, '_> {
             });
         }
         (!words.is_empty()).then(|| Piece::Words(words.to_owned()))
+    }
+
+    /// Notes the letters of a byte range that the font does not have, for [`report_missing`](Self::report_missing).
+    pub(super) fn note_letters(&mut self, range: Range<usize>) {
+        let words = &self.text[range.clone()];
+        for (at, letter) in words.char_indices().filter(|(_, letter)| !font::has(*letter)) {
+            if self.missing.iter().all(|(known, _)| *known != letter) {
+                let here = range.start + at..range.start + at + letter.len_utf8();
+                self.missing.push((letter, here));
+            }
+        }
     }
 
     /// Reports all letters of the text that the font does not have.

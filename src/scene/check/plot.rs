@@ -1,7 +1,7 @@
 //! Reads the plots of a scene from `[plot.NAME]`.
 
 use super::Context;
-use super::label::corner;
+use super::label::{MAX_LENGTH, corner};
 use super::measures::Reader;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -58,6 +58,14 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             self.report(view.span(&plot::NAMES), message, "each curve has one name");
         }
         let range = view.get(&plot::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
+        let is_extreme = |[low, high]: [f64; 2]| {
+            let largest = low.abs().max(high.abs());
+            largest > Plot::MAX_VALUE || high - low < 1e-12 * largest || high - low < 1.0 / Plot::MAX_VALUE
+        };
+        if range.is_some_and(|[low, high]| low < high && is_extreme([low, high])) {
+            let message = "this range is too small or too large for numbers".to_owned();
+            self.report(view.span(&plot::RANGE), message, "the numbers of the axis could not be told apart");
+        }
         if range.is_some_and(|[low, high]| low >= high) {
             self.report(
                 view.span(&plot::RANGE),
@@ -103,13 +111,33 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             self.context.diagnostics.push(error.at(span, format!("write `{inner}`")));
             return None;
         }
+        if self.is_too_long((text, span)) {
+            return None;
+        }
         self.reader((text, span)).formula(0..text.len())
+    }
+
+    /// Returns true and reports an error if a text of a plot is too long.
+    fn is_too_long(&mut self, (text, span): Written<'_>) -> bool {
+        if text.len() > MAX_LENGTH {
+            let message = format!("a text of a plot has at most {MAX_LENGTH} bytes");
+            self.report(Some(span), message, "this one is longer");
+        }
+        text.len() > MAX_LENGTH
     }
 
     /// Reports the letters that the font does not have.
     fn check_letters(&mut self, written: Written<'_>) {
+        let (text, span) = written;
+        if self.is_too_long(written) {
+            return;
+        }
+        if text.contains("${") {
+            let message = "titles and names of a plot show no values".to_owned();
+            self.report(Some(span), message, "a label can: `[label.NAME]`");
+        }
         let mut reader = self.reader(written);
-        reader.words(0..written.0.len());
+        reader.note_letters(0..text.len());
         reader.report_missing();
     }
 

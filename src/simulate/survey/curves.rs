@@ -67,17 +67,26 @@ struct Thinned {
     count: usize,
     /// The first point of the group, then those with the lowest and the highest values of each measure, then the last point.
     group: Option<[CurvePoint; 6]>,
+    /// The time of the first gap in the group, s.
+    gap: Option<f64>,
 }
 
 impl Thinned {
     fn add(&mut self, point: CurvePoint, stride: usize) {
-        let Some(at) = point.at else {
-            self.close();
-            if self.kept.last().is_some_and(|last| last.at.is_some()) {
-                self.kept.push(point);
+        match point.at {
+            Some(at) => self.widen(point, at),
+            None => {
+                self.gap.get_or_insert(point.time);
             }
-            return;
-        };
+        }
+        self.count += 1;
+        if self.count >= stride {
+            self.close();
+        }
+    }
+
+    /// Adds a point to the group.
+    fn widen(&mut self, point: CurvePoint, at: [f64; 2]) {
         let group = self.group.get_or_insert([point; 6]);
         for measure in 0..2 {
             let of = |kept: CurvePoint| kept.at.map_or(f64::NAN, |at| at[measure]);
@@ -89,20 +98,20 @@ impl Thinned {
             }
         }
         group[5] = point;
-        self.count += 1;
-        if self.count == stride {
-            // The next group begins where this one ends.
-            self.close();
-        }
     }
 
     /// Ends the group: keeps its points in order of time.
     fn close(&mut self) {
         self.count = 0;
-        let Some(mut points) = self.group.take() else { return };
+        let mut points: Vec<CurvePoint> = self.group.take().into_iter().flatten().collect();
+        points.extend(self.gap.take().map(|time| CurvePoint { time, at: None }));
         points.sort_by(|one, other| one.time.total_cmp(&other.time));
         for point in points {
-            if self.kept.last() != Some(&point) {
+            let is_known = self
+                .kept
+                .last()
+                .is_some_and(|last| *last == point || last.at.is_none() && point.at.is_none());
+            if !is_known {
                 self.kept.push(point);
             }
         }
@@ -136,6 +145,19 @@ mod tests {
         assert!(points.is_sorted_by(|one, other| one.time < other.time));
         let ends = [points[0].time, points[points.len() - 1].time];
         assert_eq!(ends, [0.0, 999_999.0]);
+    }
+
+    #[test]
+    fn a_curve_that_is_undefined_at_every_other_frame_needs_no_more_memory() {
+        let mut curve = Thinned::default();
+        for frame in 0..100_000_u32 {
+            let time = f64::from(frame);
+            let at = (frame % 2 == 0).then_some([time, libm::sin(time)]);
+            curve.add(CurvePoint { time, at }, 200);
+        }
+        let points = curve.finish();
+        assert!(points.len() <= 7 * 500, "{}", points.len());
+        assert!(points.iter().any(|point| point.at.is_none()));
     }
 
     #[test]
