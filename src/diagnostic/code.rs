@@ -48,6 +48,7 @@ codes! {
     BadJoint = "bad-joint",
     BadMesh = "bad-mesh",
     BadPlot = "bad-plot",
+    BadMark = "bad-mark",
     BadSet = "bad-set",
     BadTemplate = "bad-template",
     BadVariableName = "bad-variable-name",

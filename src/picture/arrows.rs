@@ -1,12 +1,15 @@
 //! Arrows that show vectors of bodies and joints, and the coordinate axes of bodies.
 
-use glam::{DQuat, DVec3};
+use std::collections::BTreeMap;
+
+use glam::DVec3;
 
 use super::beside;
 use super::camera::Placed;
 use super::in_front::lift_from_body;
+use super::thing::{Form, Line, Thing};
 use crate::physics::{BodyId, BodySnapshot, ContactSnapshot, find};
-use crate::scene::{self, Body, Color, Quantity, Scene};
+use crate::scene::{self, Body, Color, Joint, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 
 /// The colors of arrows on light backgrounds, in the order of [`Quantity::color`]. They are easy to tell apart, and rarely used for
@@ -33,7 +36,7 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
 
 /// The body or joint that an arrow belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ArrowOwner {
+pub(super) enum ArrowOwner {
     /// The body with this index.
     Body(usize),
     /// A joint.
@@ -47,32 +50,19 @@ pub enum ArrowOwner {
 
 /// An arrow that shows a vector of a body or of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arrow {
+pub(super) struct Arrow {
     /// The body or joint that the arrow belongs to.
-    pub owner: ArrowOwner,
+    pub(super) owner: ArrowOwner,
     /// The quantity that the arrow shows.
-    pub quantity: Quantity,
+    pub(super) quantity: Quantity,
     /// The point where the arrow begins, in world axes, m.
-    pub from: DVec3,
+    pub(super) from: DVec3,
     /// The tip of the arrow, in world axes, m.
-    pub to: DVec3,
+    pub(super) to: DVec3,
     /// The radius of the arrow's shaft, m.
-    pub radius: f64,
+    pub(super) radius: f64,
     /// The color of the arrow.
-    pub color: Color,
-}
-
-/// The coordinate axes of a body, drawn as three arrows from its center.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axes {
-    /// The index of the body.
-    pub body: usize,
-    /// The center of the body, m.
-    pub location: DVec3,
-    /// The orientation of the body: the rotation from body axes to world axes.
-    pub orientation: DQuat,
-    /// The length of each axis, m.
-    pub length: f64,
+    pub(super) color: Color,
 }
 
 /// The length of the longest arrow without a given scale, relative to the width of the picture.
@@ -96,6 +86,8 @@ pub(super) struct Arrows {
     arrows: Vec<Planned>,
     /// The arrows of joints.
     of_joints: Vec<OfJoint>,
+    /// The names of the joints that have arrows, by their indices.
+    joint_names: BTreeMap<usize, String>,
     /// The scene and the colors of arrows. `None` if the scene shows no weights or contact forces.
     of_loads: Option<(Box<Scene>, [Color; Quantity::COLORS])>,
     /// The length of the longest vector of each quantity in the run, in the unit of the quantity. Only arrows without a given scale count.
@@ -155,6 +147,18 @@ pub(super) fn round_down(number: f64) -> f64 {
     if decade.is_finite() && decade > 0.0 { digit.unwrap_or(1.0) * decade } else { 1.0 }
 }
 
+impl Arrow {
+    /// The shaft of the arrow, from its beginning to its tip.
+    pub(super) fn line(&self) -> Line {
+        Line { from: self.from, to: self.to, radius: self.radius }
+    }
+
+    /// The arrow along another line.
+    pub(super) fn along(&self, line: Line) -> Arrow {
+        Arrow { from: line.from, to: line.to, radius: line.radius, ..*self }
+    }
+}
+
 impl Arrows {
     pub(super) fn new(scene: &Scene, longest: [f64; Quantity::COUNT]) -> Arrows {
         let shows = |body: &Body| body.showing.axes.is_some() || body.showing.has_arrows();
@@ -179,12 +183,15 @@ impl Arrows {
             })
         });
         let of_joints = of_joints.collect();
+        let has_arrows = |joint: &Joint| joint.arrows.iter().any(Option::is_some);
+        let named = scene.joints.iter().enumerate().filter(|(_, joint)| has_arrows(joint));
+        let joint_names = named.map(|(number, joint)| (number, joint.name.clone())).collect();
         let of_loads = scene
             .bodies
             .iter()
             .any(|body| body.showing.has_loads())
             .then(|| (Box::new(scene.clone()), colors));
-        Arrows { bodies, arrows, of_joints, of_loads, longest }
+        Arrows { bodies, arrows, of_joints, joint_names, of_loads, longest }
     }
 
     /// The sizes of arrows in all pictures of a fixed camera. `scales` are the scales that its position was chosen for.
@@ -242,13 +249,31 @@ impl Arrows {
         loads_on(scene, bodies, contacts).iter().filter_map(arrow).collect()
     }
 
-    /// The coordinate axes that are drawn in a frame.
-    pub(super) fn axes(&self, frame: &Frame) -> Vec<Axes> {
+    /// The arrow as a thing to draw.
+    pub(super) fn thing(&self, arrow: &Arrow) -> Thing<'static> {
+        let Arrow { from, to, radius, color, .. } = *arrow;
+        let owner = match arrow.owner {
+            ArrowOwner::Body(body) => self.body(body).map(|body| &*body.name),
+            ArrowOwner::Joint { joint, .. } => self.joint_names.get(&joint).map(String::as_str),
+        };
+        let name = format!("{}, {}", owner.unwrap_or_default(), arrow.quantity.name());
+        Thing { name: name.into(), form: Form::Arrow { from, to, radius }, color }
+    }
+
+    /// The coordinate axes that are drawn in a frame, each with the index of its body.
+    pub(super) fn axes(&self, frame: &Frame) -> Vec<(usize, Thing<'static>)> {
         let axes = |(number, body): &(usize, Body)| {
             let (length, at) = (axis(body)?, frame.body(*number)?);
-            Some(Axes { body: *number, location: at.location, orientation: at.orientation, length })
+            let form = Form::Axes { location: at.location, orientation: at.orientation, length };
+            Some((*number, Thing { name: format!("{}, axes", body.name).into(), form, color: Color::WHITE }))
         };
         self.bodies.iter().filter_map(axes).collect()
+    }
+
+    /// The body with an index in the scene, if it has arrows or axes.
+    fn body(&self, number: usize) -> Option<&Body> {
+        let of = self.bodies.binary_search_by_key(&number, |(number, _)| *number).ok()?;
+        Some(&self.bodies[of].1)
     }
 
     /// Computes the arrows of a ghost as seen by a camera. Empty if the ghosts of its body have no arrows.

@@ -88,6 +88,7 @@ impl ScaleBars {
             height: self.height,
             align: 0.5,
             color: self.ink,
+            anchor: None,
         };
         Some((bar, number))
     }

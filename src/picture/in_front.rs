@@ -1,19 +1,19 @@
-//! Moves arrows towards the camera if the ground, a spring or a joint would hide them. Their position and size in the picture stay the
+//! Moves arrows and marks towards the camera if the ground, a spring or a joint would hide them. Their position and size in the picture stay the
 //! same.
 
 use glam::DVec3;
 
 use super::arrows::{Arrow, HEAD};
 use super::camera::{Lens, Placed};
-use super::links::Link;
 use super::stage::Stage;
+use super::thing::{Form, Line};
 use crate::physics::{BodySnapshot, Shape};
 use crate::scene::{Body, Quantity, Scene};
 
-/// An arrow that is moved towards the camera keeps at least this fraction of its distance from the camera.
+/// A line that is moved towards the camera keeps at least this fraction of its distance from the camera.
 const NEAREST: f64 = 0.02;
 
-/// The planes that may hide arrows: the ground and plane bodies.
+/// The planes that may hide arrows and marks: the ground and plane bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Planes {
     /// A point (m) and the unit normal of each plane.
@@ -32,20 +32,28 @@ impl Planes {
 
     /// Moves an arrow towards the camera if it would pass through one of the planes.
     pub(super) fn lift(&self, arrow: &mut Arrow, camera: &Placed) {
+        let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
+        let mut line = arrow.line();
+        self.lift_line(&mut line, [shaft, HEAD * shaft], camera);
+        *arrow = arrow.along(line);
+    }
+
+    /// Moves a line towards the camera if it would pass through one of the planes. `room` is how far the line reaches from its middle at
+    /// its two ends, m.
+    pub(super) fn lift_line(&self, line: &mut Line, room: [f64; 2], camera: &Placed) {
         for (point, normal) in &self.planes {
             let above = |place: DVec3| (place - *point).dot(*normal);
-            let shaft = arrow.radius.min(arrow.from.distance(arrow.to) / 14.0);
-            // The additional height that the shaft and the head need to be completely above the plane.
-            let lacking = (HEAD * shaft - above(arrow.to)).max(shaft - above(arrow.from));
+            // The additional height that the line needs to be completely above the plane.
+            let lacking = (room[1] - above(line.to)).max(room[0] - above(line.from));
             let eye = above(camera.location());
             if lacking > 0.0 && eye > 0.0 {
-                let lowest = above(arrow.to).min(above(arrow.from));
+                let lowest = above(line.to).min(above(line.from));
                 let part = (eye - lowest - lacking) / (eye - lowest);
-                *arrow = match camera.lens() {
-                    Lens::Perspective { .. } => nearer(arrow, camera, part),
+                *line = match camera.lens() {
+                    Lens::Perspective { .. } => nearer(line, camera, part),
                     Lens::Orthographic { .. } => {
-                        let towards = camera.towards(arrow.to);
-                        shifted(arrow, towards * (lacking / towards.dot(*normal).max(0.05)))
+                        let towards = camera.towards(line.to);
+                        shifted(line, towards * (lacking / towards.dot(*normal).max(0.05)))
                     }
                 };
             }
@@ -54,18 +62,20 @@ impl Planes {
 }
 
 /// Moves an arrow in front of a spring or joint if the arrow is inside it.
-pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Link<'_>, camera: &Placed) {
+pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Form, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;
     let is_hidden = |line: &[DVec3; 2]| distance([arrow.from, arrow.to], *line) < reach;
-    let Some([begin, end]) = link.lines().find(is_hidden) else { return };
+    let Some([begin, end]) = link.middle_lines().find(is_hidden) else { return };
     let middle = (arrow.from + arrow.to) / 2.0;
     // If the line is seen nearly end-on, the arrow would have to move very far to get in front of it, so limit the way.
     let across = (end - begin).normalize_or_zero().cross(camera.towards(middle)).length().max(0.3);
     let way = 1.5 * reach / across;
-    *arrow = match camera.lens() {
-        Lens::Perspective { .. } => nearer(arrow, camera, 1.0 - way / camera.location().distance(middle)),
-        Lens::Orthographic { .. } => shifted(arrow, camera.towards(middle) * way),
-    };
+    *arrow = arrow.along(match camera.lens() {
+        Lens::Perspective { .. } => {
+            nearer(&arrow.line(), camera, 1.0 - way / camera.location().distance(middle))
+        }
+        Lens::Orthographic { .. } => shifted(&arrow.line(), camera.towards(middle) * way),
+    });
 }
 
 /// Moves an arrow for a weight or contact force in front of its body. Friction is drawn in front of the normal force, and the normal force
@@ -80,23 +90,25 @@ pub(super) fn lift_from_body(arrow: &mut Arrow, body: &Body, at: &BodySnapshot, 
     let depth = |point: DVec3| (point - at.location).dot(towards);
     let way = reach - depth(arrow.from).min(depth(arrow.to));
     if way > 0.0 {
-        *arrow = match camera.lens() {
-            Lens::Perspective { .. } => nearer(arrow, camera, 1.0 - way / camera.location().distance(middle)),
-            Lens::Orthographic { .. } => shifted(arrow, towards * way),
-        };
+        *arrow = arrow.along(match camera.lens() {
+            Lens::Perspective { .. } => {
+                nearer(&arrow.line(), camera, 1.0 - way / camera.location().distance(middle))
+            }
+            Lens::Orthographic { .. } => shifted(&arrow.line(), towards * way),
+        });
     }
 }
 
-/// Moves an arrow to a fraction of its distance from the camera, and scales it by the same fraction. It then looks the same in the picture.
-fn nearer(arrow: &Arrow, camera: &Placed, part: f64) -> Arrow {
+/// Moves a line to a fraction of its distance from the camera, and scales it by the same fraction. It then looks the same in the picture.
+fn nearer(line: &Line, camera: &Placed, part: f64) -> Line {
     let eye = camera.location();
     let part = part.clamp(NEAREST, 1.0);
     let place = |point: DVec3| eye + (point - eye) * part;
-    Arrow { from: place(arrow.from), to: place(arrow.to), radius: arrow.radius * part, ..*arrow }
+    Line { from: place(line.from), to: place(line.to), radius: line.radius * part }
 }
 
-fn shifted(arrow: &Arrow, way: DVec3) -> Arrow {
-    Arrow { from: arrow.from + way, to: arrow.to + way, ..*arrow }
+fn shifted(line: &Line, way: DVec3) -> Line {
+    Line { from: line.from + way, to: line.to + way, ..*line }
 }
 
 /// The smallest distance between two line segments.

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{ArrowOwner, Link, LinkShape, Part, Plan, Text};
+use super::arrows::ArrowOwner;
+use super::{Form, Part, Plan, Text, Thing};
 use crate::scene::{Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
@@ -38,8 +39,8 @@ fn a_camera_that_follows_sees_arrows_trails_and_grids_in_its_own_size() {
         assert!(stroke < 0.01, "{stroke}");
         assert!(plan.trails(&frame).iter().all(|trail| (trail.radius - stroke / 2.0).abs() < 1e-15));
         let grid = plan.grid(&frame).unwrap();
-        assert!((6..40).contains(&grid.lines.len()), "{}", grid.lines.len());
-        assert!(grid.lines.iter().all(|line| line.from.distance(frame.bodies[0].location) < 3.0));
+        assert!((6..40).contains(&grid.lines().len()), "{}", grid.lines().len());
+        assert!(grid.lines().iter().all(|line| line.from.distance(frame.bodies[0].location) < 3.0));
     }
     assert_eq!(plan.too_small(), None);
     assert!((0.02..0.3).contains(&plan.stage().tile), "{}", plan.stage().tile);
@@ -184,7 +185,7 @@ fn a_grid_that_a_moving_camera_sees_fills_the_picture_and_has_its_numbers_at_the
     let (scene, plan) = flight("");
     let frame = Frames::at(&scene, 3.0).unwrap();
     let screen = plan.screen(&frame).unwrap();
-    let lines = plan.grid(&frame).unwrap().lines;
+    let lines = plan.grid(&frame).unwrap().lines().to_vec();
     for line in &lines {
         let [from, to] = [line.from, line.to].map(|end| screen.project(end).unwrap());
         let leaves = |spot: crate::picture::ScreenPoint| spot.x.abs() > 1.0 || spot.y.abs() > 0.5625;
@@ -218,7 +219,7 @@ fn an_upright_grid_ends_at_the_ground_and_one_on_the_ground_lies_on_the_edges_of
     let ball = "[simulation]\nduration = 2\n[body.ball]\nshape.sphere.radius = 0.5\nlocation = [0, -0.3, 0]\nvelocity = [5, 1, 0]\n";
     let (scene, wall) = plan(&format!("{ball}[grid]\nplane = 'wall'\nspacing = 2"));
     let ground = wall.stage().ground.unwrap().height;
-    let lines = wall.grid(&frames(&scene).next().unwrap()).unwrap().lines;
+    let lines = wall.grid(&frames(&scene).next().unwrap()).unwrap().lines().to_vec();
     let lowest = lines.iter().map(|line| line.from.y.min(line.to.y)).fold(f64::MAX, f64::min);
     assert_eq!(lowest, ground);
     let (_, floor) = plan(&format!("{ball}[grid]\nspacing = 2"));
@@ -233,7 +234,7 @@ fn a_grid_reaches_as_far_as_the_springs() {
     let text = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n[grid]\nplane = 'wall'\n\
         [force.rod.spring]\nbetween = [[0, 2, 0], 'bob']\nstiffness = 100";
     let (scene, plan) = plan(text);
-    let lines = plan.grid(&frames(&scene).next().unwrap()).unwrap().lines;
+    let lines = plan.grid(&frames(&scene).next().unwrap()).unwrap().lines().to_vec();
     assert!(
         lines.iter().any(|line| line.to.y >= 2.0) && lines.iter().any(|line| line.to.x <= 0.0),
         "{lines:?}"
@@ -278,7 +279,9 @@ fn a_label_stands_beside_other_bodies_and_the_names_of_axes_beside_coils() {
     let (scene, with) = plan(spring);
     let frame = frames(&scene).next().unwrap();
     let screen = with.screen(&frame).unwrap();
-    for [begin, end] in with.links(&frame).iter().flat_map(Link::lines) {
+    for [begin, end] in
+        with.links(&frame).iter().flat_map(|link| link.form.middle_lines().collect::<Vec<_>>())
+    {
         for part in 0..=40 {
             let spot = screen.project(begin.lerp(end, f64::from(part) / 40.0)).unwrap();
             for text in with.texts(&frame) {
@@ -299,13 +302,13 @@ fn a_grid_of_too_many_lines_is_drawn_coarser_and_lines_are_as_thick_as_pixels() 
     let (given, drawn) = fine.too_fine_grid().unwrap();
     assert!(given == 0.001 && (0.2..=0.5).contains(&drawn), "{drawn}");
     let frame = frames(&scene).next().unwrap();
-    assert!((100..1000).contains(&fine.grid(&frame).unwrap().lines.len()));
+    assert!((100..1000).contains(&fine.grid(&frame).unwrap().lines().len()));
     let (scene, small) = grid("[grid]\n[output]\nsize = [320, 180]");
     assert_eq!(small.too_fine_grid(), None);
     let frame = frames(&scene).next().unwrap();
     let placed = small.placed();
     let pixel = placed.width_of_view(small.stage().whole) / 320.0;
-    let lines = small.grid(&frame).unwrap().lines;
+    let lines = small.grid(&frame).unwrap().lines().to_vec();
     assert!(lines.iter().all(|line| line.radius >= 0.59 * pixel), "{pixel} {}", lines[0].radius);
 }
 
@@ -329,7 +332,7 @@ fn a_coil_stands_between_the_points_that_its_spring_pulls() {
         between = [{ body = 'plank', at = [1, 0.05, 0.1] }, { body = 'moon', at = [0, -0.1, 0] }]",
     );
     for frame in frames(&scene).step_by(5) {
-        let [Link { form: LinkShape::Coil { ends: [begin, end], .. }, .. }] = plan.links(&frame)[..] else {
+        let [Thing { form: Form::Coil { ends: [begin, end], .. }, .. }] = plan.links(&frame)[..] else {
             panic!("one is drawn")
         };
         let [plank, moon] = &frame.bodies[..] else { panic!("there are two") };

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
+
 use super::framing::Free;
 use super::occupancy::Rectangle;
 use crate::font;
@@ -31,6 +33,8 @@ pub struct Text<'a> {
     pub align: f64,
     /// The color of the text.
     pub color: Color,
+    /// The point of the world that the text names, m. `None` for a text that names no point.
+    pub anchor: Option<DVec3>,
 }
 
 impl Text<'_> {

@@ -123,8 +123,8 @@ struct Stage {
     drift_scale: &'static str,
     /// The trails, with the indices of their bodies. Colors are in sRGB.
     trails: Vec<Trail>,
-    /// The lines of the grid for each camera. The list is empty for a camera that moves.
-    grids: Vec<Vec<super::shown::Line>>,
+    /// The lines of the grid for each camera. `None` without a grid, or for a camera that moves.
+    grids: Vec<Option<super::shown::Thing>>,
     /// The plots of the scene, with their curves over the whole run.
     plots: Vec<super::shown::Plot>,
     /// The initial position and direction of each camera.
@@ -338,11 +338,7 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
         drift: survey.drift,
         drift_scale: survey.drift_scale.name(),
         trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
-        grids: outcome
-            .plans
-            .iter()
-            .map(|plan| plan.still_grid().map_or_else(Vec::new, super::shown::lines))
-            .collect(),
+        grids: outcome.plans.iter().map(|plan| plan.still_grid().map(super::shown::thing)).collect(),
         plots: super::shown::plots(&run.scene, plan),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
         lights: match plan.lights(0.0) {

@@ -20,11 +20,10 @@ pub(super) struct Shown {
     lights: Option<Vec<Light>>,
     /// The line width of trails whose width the scene does not set, m.
     stroke: f64,
-    /// The lines of the grid. `None` if the camera does not move.
-    grid: Option<Vec<Line>>,
-    arrows: Vec<Arrow>,
-    axes: Vec<Axes>,
-    links: Vec<Link>,
+    /// The lines of the grid. `None` without a grid, or if the camera does not move.
+    grid: Option<Thing>,
+    /// Everything else: springs, joints, arrows, axes.
+    things: Vec<Thing>,
     texts: Vec<Text>,
     bar: Option<Bar>,
     /// What the frame shows of the curves of each plot.
@@ -53,45 +52,32 @@ pub(super) struct Light {
     sun: bool,
 }
 
-/// A line of the coordinate grid. `radius` is half its width, m.
+/// A thing that is drawn beside the bodies.
 #[derive(Serialize)]
-pub(super) struct Line {
-    from: Vector,
-    to: Vector,
-    radius: f64,
-    color: Vector,
-}
-
-#[derive(Serialize)]
-struct Arrow {
-    from: Vector,
-    to: Vector,
-    radius: f64,
-    color: Vector,
-}
-
-#[derive(Serialize)]
-struct Axes {
-    location: Vector,
-    turn: [f64; 4],
-    length: f64,
-}
-
-/// A part of a spring or a joint (coil, rod, rope or pin), for the page.
-#[derive(Serialize)]
-struct Link {
+pub(super) struct Thing {
     #[serde(flatten)]
-    form: LinkShape,
+    form: Form,
     color: Vector,
 }
 
 #[derive(Serialize)]
 #[serde(tag = "form", rename_all = "lowercase")]
-enum LinkShape {
-    Pin { at: Vector, radius: f64 },
+enum Form {
+    Ball { at: Vector, radius: f64 },
     Coil { ends: [Vector; 2], radius: f64, wire: f64, turns: u32 },
     Rod { ends: [Vector; 2], radius: f64 },
     Rope { points: Vec<Vector>, radius: f64 },
+    Arrow { from: Vector, to: Vector, radius: f64 },
+    Axes { location: Vector, turn: [f64; 4], length: f64 },
+    Lines { lines: Vec<Line> },
+}
+
+/// A thin straight line. `radius` is half its width, m.
+#[derive(Serialize)]
+struct Line {
+    from: Vector,
+    to: Vector,
+    radius: f64,
 }
 
 #[derive(Serialize)]
@@ -107,6 +93,8 @@ struct Text {
     /// The index of the body that the text belongs to, and the side of the body where the text stands. `None` for a text in a corner of
     /// the picture.
     beside: Option<(usize, &'static str)>,
+    /// The point of the world that the text names, m, and the way from there to the text in the image plane. `None` for other texts.
+    anchor: Option<(Vector, [f64; 2])>,
     /// True if the text is right only in the view of the scene's camera, as are the numbers of the grid and the scale bar.
     in_world: bool,
 }
@@ -210,19 +198,10 @@ pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
 
 fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
     let height = |y: Vertical| y.above_middle(aspect(scene));
-    let mut arrows = plan.arrows_in_front(frame);
-    arrows.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_arrows_in_front(frame, ghost)));
-    let arrow = |arrow: &picture::Arrow| Arrow {
-        from: arrow.from.to_array(),
-        to: arrow.to.to_array(),
-        radius: arrow.radius,
-        color: arrow.color.0,
-    };
-    let axes = |axes: &picture::Axes| Axes {
-        location: axes.location.to_array(),
-        turn: axes.orientation.to_array(),
-        length: axes.length,
-    };
+    let screen = plan.screen(frame);
+    let mut things = plan.links(frame);
+    things.extend(plan.marks(frame));
+    things.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_marks(frame, ghost)));
     let now = |now: &picture::CurveNow| CurveNow { count: now.count, here: now.here };
     let bar = |bar: picture::Bar| Bar {
         from: bar.from,
@@ -235,11 +214,9 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         camera: Camera::of(&plan.camera(frame)),
         lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
         stroke: plan.stroke(frame),
-        grid: plan.grid(frame).filter(|_| plan.camera_moves()).map(|grid| lines(&grid)),
-        arrows: arrows.iter().map(arrow).collect(),
-        axes: plan.axes(frame).iter().map(axes).collect(),
-        links: plan.links(frame).into_iter().map(link).collect(),
-        texts: plan.texts(frame).iter().map(|each| text(scene, each)).collect(),
+        grid: plan.grid(frame).filter(|_| plan.camera_moves()).as_ref().map(thing),
+        things: things.iter().map(thing).collect(),
+        texts: plan.texts(frame).iter().map(|each| text(scene, screen.as_ref(), each)).collect(),
         bar: plan.bar(frame).map(bar),
         plots: plan.plots(frame).iter().map(|curves| curves.iter().map(now).collect()).collect(),
     }
@@ -250,7 +227,11 @@ fn aspect(scene: &Scene) -> f64 {
     f64::from(scene.output.height) / f64::from(scene.output.width)
 }
 
-fn text(scene: &Scene, text: &picture::Text<'_>) -> Text {
+fn text(scene: &Scene, screen: Option<&picture::Screen>, text: &picture::Text<'_>) -> Text {
+    let anchor = |point: DVec3| {
+        let spot = screen?.project(point)?;
+        Some((point.to_array(), [text.x - spot.x, text.y.above_middle(aspect(scene)) - spot.y]))
+    };
     Text {
         name: text.name.to_owned(),
         says: text.says.to_string(),
@@ -260,6 +241,7 @@ fn text(scene: &Scene, text: &picture::Text<'_>) -> Text {
         align: text.align,
         color: text.color.0,
         beside: beside(scene, text.name),
+        anchor: text.anchor.and_then(anchor),
         in_world: ["grid", "scale bar"].contains(&text.name),
     }
 }
@@ -279,37 +261,39 @@ pub(super) fn plots(scene: &Scene, plan: &Plan) -> Vec<Plot> {
         size: plot.size,
         paper: plot.paper.0,
         lines: plot.lines.iter().map(line).collect(),
-        texts: plot.texts.iter().map(|each| text(scene, each)).collect(),
+        texts: plot.texts.iter().map(|each| text(scene, None, each)).collect(),
         curves: plot.curves.iter().map(curve).collect(),
         dot: plot.dot,
     };
     plan.planned_plots().iter().map(plot).collect()
 }
 
-fn link(link: picture::Link<'_>) -> Link {
-    let vectors = |ends: [DVec3; 2]| ends.map(|end| end.to_array());
-    let form = match link.form {
-        picture::LinkShape::Pin { at, radius } => LinkShape::Pin { at: at.to_array(), radius },
-        picture::LinkShape::Coil { ends, radius, wire, turns } => {
-            LinkShape::Coil { ends: vectors(ends), radius, wire, turns }
-        }
-        picture::LinkShape::Rod { ends, radius } => LinkShape::Rod { ends: vectors(ends), radius },
-        picture::LinkShape::Rope { points, radius } => {
-            LinkShape::Rope { points: points.iter().map(DVec3::to_array).collect(), radius }
-        }
-    };
-    Link { form, color: link.color.0 }
-}
-
-/// Returns the lines of a grid.
-pub(super) fn lines(grid: &picture::Grid) -> Vec<Line> {
+/// Describes a thing that is drawn beside the bodies.
+pub(super) fn thing(thing: &picture::Thing<'_>) -> Thing {
+    let vectors = |ends: &[DVec3; 2]| ends.map(|end| end.to_array());
     let line = |line: &picture::Line| Line {
         from: line.from.to_array(),
         to: line.to.to_array(),
         radius: line.radius,
-        color: grid.color.0,
     };
-    grid.lines.iter().map(line).collect()
+    let form = match &thing.form {
+        picture::Form::Ball { at, radius } => Form::Ball { at: at.to_array(), radius: *radius },
+        picture::Form::Coil { ends, radius, wire, turns } => {
+            Form::Coil { ends: vectors(ends), radius: *radius, wire: *wire, turns: *turns }
+        }
+        picture::Form::Rod { ends, radius } => Form::Rod { ends: vectors(ends), radius: *radius },
+        picture::Form::Rope { points, radius } => {
+            Form::Rope { points: points.iter().map(DVec3::to_array).collect(), radius: *radius }
+        }
+        picture::Form::Arrow { from, to, radius } => {
+            Form::Arrow { from: from.to_array(), to: to.to_array(), radius: *radius }
+        }
+        picture::Form::Axes { location, orientation, length } => {
+            Form::Axes { location: location.to_array(), turn: orientation.to_array(), length: *length }
+        }
+        picture::Form::Lines(lines) => Form::Lines { lines: lines.iter().map(line).collect() },
+    };
+    Thing { form, color: thing.color.0 }
 }
 
 /// Returns the body that the label with this name belongs to, and the side of the body where the label stands. `None` for a label in a
@@ -337,10 +321,17 @@ mod tests {
         let frame = Frames::at(&scene, 1.0).unwrap();
         let ghosts: Vec<_> = plan.ghosts(&frame).collect();
         assert_eq!(ghosts.len(), 2);
-        let hidden = plan.ghost_arrows(&frame, ghosts[0]);
-        let seen = plan.ghost_arrows_in_front(&frame, ghosts[0]);
-        assert_ne!(hidden, seen, "it points into the ground");
-        let arrows: Vec<Vector> = shown(&scene, &plan, &frame).arrows.iter().map(|arrow| arrow.to).collect();
-        assert!(arrows.contains(&seen[0].to.to_array()), "{arrows:?}");
+        let ground = plan.stage().ground.unwrap().height;
+        let [picture::Thing { form: picture::Form::Arrow { to: seen, .. }, .. }, ..] =
+            plan.ghost_marks(&frame, ghosts[0])[..]
+        else {
+            panic!("it has an arrow")
+        };
+        assert!(seen.y > ground, "the force points into the ground, but is drawn above it");
+        let tips = shown(&scene, &plan, &frame).things.into_iter().filter_map(|thing| match thing.form {
+            Form::Arrow { to, .. } => Some(to),
+            _ => None,
+        });
+        assert!(tips.collect::<Vec<_>>().contains(&seen.to_array()));
     }
 }

@@ -33,7 +33,7 @@ impl Showing {
 }
 
 /// A vector of a body or of a joint that an arrow can show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// The velocity of a body, m/s.
     Velocity,

@@ -59,8 +59,10 @@ impl Measures {
     /// Prepares the measures of a scene.
     pub fn new(scene: &Scene) -> Measures {
         let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
-        let shows_none = scene.labels.is_empty() && scene.plots.is_empty();
-        Measures { bodies: if shows_none { Vec::new() } else { scene.bodies.clone() }, joints }
+        let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
+        let has_marks =
+            !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_names.is_empty();
+        Measures { bodies: if has_labels || has_marks { scene.bodies.clone() } else { Vec::new() }, joints }
     }
 
     /// Returns a body of a scene that shows measures.

@@ -82,7 +82,7 @@ pub fn axis(body: &Body) -> Option<f64> {
     Some(axes.length.unwrap_or(2.0 * reach))
 }
 
-/// The fixed ends of all drawn springs and joints, in world axes, m.
+/// The fixed ends of all drawn springs, joints and marks, in world axes, m.
 pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     let links = scene.forces.iter().filter_map(|force| match &force.kind {
         ForceKind::Spring { links, look: Some(_) } => Some(links),
@@ -93,7 +93,10 @@ pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
         JointKind::Pulley(pulley) => pulley.path().to_vec(),
         kind => kind.between().to_vec(),
     });
-    links.flatten().flat_map(|link| link.between).chain(joints).filter_map(|end| match end {
+    let angles = scene.angles.iter().map(|angle| angle.vertex);
+    let distances = scene.distances.iter().flat_map(|distance| distance.between);
+    let marks = angles.chain(distances);
+    links.flatten().flat_map(|link| link.between).chain(joints).chain(marks).filter_map(|end| match end {
         Anchor::Point(point) => Some(point),
         Anchor::Body { .. } => None,
     })

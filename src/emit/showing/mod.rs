@@ -2,12 +2,10 @@
 //!
 //! The [`Plan`] contains these objects and their positions. Unused features add nothing to a script.
 
-mod arrows;
 mod ghosts;
-mod grid;
-mod links;
 mod plots;
 mod texts;
+mod things;
 mod trails;
 
 use std::sync::Arc;
@@ -19,7 +17,7 @@ use self::trails::Trails;
 use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
-use crate::picture::{Plan, Written, has_texts};
+use crate::picture::{Plan, Thing, Written, has_texts};
 use crate::scene::{Color, ForceKind, Layout, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
@@ -31,17 +29,8 @@ pub(super) struct Showing {
     trails: Trails,
     /// The SDL text of the grid's lines. It is empty if the camera moves, since the grid then differs from frame to frame.
     grid: String,
-    /// The names of the joints, by index in the scene.
-    joints: Vec<String>,
     layout: Layout,
     style: Style,
-}
-
-/// The names of all bodies and joints, by index in the scene.
-#[derive(Clone, Copy)]
-struct Names<'a> {
-    bodies: &'a [Arc<str>],
-    joints: &'a [String],
 }
 
 /// The POV-Ray macros that a scene needs, as values for templates.
@@ -86,8 +75,7 @@ impl Showing {
         Showing {
             ghosts: Ghosts::new(scene, materials, meshes, style),
             trails: Trails::new(scene.output.layout, style),
-            grid: plan.still_grid().map_or_else(String::new, |grid| grid::lines(grid, style)),
-            joints: scene.joints.iter().map(|joint| joint.name.clone()).collect(),
+            grid: text_of(plan.still_grid(), style),
             layout: scene.output.layout,
             style,
         }
@@ -111,18 +99,17 @@ impl Showing {
     /// Appends the drawn objects of a frame. `names` are the names of the bodies.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame, names: &[Arc<str>]) {
         let style = self.style;
-        let its = Names { bodies: names, joints: &self.joints };
-        links::write(out, plan, frame, style);
+        plan.links(frame).iter().for_each(|thing| things::write(out, thing, style));
         self.ghosts.write(out, plan, frame);
         for ghost in plan.ghosts(frame) {
-            arrows::write_ghost(out, plan, frame, ghost, its, style);
+            plan.ghost_marks(frame, ghost).iter().for_each(|thing| things::write(out, thing, style));
         }
         self.trails.write(out, plan, frame, names);
-        arrows::write(out, plan, frame, its, style);
-        if let Some(Written { screen, grid, bar, labels }) = plan.written(frame) {
+        plan.marks(frame).iter().for_each(|thing| things::write(out, thing, style));
+        if let Some(Written { screen, grid, bar, named, labels }) = plan.written(frame) {
             out.push_str(&format!("#local Screen = transform {{ {} }}\n", texts::transform(&screen, style)));
             match plan.camera_moves() {
-                true => out.extend(plan.grid(frame).map(|grid| grid::lines(&grid, style))),
+                true => out.push_str(&text_of(plan.grid(frame).as_ref(), style)),
                 false => out.push_str(&self.grid),
             }
             plots::write(out, plan.planned_plots(), &plan.plots(frame), self.layout, style);
@@ -130,9 +117,16 @@ impl Showing {
             if let Some((bar, number)) = bar {
                 texts::write_bar(out, &bar, &number, style);
             }
-            labels.iter().for_each(|text| texts::write(out, text, style));
+            named.iter().chain(&labels).for_each(|text| texts::write(out, text, style));
         }
     }
+}
+
+/// Returns the SDL text of a thing. The text is empty if there is none.
+fn text_of(thing: Option<&Thing<'_>>, style: Style) -> String {
+    let mut out = String::new();
+    thing.into_iter().for_each(|thing| things::write(&mut out, thing, style));
+    out
 }
 
 /// Returns an sRGB color as the argument of a macro: `<0.1, 0.2, 0.3>`.

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
-use crate::picture::{LinkKind, LinkShape, Plan};
+use crate::picture::{Form, FormKind, Plan};
 use crate::scene::Color;
 use crate::simulate::{Recorded, Selection};
 use crate::surface::BaseShape;
@@ -33,10 +33,10 @@ pub(super) fn nodes(
     let mut counts = Vec::new();
     for link in plan.planned_links() {
         let (form, count) = match link.kind {
-            LinkKind::Pin => (BaseShape::BALL, 1),
-            LinkKind::Coil { turns, wire } => (BaseShape::coil(turns, wire), 1),
-            LinkKind::Rod => (BaseShape::CYLINDER, 1),
-            LinkKind::Rope => (BaseShape::CYLINDER, PIECES),
+            FormKind::Ball => (BaseShape::BALL, 1),
+            FormKind::Coil { turns, wire } => (BaseShape::coil(turns, wire), 1),
+            FormKind::Rod => (BaseShape::CYLINDER, 1),
+            FormKind::Rope => (BaseShape::CYLINDER, PIECES),
         };
         let node = || LinkNode { name: format!("link {}", link.name), form: form.clone(), color: link.color };
         nodes.extend((0..count).map(|_| node()));
@@ -93,19 +93,20 @@ impl Placed {
 
 /// Sets the poses and sizes of a part's nodes in a frame. Without a `form`, the part is not drawn: its nodes keep their locations and get
 /// the size 0.
-fn place(nodes: &mut [Placed], form: Option<LinkShape>) {
+fn place(nodes: &mut [Placed], form: Option<Form>) {
     nodes.iter_mut().for_each(|node| node.size = DVec3::ZERO);
     let [first, ..] = nodes else { return };
     match form {
-        None => {}
-        Some(LinkShape::Pin { at, radius }) => {
+        // No spring or joint has these forms.
+        None | Some(Form::Arrow { .. } | Form::Axes { .. } | Form::Lines(_)) => {}
+        Some(Form::Ball { at, radius }) => {
             first.pose.location = at;
             first.size = DVec3::splat(radius);
         }
-        Some(LinkShape::Coil { ends, radius, .. } | LinkShape::Rod { ends, radius }) => {
+        Some(Form::Coil { ends, radius, .. } | Form::Rod { ends, radius }) => {
             first.stretch(ends, radius);
         }
-        Some(LinkShape::Rope { points, radius }) => {
+        Some(Form::Rope { points, radius }) => {
             for (node, ends) in nodes.iter_mut().zip(chain(&points)) {
                 node.stretch(ends, radius);
             }

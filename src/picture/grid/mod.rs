@@ -9,6 +9,7 @@ use super::camera::Placed;
 use super::length::{prefixed, value};
 use super::stage::Scenery;
 use super::text::least_height;
+use super::thing::{Form, Line, Thing};
 use crate::scene::{self, Color, GridPlane, Preset, Scene};
 use crate::simulate::{Bounds, anchors};
 
@@ -26,26 +27,6 @@ const RADIUS: f64 = 0.22;
 const LEAST_RADIUS: f64 = 0.6;
 /// The extent of a grid in each direction from the aim of a moving camera, in widths of the picture.
 const WINDOW: f64 = 1.5;
-
-/// The lines of a grid.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Grid {
-    /// The grid lines: first those at different x, then those in the other direction.
-    pub lines: Vec<Line>,
-    /// The color of the lines.
-    pub color: Color,
-}
-
-/// A line of a grid, drawn as a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
-    /// The start of the line, m.
-    pub from: DVec3,
-    /// The end of the line, m.
-    pub to: DVec3,
-    /// Half the width of the line, m.
-    pub radius: f64,
-}
 
 /// The plane, the spacing and the extent of a grid. [`GridLayout`] is the grid laid out for a camera.
 #[derive(Clone, Debug)]
@@ -204,7 +185,7 @@ impl GridPlan {
         };
         GridLayout {
             axes: [axis(Beside::Below, "x", &across), axis(beside, name, &along)],
-            grid: Grid { lines: lines.collect(), color: self.color },
+            lines: Thing { name: "grid".into(), form: Form::Lines(lines.collect()), color: self.color },
             height: self.height,
             aspect: self.aspect,
             ink: self.ink,

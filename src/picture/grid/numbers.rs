@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::Screen;
 use super::super::text::{MARGIN, Text, Vertical, width};
-use super::Grid;
+use super::super::thing::Thing;
 use crate::scene::Color;
 
 /// The possible distances between two lines with numbers, in spacings of the grid. The smallest one that leaves enough room is used.
@@ -16,7 +16,8 @@ const POINTS: u32 = 48;
 /// A grid laid out for a camera, with its numbers.
 #[derive(Clone, Debug)]
 pub(in super::super) struct GridLayout {
-    pub(super) grid: Grid,
+    /// The lines of the grid.
+    pub(super) lines: Thing<'static>,
     /// The numbers along both axes of the grid.
     pub(super) axes: [Axis; 2],
     /// The height of a line of text in the image plane.
@@ -78,8 +79,8 @@ struct Placed {
 
 impl GridLayout {
     /// The lines of the grid.
-    pub(in super::super) fn grid(&self) -> &Grid {
-        &self.grid
+    pub(in super::super) fn lines(&self) -> &Thing<'static> {
+        &self.lines
     }
 
     /// Places the numbers and axis names in the image plane, where there is room. They avoid the coils of springs, except for an axis name
@@ -236,6 +237,15 @@ impl GridLayout {
 
     fn text(&self, Placed { says, x, y, align, .. }: Placed) -> Text<'static> {
         let y = Vertical::Middle(y);
-        Text { name: "grid", says: says.into(), x, y, height: self.height, align, color: self.ink }
+        Text {
+            name: "grid",
+            says: says.into(),
+            x,
+            y,
+            height: self.height,
+            align,
+            color: self.ink,
+            anchor: None,
+        }
     }
 }

@@ -46,7 +46,7 @@ impl Labels {
             Side::Left => (area.left - 0.35 * height - farther, point.y - 0.3 * height, 1.0),
             Side::Right => (area.right + 0.35 * height + farther, point.y - 0.3 * height, 0.0),
         };
-        let said = self.said(&planned.label, moment);
+        let said = self.said(&planned.label.text, moment);
         let candidate = |side: Side, lines: f64| {
             let (x, y, align) = at_side(side, lines * LINE * height);
             self.kept_inside(planned.text(said.as_str().into(), (x, Vertical::Middle(y)), align))
@@ -81,7 +81,7 @@ impl Labels {
     }
 
     /// Moves a text to the edge of the picture if it would extend beyond this edge.
-    fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
+    pub(in crate::picture) fn kept_inside<'a>(&self, text: Text<'a>) -> Text<'a> {
         let area = text.area(self.aspect);
         let edge = 1.0 - MARGIN / 2.0;
         let shift = |low: f64, high: f64, edge: f64| {

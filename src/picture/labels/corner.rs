@@ -17,7 +17,7 @@ impl Labels {
             true => Vertical::Top(planned.inset + 0.3 * planned.height),
             false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
         };
-        Some(planned.text(self.said(&planned.label, now).into(), (x, y), align))
+        Some(planned.text(self.said(&planned.label.text, now).into(), (x, y), align))
     }
 }
 

@@ -33,6 +33,8 @@ pub(super) struct Labels {
     free: Free,
     /// The height of the picture, relative to its width.
     aspect: f64,
+    /// The height of a note's line of text in the image plane.
+    note_height: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -66,12 +68,23 @@ impl Labels {
             Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
-        Labels { labels, measures: Measures::new(scene), free, aspect }
+        Labels {
+            labels,
+            measures: Measures::new(scene),
+            free,
+            aspect,
+            note_height: usual_height(scene.output),
+        }
     }
 
     /// The number of labels in the scene.
     pub(super) fn count(&self) -> usize {
         self.labels.len()
+    }
+
+    /// The height of a note's line of text in the image plane.
+    pub(super) fn note_height(&self) -> f64 {
+        self.note_height
     }
 
     /// Creates an empty record of the taken parts of a picture.
@@ -97,11 +110,7 @@ impl Labels {
     ) -> Vec<(usize, Text<'_>)> {
         let now = MomentState::now(frame);
         let ghosts_of = self.ghosts_by_body(frame);
-        let mut crowd = self.room();
-        let ghosts = frame.past.ghosts.iter().map(|ghost| &ghost.body);
-        for body in frame.bodies.iter().chain(ghosts) {
-            self.seen(body, screen).into_iter().for_each(|(_, area)| crowd.take(area));
-        }
+        let crowd = self.crowd(frame, screen);
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
             let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
@@ -116,6 +125,16 @@ impl Labels {
             }
         }
         texts
+    }
+
+    /// The parts of a picture that bodies and ghosts cover.
+    pub(super) fn crowd(&self, frame: &Frame, screen: &Screen) -> Occupancy {
+        let mut crowd = self.room();
+        let ghosts = frame.past.ghosts.iter().map(|ghost| &ghost.body);
+        for body in frame.bodies.iter().chain(ghosts) {
+            self.seen(body, screen).into_iter().for_each(|(_, area)| crowd.take(area));
+        }
+        crowd
     }
 
     /// Groups the ghosts of a frame by the indices of their bodies. Empty if ghosts have no labels.
@@ -133,8 +152,13 @@ impl Labels {
 /// The height of a label's line of text in the image plane.
 fn height(label: &Label, output: Output) -> f64 {
     let aspect = f64::from(output.height) / f64::from(output.width);
-    let usual = (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, output));
-    label.size.map_or(usual, |size| 2.0 * aspect * size)
+    label.size.map_or_else(|| usual_height(output), |size| 2.0 * aspect * size)
+}
+
+/// The default height of a line of text in the image plane.
+fn usual_height(output: Output) -> f64 {
+    let aspect = f64::from(output.height) / f64::from(output.width);
+    (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, output))
 }
 
 /// The height that a label takes in a corner of the picture.
@@ -145,6 +169,15 @@ pub(super) fn least_room(label: &Label, output: Output) -> f64 {
 impl Planned {
     /// Creates the text of the label at a position in the image plane.
     fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
-        Text { name: &self.label.name, says, x, y, height: self.height, align, color: self.color }
+        Text {
+            name: &self.label.name,
+            says,
+            x,
+            y,
+            height: self.height,
+            align,
+            color: self.color,
+            anchor: None,
+        }
     }
 }

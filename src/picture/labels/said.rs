@@ -6,10 +6,10 @@ use crate::scene::{Format, Label, Piece};
 use crate::simulate::MomentState;
 
 impl Labels {
-    /// The text of a label, with its values at a moment.
-    pub(super) fn said(&self, label: &Label, moment: &MomentState<'_>) -> String {
+    /// A text with its values at a moment.
+    pub(in crate::picture) fn said(&self, text: &[Piece], moment: &MomentState<'_>) -> String {
         let mut said = String::new();
-        for piece in &label.text {
+        for piece in text {
             match piece {
                 Piece::Words(words) => said.push_str(words),
                 Piece::Value { formula, format } => {
@@ -99,7 +99,7 @@ mod tests {
         .unwrap();
         let labels = Labels::new(&scene, crate::scene::Color::WHITE, std::iter::empty());
         let frame = crate::simulate::Frames::new(&scene).next().unwrap().unwrap();
-        let said = labels.said(&scene.labels[0], &MomentState::now(&frame));
+        let said = labels.said(&scene.labels[0].text, &MomentState::now(&frame));
         assert_eq!(said, "36.000000 45.000000 45.000000");
     }
 }

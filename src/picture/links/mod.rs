@@ -10,111 +10,13 @@ use glam::{DQuat, DVec3};
 
 use super::catenary::hanging;
 use super::pulley::{RopePath, RopePoint, WheelArc};
+use super::thing::{Form, FormKind, PlannedThing, Thing};
 use crate::physics::{Anchor, Pulley, Shape};
 use crate::scene::{Body, Color, JointKind, Scene};
 use crate::simulate::{Frame, Survey, surface};
 
 /// The radius of a coil's wire, relative to the radius of the coil.
 const WIRE: f64 = 0.14;
-
-/// A part of a spring or joint, as drawn in a frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Link<'a> {
-    /// The name of the force or joint in the scene.
-    pub name: &'a str,
-    /// The shape of the part, with its position and size.
-    pub form: LinkShape,
-    /// The color of the part.
-    pub color: Color,
-}
-
-/// A part of a spring or joint, independent of the frame. Some frames may not show the part.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlannedLink<'a> {
-    /// The name of the force or joint in the scene.
-    pub name: &'a str,
-    /// The kind of the part's shape.
-    pub kind: LinkKind,
-    /// The color of the part.
-    pub color: Color,
-}
-
-/// The kind of shape that a part of a spring or joint has.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LinkKind {
-    /// A ball.
-    Pin,
-    /// A coil.
-    Coil {
-        /// The number of turns.
-        turns: u32,
-        /// The radius of the wire, relative to the radius of the coil.
-        wire: f64,
-    },
-    /// A straight rod.
-    Rod,
-    /// A rope.
-    Rope,
-}
-
-/// The shape of a part of a spring or joint. Lengths and positions are in meters.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LinkShape {
-    /// A ball: the pin of a joint, or the end of a spring, rod or rope at a fixed point.
-    Pin {
-        /// The center of the ball.
-        at: DVec3,
-        /// The radius of the ball.
-        radius: f64,
-    },
-    /// The coil of a spring.
-    Coil {
-        /// The two ends of the coil.
-        ends: [DVec3; 2],
-        /// The radius of the coil.
-        radius: f64,
-        /// The radius of the wire.
-        wire: f64,
-        /// The number of turns.
-        turns: u32,
-    },
-    /// A straight cylinder: a rod, a straight spring, an axle, a rail or a wheel.
-    Rod {
-        /// The two ends of the cylinder's axis.
-        ends: [DVec3; 2],
-        /// The radius of the cylinder.
-        radius: f64,
-    },
-    /// A rope. A taut rope has two points.
-    Rope {
-        /// The points that the rope passes through.
-        points: Vec<DVec3>,
-        /// The radius of the rope.
-        radius: f64,
-    },
-}
-
-impl Link<'_> {
-    /// The line segments along the part's middle, m. For a coil, the segment of its axis; for a pin, none.
-    pub(super) fn lines(&self) -> impl Iterator<Item = [DVec3; 2]> {
-        let points: &[DVec3] = match &self.form {
-            LinkShape::Pin { .. } => &[],
-            LinkShape::Coil { ends, .. } | LinkShape::Rod { ends, .. } => ends,
-            LinkShape::Rope { points, .. } => points,
-        };
-        points.windows(2).map(|pair| [pair[0], pair[1]])
-    }
-
-    /// The radius of the part around its middle line, m. For a coil, this includes the wire.
-    pub(super) fn reach(&self) -> f64 {
-        match self.form {
-            LinkShape::Coil { radius, wire, .. } => radius + wire,
-            LinkShape::Pin { radius, .. }
-            | LinkShape::Rod { radius, .. }
-            | LinkShape::Rope { radius, .. } => radius,
-        }
-    }
-}
 
 /// The drawn springs and joints of a scene.
 #[derive(Clone, Debug)]
@@ -208,78 +110,79 @@ impl Links {
     }
 
     /// Returns the drawn parts of springs and joints that are fastened to a body, with their positions at the moment of `frame`.
-    pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Link<'_>> {
+    pub(super) fn of_body(&self, body: usize, frame: &Frame) -> impl Iterator<Item = Thing<'_>> {
         let first = self.of_bodies.partition_point(|(other, _)| *other < body);
         let its = self.of_bodies[first..].iter().take_while(move |(other, _)| *other == body);
         its.filter_map(|(_, number)| self.link(&self.parts[*number], frame))
     }
 
     /// All parts of springs and joints that are visible in a frame, with their positions.
-    pub(super) fn at(&self, frame: &Frame) -> Vec<Link<'_>> {
+    pub(super) fn at(&self, frame: &Frame) -> Vec<Thing<'_>> {
         self.parts.iter().filter_map(|part| self.link(part, frame)).collect()
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
-    pub(super) fn planned(&self) -> impl Iterator<Item = PlannedLink<'_>> {
-        self.parts.iter().map(|part| PlannedLink {
+    pub(super) fn planned(&self) -> impl Iterator<Item = PlannedThing<'_>> {
+        self.parts.iter().map(|part| PlannedThing {
             name: &part.name,
             kind: match part.form {
-                PlannedShape::Pin { .. } => LinkKind::Pin,
-                PlannedShape::Coil { turns, .. } => LinkKind::Coil { turns, wire: WIRE },
+                PlannedShape::Pin { .. } => FormKind::Ball,
+                PlannedShape::Coil { turns, .. } => FormKind::Coil { turns, wire: WIRE },
                 PlannedShape::Rod { .. } | PlannedShape::Bar { .. } | PlannedShape::Wheel { .. } => {
-                    LinkKind::Rod
+                    FormKind::Rod
                 }
-                PlannedShape::Rope { .. } | PlannedShape::OverWheels { .. } => LinkKind::Rope,
+                PlannedShape::Rope { .. } | PlannedShape::OverWheels { .. } => FormKind::Rope,
             },
             color: part.color,
         })
     }
 
     /// For each part, in the order of [`planned`](Self::planned), its shape in a frame. `None` if the part is not drawn.
-    pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
+    pub(super) fn each(&self, frame: &Frame) -> impl Iterator<Item = Option<Thing<'_>>> {
         self.parts.iter().map(|part| self.link(part, frame))
     }
 
     /// Computes the shape of a part in a frame. `None` while one of its bodies is absent, or if the bodies at its ends leave no room.
-    fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Link<'a>> {
+    fn link<'a>(&'a self, part: &'a Part, frame: &Frame) -> Option<Thing<'a>> {
         // A fixed point is always present.
         let is_there = |end: Anchor| end.body().is_none_or(|id| frame.body(id.index()).is_some());
         if !part.between.into_iter().all(is_there) {
             return None;
         }
         let form = match part.form {
-            PlannedShape::Pin { at, radius } => LinkShape::Pin { at: self.place(at, frame), radius },
+            PlannedShape::Pin { at, radius } => Form::Ball { at: self.place(at, frame), radius },
             PlannedShape::Coil { radius, turns } => {
                 let ends = self.span(part.between, frame, room_for(radius))?;
-                LinkShape::Coil { ends, radius, wire: WIRE * radius, turns }
+                Form::Coil { ends, radius, wire: WIRE * radius, turns }
             }
             PlannedShape::Rod { between, radius } => {
-                LinkShape::Rod { ends: self.span(between, frame, 0.0)?, radius }
+                Form::Rod { ends: self.span(between, frame, 0.0)?, radius }
             }
             PlannedShape::Bar { at, along, reach, radius } => {
                 let middle = self.place(at, frame);
                 let along = turn(at, frame) * along;
-                LinkShape::Rod { ends: reach.map(|way| middle + way * along), radius }
+                Form::Rod { ends: reach.map(|way| middle + way * along), radius }
             }
             PlannedShape::Rope { between, length, radius } => {
                 let points = hanging(between.map(|end| self.place(end, frame)), length, self.down);
-                LinkShape::Rope { points, radius }
+                Form::Rope { points, radius }
             }
             PlannedShape::OverWheels { joint, wheel, radius } => {
                 let pulley = self.pulleys.get(&joint)?;
                 let course = self.course(pulley, wheel, frame)?;
-                LinkShape::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
+                Form::Rope { points: course.points(pulley.length, pulley.ratio, self.down), radius }
             }
             PlannedShape::Wheel { joint, number, wheel, half_width } => {
                 let course = self.course(self.pulleys.get(&joint)?, wheel, frame)?;
                 let WheelArc { centre, axis, .. } = *course.turns.get(number)?;
-                LinkShape::Rod {
-                    ends: [-half_width, half_width].map(|way| centre + way * axis),
-                    radius: wheel,
-                }
+                Form::Rod { ends: [-half_width, half_width].map(|way| centre + way * axis), radius: wheel }
             }
         };
-        Some(Link { name: &part.name, form, color: part.color })
+        let name = match form {
+            Form::Ball { .. } => format!("{}, its end", part.name).into(),
+            _ => part.name.as_str().into(),
+        };
+        Some(Thing { name, form, color: part.color })
     }
 
     /// The path of a pulley's rope over wheels with the given radius, m. `None` while one of its bodies is absent.

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::LinkShape;
+use crate::picture::Form;
 use crate::picture::Plan;
 use crate::scene::Scene;
 use crate::simulate::{Frames, survey};
 
 /// The shapes of all springs and joints in a frame of a scene.
-fn forms(text: &str, frame: usize) -> Vec<LinkShape> {
+fn forms(text: &str, frame: usize) -> Vec<Form> {
     let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
     let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
     let frame = Frames::new(&scene).nth(frame).unwrap().unwrap();
@@ -27,14 +27,13 @@ fn a_spring_is_a_coil_a_straight_line_or_nothing() {
              between = ['ball', [0, 0, 0]]\n{keys}"
         )
     };
-    let [LinkShape::Pin { at, radius: knob }, LinkShape::Coil { radius, .. }] =
-        forms(&scene("line = 'coil'"), 0)[..]
+    let [Form::Ball { at, radius: knob }, Form::Coil { radius, .. }] = forms(&scene("line = 'coil'"), 0)[..]
     else {
         panic!("a coil, and its end")
     };
     assert!(at == DVec3::ZERO && (knob - 0.6 * radius).abs() < 1e-12);
     let straight = forms(&scene("line = 'straight'\ncoil = { radius = 0.02, color = 'red' }"), 0);
-    let [LinkShape::Pin { .. }, LinkShape::Rod { ends: [from, to], radius: 0.02 }] = straight[..] else {
+    let [Form::Ball { .. }, Form::Rod { ends: [from, to], radius: 0.02 }] = straight[..] else {
         panic!("{straight:?}")
     };
     assert!(near(from, 4.0 - 0.95 * 0.5, 0.0, 0.0) && near(to, 0.0, 0.0, 0.0), "{from} {to}");
@@ -47,7 +46,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     let bar = "[body.bar]\nshape.box.size = [0.2, 1, 0.1]\nlocation = [0, -0.4, 0]\n[joint.pivot.hinge]\n
                between = [[0, 0, 0], 'bar']\naxis = [0, 0, 2]";
     let found = forms(bar, 0);
-    let [LinkShape::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
+    let [Form::Rod { ends: [from, to], radius }] = found[..] else { panic!("{found:?}") };
     assert!((radius - 0.35 * 0.05).abs() < 1e-12, "{radius}");
     // The axle extends by half the thickness of the bar plus twice its own radius.
     let half = 0.05 + 2.0 * radius;
@@ -56,8 +55,7 @@ fn an_axle_goes_through_what_turns_about_it_and_an_arm_to_what_is_far() {
     let bob = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [0, -2, 0]\n[joint.pivot.hinge]\n
                between = [[0, 0, 0], 'bob']\naxis = [0, 0, 1]";
     let found = forms(bob, 0);
-    let [LinkShape::Rod { ends: [from, to], radius: arm }, LinkShape::Rod { radius: axle, .. }] = found[..]
-    else {
+    let [Form::Rod { ends: [from, to], radius: arm }, Form::Rod { radius: axle, .. }] = found[..] else {
         panic!("{found:?}")
     };
     assert!(near(from, 0.0, -2.0 + 0.095, 0.0) && near(to, 0.0, 0.0, 0.0), "{from} {to}");
@@ -77,7 +75,7 @@ fn a_rail_is_as_long_as_the_way_of_what_slides() {
     for between in ["[[0, 0, 0], 'cart']", "['cart', [0, 0, 0]]"] {
         for frame in [0, 25] {
             let found = forms(&scene(between), frame);
-            let [LinkShape::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
+            let [Form::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
             let [left, right] = if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] };
             assert!(
                 near(left, 1.0 - 1.3 * 0.2, 0.0, 0.0) && near(right, 2.0 + 1.3 * 0.2, 0.0, 0.0),
@@ -100,16 +98,14 @@ fn a_rail_starts_at_the_body_that_it_is_fastened_to() {
     for between in ["['beam', 'lift']", "['lift', 'beam']"] {
         for frame in [0, 25] {
             let found = forms(&scene(0.0, between), frame);
-            let [LinkShape::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
+            let [Form::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
             let [low, high] = if ends[0].y < ends[1].y { ends } else { [ends[1], ends[0]] };
             assert!(near(low, 0.0, 1.0 - 1.3 * 0.2, 0.0) && near(high, 0.0, 3.91, 0.0), "{found:?}");
         }
     }
     // The line of the rail misses the beam, so a rod connects them.
     let found = forms(&scene(3.0, "['beam', 'lift']"), 0);
-    let [LinkShape::Rod { ends: [from, to], .. }, LinkShape::Rod { ends, .. }] = found[..] else {
-        panic!("{found:?}")
-    };
+    let [Form::Rod { ends: [from, to], .. }, Form::Rod { ends, .. }] = found[..] else { panic!("{found:?}") };
     assert!(
         near(ends[1], 0.0, 2.0 + 1.3 * 0.2, 0.0) && near(to, ends[1].x, ends[1].y, ends[1].z),
         "{found:?}"
@@ -128,7 +124,7 @@ fn fixed_bodies_that_touch_need_no_rods() {
         )
     };
     let rods =
-        |text: &str| forms(text, 0).into_iter().filter(|form| matches!(form, LinkShape::Rod { .. })).count();
+        |text: &str| forms(text, 0).into_iter().filter(|form| matches!(form, Form::Rod { .. })).count();
     assert_eq!(rods(&scene(0.72)), 0, "they touch");
     assert_eq!(rods(&scene(0.8)), 0, "they overlap");
     assert_eq!(rods(&scene(0.5)), 1, "they are apart");

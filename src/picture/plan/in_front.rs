@@ -1,14 +1,74 @@
-//! Moves arrows in front of the planes, springs and joints that would hide them.
+//! Collects the arrows, axes and marks of a frame, and moves them in front of what would hide them.
 
 use super::Plan;
 use crate::picture::arrows::{Arrow, ArrowOwner};
 use crate::picture::in_front::lift_from_link;
+use crate::picture::marks::{Note, Says, Scale, Sketch};
+use crate::picture::thing::{Form, Thing};
+use crate::scene;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
-    /// The arrows of a frame. Arrows behind the ground or a spring are moved towards the camera, in such a way that they look the same in
-    /// the picture.
-    pub(crate) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
+    /// What a frame shows of measured quantities: arrows, axes, angles, distances. The arrows and axes of one body follow each other. What
+    /// the ground or a spring would hide is moved towards the camera, in such a way that it looks the same in the picture.
+    pub fn marks(&self, frame: &Frame) -> Vec<Thing<'_>> {
+        let mut arrows = self.arrows_in_front(frame).into_iter().peekable();
+        let mut marks = Vec::new();
+        for (its, axes) in self.arrows.axes(frame) {
+            let is_before = |arrow: &Arrow| matches!(arrow.owner, ArrowOwner::Body(body) if body <= its);
+            while let Some(before) = arrows.next_if(is_before) {
+                marks.push(self.arrows.thing(&before));
+            }
+            marks.push(axes);
+        }
+        marks.extend(arrows.map(|arrow| self.arrows.thing(&arrow)));
+        marks.extend(self.sketch(frame).things);
+        marks
+    }
+
+    /// The arrows of a ghost, moved in front of the ground. They show the quantities at the time of the ghost.
+    pub fn ghost_marks(&self, frame: &Frame, ghost: &Ghost) -> Vec<Thing<'_>> {
+        let mut arrows = self.ghost_arrows(frame, ghost);
+        let camera = self.eye.at(frame);
+        arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));
+        arrows.iter().map(|arrow| self.arrows.thing(arrow)).collect()
+    }
+
+    /// The things and notes of angles and dimension lines in a frame, moved in front of the ground.
+    pub(super) fn sketch(&self, frame: &Frame) -> Sketch<'_> {
+        if self.marks.is_empty() {
+            return Sketch::default();
+        }
+        let (camera, sizes) = (self.eye.at(frame), self.sizes(frame));
+        let screen = camera.screen();
+        let scale = Scale { frame, camera: &camera, screen: &screen, view: sizes.view, stroke: sizes.stroke };
+        let mut sketch = self.marks.sketch(&scale);
+        for thing in &mut sketch.things {
+            let Form::Lines(lines) = &mut thing.form else { continue };
+            lines.iter_mut().for_each(|line| self.planes.lift_line(line, [line.radius; 2], &camera));
+        }
+        sketch
+    }
+
+    /// The notes at the tips of arrows.
+    pub(super) fn names_of_arrows(&self, frame: &Frame) -> Vec<Note<'_>> {
+        if self.arrow_names.is_empty() {
+            return Vec::new();
+        }
+        let note = |arrow: &Arrow| {
+            let owner = match arrow.owner {
+                ArrowOwner::Body(body) => scene::ArrowOwner::Body(body),
+                ArrowOwner::Joint { joint, .. } => scene::ArrowOwner::Joint(joint),
+            };
+            let (name, text) = self.arrow_names.get(&(owner, arrow.quantity))?;
+            let away = (arrow.to - arrow.from).normalize_or_zero();
+            Some(Note { name, says: Says::Text(text), at: arrow.to, away, color: arrow.color })
+        };
+        self.arrows_in_front(frame).iter().filter_map(note).collect()
+    }
+
+    /// The arrows of a frame, moved in front of what would hide them.
+    fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
         let mut arrows = self.arrows(frame);
         if !arrows.is_empty() {
             let camera = self.eye.at(frame);
@@ -19,18 +79,10 @@ impl Plan {
                     ArrowOwner::Joint { body, .. } => body,
                 };
                 for link in body.into_iter().flat_map(|body| self.links.of_body(body, frame)) {
-                    lift_from_link(arrow, &link, &camera);
+                    lift_from_link(arrow, &link.form, &camera);
                 }
             }
         }
-        arrows
-    }
-
-    /// The arrows of a ghost, moved in front of the ground.
-    pub(crate) fn ghost_arrows_in_front(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
-        let mut arrows = self.ghost_arrows(frame, ghost);
-        let camera = self.eye.at(frame);
-        arrows.iter_mut().for_each(|arrow| self.planes.lift(arrow, &camera));
         arrows
     }
 }

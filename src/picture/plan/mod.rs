@@ -7,29 +7,32 @@ mod tests;
 mod written;
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 pub use largest::Largest;
 pub use written::Written;
 
 use self::largest::narrowest_view;
-use super::arrows::{Arrow, ArrowSizes, Arrows, Axes, round_scales};
+use super::arrows::{Arrow, ArrowSizes, Arrows, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{MovingCamera, Placed};
 use super::ghosts::Ghosts;
-use super::grid::{Grid, GridLayout, GridPlan};
+use super::grid::{GridLayout, GridPlan};
 use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
-use super::links::{Link, Links, PlannedLink};
+use super::links::Links;
+use super::marks::Marks;
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{CurveNow, PlannedPlot, Plots};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
 use super::stage::{Scenery, Stage, stroke};
+use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Camera, Quantity, Scene};
+use crate::scene::{ArrowName, ArrowOwner, Camera, Piece, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
@@ -52,6 +55,10 @@ pub struct Plan {
     bar: Option<ScaleBars>,
     labels: Labels,
     plots: Plots,
+    /// Angles and dimension lines.
+    marks: Marks,
+    /// The names of arrows, each with its name in scripts and its text.
+    arrow_names: HashMap<(ArrowOwner, Quantity), (String, Vec<Piece>)>,
     /// The image plane at the start. `None` if the pictures have no texts.
     screen: Option<Screen>,
     /// The sizes of arrows and lines for the camera at the start.
@@ -72,9 +79,21 @@ struct Sizes {
     arrows: ArrowSizes,
 }
 
-/// True if the pictures of a scene have texts: labels, plots, a grid or a scale bar.
+/// True if the pictures of a scene have texts: labels, plots, names of arrows, angles, distances, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
-    !scene.labels.is_empty() || !scene.plots.is_empty() || scene.grid.is_some() || scene.scale_bar.is_some()
+    let has_marks = !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_names.is_empty();
+    let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
+    has_labels || has_marks || scene.grid.is_some() || scene.scale_bar.is_some()
+}
+
+/// The name of an arrow: the arrow, its name in scripts, and its text.
+fn arrow_name(scene: &Scene, name: &ArrowName) -> ((ArrowOwner, Quantity), (String, Vec<Piece>)) {
+    let owner = match name.owner {
+        ArrowOwner::Body(body) => &*scene.bodies[body].name,
+        ArrowOwner::Joint(joint) => &scene.joints[joint].name,
+    };
+    let words = format!("{owner}, {}", name.quantity.name());
+    ((name.owner, name.quantity), (words, name.text.clone()))
 }
 
 impl Plan {
@@ -142,6 +161,8 @@ impl Plan {
             bar,
             labels: Labels::new(scene, ink, plots.areas()),
             plots,
+            marks: Marks::new(scene, ink),
+            arrow_names: scene.arrow_names.iter().map(|name| arrow_name(scene, name)).collect(),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),
             part: scope.part,
@@ -211,27 +232,22 @@ impl Plan {
     }
 
     /// The arrows of a frame: first those of bodies, then those of joints.
-    pub fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
+    pub(super) fn arrows(&self, frame: &Frame) -> Vec<Arrow> {
         self.arrows.arrows(frame, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
-    /// The coordinate axes that are drawn in a frame, in the order of the bodies.
-    pub fn axes(&self, frame: &Frame) -> Vec<Axes> {
-        self.arrows.axes(frame)
-    }
-
     /// The parts of springs and joints that are drawn in a frame.
-    pub fn links(&self, frame: &Frame) -> Vec<Link<'_>> {
+    pub fn links(&self, frame: &Frame) -> Vec<Thing<'_>> {
         self.links.at(frame)
     }
 
     /// All parts of springs and joints, including those that are not drawn in some frames.
-    pub fn planned_links(&self) -> impl Iterator<Item = PlannedLink<'_>> {
+    pub fn planned_links(&self) -> impl Iterator<Item = PlannedThing<'_>> {
         self.links.planned()
     }
 
     /// For each part of [`planned_links`](Self::planned_links), its shape in a frame. `None` if the part is not drawn.
-    pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Link<'_>>> {
+    pub fn each_link(&self, frame: &Frame) -> impl Iterator<Item = Option<Thing<'_>>> {
         self.links.each(frame)
     }
 
@@ -241,7 +257,7 @@ impl Plan {
     }
 
     /// The arrows of a ghost in the picture of a frame. Empty if the ghosts of its body have no arrows.
-    pub fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
+    pub(super) fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
     }
 
@@ -261,13 +277,13 @@ impl Plan {
     }
 
     /// The lines of the grid for a fixed camera, the same in all frames. `None` if the camera moves.
-    pub fn still_grid(&self) -> Option<&Grid> {
-        self.ruled.as_ref().map(GridLayout::grid)
+    pub fn still_grid(&self) -> Option<&Thing<'static>> {
+        self.ruled.as_ref().map(GridLayout::lines)
     }
 
     /// The lines of the grid in a frame. `None` without a grid.
-    pub fn grid(&self, frame: &Frame) -> Option<Grid> {
-        Some(self.ruled(frame)?.grid().clone())
+    pub fn grid(&self, frame: &Frame) -> Option<Thing<'static>> {
+        Some(self.ruled(frame)?.lines().clone())
     }
 
     /// The grid with its numbers in a frame. For a moving camera, only the part around the camera's aim.

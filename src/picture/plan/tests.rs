@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::*;
-use crate::picture::ArrowOwner;
+use crate::picture::Form;
+use crate::picture::arrows::ArrowOwner;
 use crate::simulate::{Frames, survey};
 
 fn plan(keys: &str) -> (Plan, Frame) {
@@ -20,7 +21,7 @@ fn plan(keys: &str) -> (Plan, Frame) {
 #[test]
 fn what_nobody_asks_for_is_not_there() {
     let (plan, frame) = plan("");
-    assert!(plan.arrows(&frame).is_empty() && plan.axes(&frame).is_empty());
+    assert!(plan.arrows(&frame).is_empty() && plan.marks(&frame).is_empty());
     assert!(plan.links(&frame).is_empty() && plan.trails(&frame).is_empty());
     assert!(plan.texts(&frame).is_empty() && plan.ghosts(&frame).next().is_none());
     assert!(plan.grid(&frame).is_none() && plan.bar(&frame).is_none() && plan.screen(&frame).is_none());
@@ -36,8 +37,9 @@ fn lengths_are_metres_whatever_the_unit_of_scripts_is() {
     assert_eq!((arrow.owner, arrow.quantity), (ArrowOwner::Body(0), Quantity::Velocity));
     assert!((arrow.from.distance(ball.location) - 0.1).abs() < 1e-9);
     assert!((arrow.to - arrow.from).abs_diff_eq(0.2 * ball.velocity, 1e-12));
-    let [axes] = plan.axes(&frame)[..] else { panic!("they are asked for") };
-    assert_eq!((axes.location, axes.length), (ball.location, 2.0));
+    let marks = plan.marks(&frame);
+    let [_, Thing { form: Form::Axes { location, length, .. }, .. }] = marks[..] else { panic!("{marks:?}") };
+    assert_eq!((location, length), (ball.location, 2.0));
     assert!((1.0..5.0).contains(&plan.stage().size));
 }
 
@@ -78,7 +80,7 @@ fn texts_say_of_what_they_are_and_the_bar_is_below_its_number() {
     let texts = plan.texts(&frame);
     let says = |name: &str| texts.iter().find(|text| text.name == name).map(|text| text.says.as_ref());
     assert_eq!((says("now"), says("scale bar")), (Some("0.5 s"), Some("1 m")));
-    assert!(says("grid").is_some() && plan.grid(&frame).is_some_and(|grid| !grid.lines.is_empty()));
+    assert!(says("grid").is_some() && plan.grid(&frame).is_some_and(|grid| !grid.lines().is_empty()));
     let (bar, number) = plan.written(&frame).unwrap().bar.unwrap();
     assert_eq!(Some(bar), plan.bar(&frame));
     assert!(number.y.above_middle(0.5) > bar.y.above_middle(0.5));

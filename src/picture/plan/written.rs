@@ -1,14 +1,14 @@
 //! Places the texts of a frame where there is room.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::Plan;
 use crate::picture::bar::Bar;
-use crate::picture::links::Link;
+use crate::picture::marks;
 use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
 use crate::picture::text::Text;
-use crate::simulate::Frame;
+use crate::simulate::{Frame, MomentState};
 
 /// The texts of a frame, by kind.
 #[derive(Clone, Debug)]
@@ -19,21 +19,24 @@ pub struct Written<'a> {
     pub grid: Vec<Text<'a>>,
     /// The scale bar and its number.
     pub bar: Option<(Bar, Text<'a>)>,
+    /// The names of arrows, and the texts of angles and dimension lines.
+    pub named: Vec<Text<'a>>,
     /// The labels, in the order of the scene.
     pub labels: Vec<Text<'a>>,
 }
 
 impl Plan {
-    /// The texts of a frame in a single list: axis names and numbers of the grid, the number of the scale bar, the labels.
+    /// The texts of a frame in a single list: axis names and numbers of the grid, the number of the scale bar, the texts of arrows and marks,
+    /// the labels.
     pub fn texts<'a>(&'a self, frame: &Frame) -> Vec<Text<'a>> {
-        let Some(Written { grid, bar, labels, .. }) = self.written(frame) else { return Vec::new() };
-        grid.into_iter().chain(bar.map(|(_, number)| number)).chain(labels).collect()
+        let Some(Written { grid, bar, named, labels, .. }) = self.written(frame) else { return Vec::new() };
+        grid.into_iter().chain(bar.map(|(_, number)| number)).chain(named).chain(labels).collect()
     }
 
     /// Places the texts of a frame. `None` if the scene has no texts.
     ///
     /// Labels in corners and the scale bar have fixed positions. The axis names of the grid are placed next, then the labels beside
-    /// bodies, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
+    /// bodies and the texts of arrows and marks, then the numbers of the grid, each where there is room. No text covers a spring or joint, except an axis name without
     /// another free position.
     pub fn written<'a>(&'a self, frame: &Frame) -> Option<Written<'a>> {
         let screen = self.screen(frame)?;
@@ -53,11 +56,24 @@ impl Plan {
         let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room, &links));
         let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
-        if labels.len() < self.labels.count() {
+        let sketch = self.sketch(frame);
+        let mut notes = self.names_of_arrows(frame);
+        notes.extend(sketch.notes);
+        let mut named = Vec::new();
+        if labels.len() < self.labels.count() || !notes.is_empty() {
             let before = labels.len();
             self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
-            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
+            for (ends, width) in sketch.things.iter().flat_map(|thing| thing.form.avoided()) {
+                room.cross(ends, width, &screen);
+            }
             let mut beside = Occupancy::new(room.aspect());
+            if !notes.is_empty() {
+                let crowd = self.labels.crowd(frame, &screen);
+                let now = MomentState::now(frame);
+                named = marks::place(notes, &self.labels, &now, &screen, (&mut room, &crowd));
+                named.iter().for_each(|text| beside.take_text(text));
+            }
+            labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));
             labels[before..].iter().for_each(|(_, text)| beside.take_text(text));
             grid.extend(numbers.into_iter().filter(|number| beside.has_room_for(number)));
             labels.sort_by_key(|(place, _)| *place);
@@ -65,25 +81,21 @@ impl Plan {
             grid.extend(numbers);
         }
         let labels = labels.into_iter().map(|(_, text)| text).collect();
-        Some(Written { screen, grid, bar, labels })
+        Some(Written { screen, grid, bar, named, labels })
     }
 
     /// The lines that labels avoid in a frame, each with its width, m: arrows, coordinate axes, springs and joints.
     fn lines(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let mut arrows = self.arrows(frame);
         arrows.extend(self.ghosts(frame).flat_map(|ghost| self.ghost_arrows(frame, ghost)));
-        let arrows = arrows.into_iter().map(|arrow| ([arrow.from, arrow.to], 4.0 * arrow.radius));
-        let axes = self.axes(frame).into_iter().flat_map(|axes| {
-            let arms = DMat3::from_quat(axes.orientation).to_cols_array_2d().map(DVec3::from_array);
-            arms.map(|arm| ([axes.location, axes.location + arm * axes.length * 1.1], 0.1 * axes.length))
-        });
+        let arrows = arrows.into_iter().flat_map(|arrow| self.arrows.thing(&arrow).form.avoided());
+        let axes = self.arrows.axes(frame).into_iter().flat_map(|(_, axes)| axes.form.avoided());
         arrows.chain(axes).chain(self.linked(frame)).collect()
     }
 
     /// The lines of springs and joints in a frame, each with its width, m.
     fn linked(&self, frame: &Frame) -> Vec<([DVec3; 2], f64)> {
         let links = self.links(frame);
-        let lines = |link: &Link<'_>| link.lines().map(|line| (line, 2.0 * link.reach())).collect::<Vec<_>>();
-        links.iter().flat_map(lines).collect()
+        links.iter().flat_map(|link| link.form.avoided()).collect()
     }
 }

@@ -173,6 +173,7 @@ impl Panel {
             height: line,
             align,
             color,
+            anchor: None,
         };
         let pad = 0.45 * line;
         let mut texts = Vec::new();

@@ -32,7 +32,7 @@ export class Lines {
 }
 
 /** Adds an arrow, with a head as in the POV-Ray templates. */
-export function arrow(lines, { from, to, radius, color }) {
+function arrow(lines, { from, to, radius, color }) {
   const along = sub(to, from);
   const shaft = Math.min(radius, length(along) / 14);
   const neck = sub(to, times(unit(along), 9 * shaft));
@@ -40,12 +40,20 @@ export function arrow(lines, { from, to, radius, color }) {
   lines.add(neck, to, 3.2 * shaft, color, 0);
 }
 
-/** Adds a part of a spring or of a joint, with the same shape as in the scripts. */
-export function link(lines, { form, at, ends, points, radius, wire, turns, color }) {
-  if (form === "pin") lines.add(at, at, radius, color);
-  else if (form === "rod") lines.add(...ends, radius, color);
-  else if (form === "rope") points.slice(1).forEach((point, i) => lines.add(points[i], point, radius, color));
-  else coil(lines, ends, radius, wire, turns, color);
+/** How a thing of each form is drawn, with the same shape as in the scripts. */
+const DRAWN = {
+  ball: (lines, { at, radius, color }) => lines.add(at, at, radius, color),
+  rod: (lines, { ends, radius, color }) => lines.add(...ends, radius, color),
+  rope: (lines, { points, radius, color }) => points.slice(1).forEach((point, i) => lines.add(points[i], point, radius, color)),
+  coil: (lines, { ends, radius, wire, turns, color }) => coil(lines, ends, radius, wire, turns, color),
+  arrow,
+  axes,
+  lines: (all, { lines, color }) => lines.forEach(({ from, to, radius }) => all.add(from, to, radius, color)),
+};
+
+/** Adds a thing that is drawn beside the bodies. */
+export function thing(lines, each) {
+  DRAWN[each.form](lines, each);
 }
 
 /** Adds a coil around the line between two points, as in the POV-Ray templates. */
@@ -71,7 +79,7 @@ function coil(lines, [a, b], radius, wire, turns, color) {
 /** The colors of the x, y and z axes, in sRGB. */
 export const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
 
-export function axes(lines, { location, turn, length: arm }) {
+function axes(lines, { location, turn, length: arm }) {
   AXES.forEach((color, i) => {
     const direction = turned(turn, [0, 1, 2].map((k) => (k === i ? arm : 0)));
     lines.add(location, add(location, times(direction, 0.8)), 0.03 * arm, color);

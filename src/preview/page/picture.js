@@ -1,6 +1,6 @@
 // Composes the picture of a frame.
 
-import { arrow, axes, camera as cameraLines, link, Lines, trail } from "./lines.js";
+import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
 import { isThere, length, short, sub, unit } from "./math.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
@@ -102,7 +102,7 @@ function triads(run, shown, at) {
     const here = at(body);
     return isThere(here) ? [{ location: here.slice(0, 3), turn: here.slice(3), length }] : [];
   });
-  return [...bodies, ...(shown?.axes ?? [])];
+  return [...bodies, ...(shown?.things ?? []).filter((each) => each.form === "axes")];
 }
 
 /** Adds the streaks of particles as lines. */
@@ -116,12 +116,10 @@ function streaks(lines, particles) {
 function drawLines(lines, run, shown, at, view) {
   const stage = run.description.stage;
   const grid = shown?.grid ?? stage?.grids[Math.min(open.view, stage.grids.length - 1)];
-  grid?.forEach(({ from, to, radius, color }) => lines.add(from, to, radius, color));
+  if (grid) thing(lines, grid);
   const stroke = shown?.stroke ?? 0;
   stage?.trails.forEach((each) => trail(lines, run, { ...each, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length));
-  shown?.links.forEach((each) => link(lines, each));
-  shown?.arrows.forEach((each) => arrow(lines, each));
-  shown?.axes.forEach((each) => axes(lines, each));
+  shown?.things.forEach((each) => thing(lines, each));
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
     mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
   }

@@ -24,6 +24,7 @@ export class Texts {
       let [x, y] = place(text.x, text.y);
       if (view.own && (text.in_world || !latest.has(text))) continue;
       if (view.own && text.beside) [x, y] = beside(text, view, space, at, width);
+      if (view.own && text.anchor) [x, y] = anchored(text, view, space, width);
       if (x === undefined) continue;
       spans.push(this.span(text, x, y, (text.height / 2) * width));
     }
@@ -74,6 +75,13 @@ export class Texts {
     span.style.transform = `translate(${x}px, ${y}px)`;
     return span;
   }
+}
+
+/** Returns the position of a text at a point of the world, for a camera other than the scene's. */
+function anchored({ anchor: [point, [right, up]] }, view, space, width) {
+  const spot = projected(view.clip, times(sub(point, space.center), 1 / space.size));
+  if (!(spot.w > 0)) return [];
+  return [((spot.x + 1) / 2) * view.width + (right / 2) * width, ((1 - spot.y) / 2) * view.height - (up / 2) * width];
 }
 
 /** Returns the position of a label beside its body, for a camera other than the scene's. */

@@ -75,8 +75,8 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
     LabelPlace::Body { body, side: view.choice(&label::SIDE, Side::ALL, Side::name), ghosts }
 }
 
-/// Splits the text of a label into words and values. Reports mistakes at their source positions.
-fn pieces(
+/// Splits a text with values into words and values. Reports mistakes at their source positions.
+pub(super) fn pieces(
     text: &str,
     span: Span,
     root: &View<'_>,

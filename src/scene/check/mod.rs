@@ -16,6 +16,7 @@ mod geometry;
 mod joint;
 mod label;
 mod look;
+mod marks;
 mod material;
 mod measures;
 mod mesh;
@@ -340,13 +341,19 @@ fn build(
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, &bodies, &joints, context);
     let plots = plot::read(&root, &bodies, &joints, context);
-    let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
-    if !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some() {
-        asset::add_font(&mut povray.assets);
-    }
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
+    let known = marks::Known { root: &root, bodies: &bodies, joints: &joints };
+    let angles = marks::angles(known, context);
+    let distances = marks::distances(known, context);
+    let arrow_names = marks::arrow_names(known, context);
+    let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
+    let has_labels = !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some();
+    let has_marks = !angles.is_empty() || !distances.is_empty() || !arrow_names.is_empty();
+    if has_labels || has_marks {
+        asset::add_font(&mut povray.assets);
+    }
     Scene {
         name: input.name.to_owned(),
         title: root.get(&scene::TITLE).map(str::to_owned),
@@ -357,6 +364,9 @@ fn build(
         environment,
         labels,
         plots,
+        angles,
+        distances,
+        arrow_names,
         scale_bar,
         grid,
         pairs: std::mem::take(&mut context.pairs),

@@ -15,6 +15,7 @@ mod key;
 mod kind;
 pub(in crate::scene) mod labels;
 pub(in crate::scene) mod lights;
+pub(in crate::scene) mod marks;
 pub(in crate::scene) mod materials;
 pub(in crate::scene) mod motion;
 mod reference;

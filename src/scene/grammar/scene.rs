@@ -16,6 +16,7 @@ use super::key::table;
 use super::kind::{ANY, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::labels;
 use super::lights;
+use super::marks;
 use super::materials;
 use super::{Bound, KeySpec, Rule};
 use crate::physics::Method;
@@ -96,6 +97,8 @@ table! {
     .also(&["world"]),
     LABEL: Any = labels::LABEL,
     PLOT: Any = labels::PLOT,
+    ANGLE: Any = marks::ANGLE,
+    DISTANCE: Any = marks::DISTANCE,
     SCALE_BAR: Any = labels::SCALE_BAR,
     GRID: Any = labels::GRID,
     POVRAY: Any = KeySpec::new("povray", Table(&povray::TABLE), "Passed to POV-Ray unchanged"),

@@ -1,6 +1,6 @@
 //! The grammar of the keys that visualize physics: arrows, axes, ghosts, trails and the look of springs.
 
-use super::Kind::{Boolean, Choice, Color, Either, Integer, Table};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, Table, Text};
 use super::key::table;
 use super::kind::{POSITIVE, VECTOR};
 use super::{KeySpec, Kind, Rule};
@@ -105,6 +105,9 @@ table! {
         )
         .also(&["length", "factor", "size"]),
     COLOR: Option<value::Color> = super::COLOR.default("that of its kind"),
+    LABEL: Option<value::Text> = KeySpec::new("label", Text, "The text at its tip, with values as in a label: `\"v\"`")
+        .default("none")
+        .also(&["text", "name", "caption"]),
 }
 
 table! {

@@ -8,7 +8,7 @@ use crate::support::{jabuka, root, shorter, stderr, stdout};
 use glam::{DQuat, DVec3};
 use jabuka::Scene;
 use jabuka::physics::Shape;
-use jabuka::picture::{Lamp, LinkKind, LinkShape, Plan};
+use jabuka::picture::{Form, FormKind, Lamp, Plan};
 use jabuka::scene::{Options, Override};
 use jabuka::simulate::{Frame, Frames, survey};
 use serde::Deserialize;
@@ -526,7 +526,7 @@ fn springs_and_joints_are_where_the_picture_has_them() {
     for (i, frame) in Frames::new(&scene).map(Result::unwrap).enumerate() {
         let mut rest = &nodes[..];
         for (planned, link) in plan.planned_links().zip(plan.each_link(&frame)) {
-            let count = if planned.kind == LinkKind::Rope { 24 } else { 1 };
+            let count = if planned.kind == FormKind::Rope { 24 } else { 1 };
             let (its, others) = rest.split_at(count);
             rest = others;
             assert_eq!(its[0].name, format!("link {}", planned.name));
@@ -534,23 +534,22 @@ fn springs_and_joints_are_where_the_picture_has_them() {
             let size = its[0].sizes[2 * i];
             match link.map(|link| link.form) {
                 None => assert_eq!(size, 0.0, "{} in {i}", planned.name),
-                Some(LinkShape::Pin { at, radius }) => {
+                Some(Form::Ball { at, radius }) => {
                     assert!(near(&its[0].poses[i], at) && (size - radius).abs() < 1e-6);
                 }
-                Some(
-                    LinkShape::Coil { ends: [a, b], radius, .. } | LinkShape::Rod { ends: [a, b], radius },
-                ) => {
+                Some(Form::Coil { ends: [a, b], radius, .. } | Form::Rod { ends: [a, b], radius }) => {
                     let pose = &its[0].poses[i];
                     assert!(near(pose, a.midpoint(b)) && (size - radius).abs() < 1e-6, "{}", planned.name);
                     assert!(axis(pose).cross((b - a).normalize()).length() < 1e-5, "{} in {i}", planned.name);
                 }
-                Some(LinkShape::Rope { points, .. }) if points.len() == 25 => {
+                Some(Form::Rope { points, .. }) if points.len() == 25 => {
                     let places = points.windows(2).map(|pair| pair[0].midpoint(pair[1]));
                     for (node, place) in its.iter().zip(places) {
                         assert!(near(&node.poses[i], place), "{} in {i}", planned.name);
                     }
                 }
-                Some(LinkShape::Rope { .. }) => {}
+                Some(Form::Rope { .. }) => {}
+                Some(other) => panic!("no spring or joint is {other:?}"),
             }
             compared += 1;
         }

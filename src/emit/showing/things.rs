@@ -1,35 +1,30 @@
-//! Writes springs and joints in SDL: coils, rods, ropes and pins.
+//! Writes the things that are drawn beside the bodies in SDL: springs, joints, arrows, axes, thin lines.
 
 use glam::DVec3;
 
 use super::super::{sdl::Style, text};
 use super::color;
-use crate::picture::{Link, LinkShape, Plan};
-use crate::simulate::Frame;
+use crate::picture::{Form, Line, Thing};
 
-/// Appends the SDL text of the springs and joints that a frame shows.
-pub(super) fn write(out: &mut String, plan: &Plan, frame: &Frame, style: Style) {
-    plan.links(frame).iter().for_each(|its| link(out, its, style));
-}
-
-fn link(out: &mut String, link: &Link<'_>, style: Style) {
-    let (name, color) = (text::comment(link.name), color(link.color, style));
-    // A spring or joint that is too thin for POV-Ray is left out. A warning of the run tells about those that are too thin in all frames.
+/// Appends the SDL text of a thing. A thing that is too short or too thin for POV-Ray is left out; a warning of the run tells about
+/// things that are too small in all frames.
+pub(super) fn write(out: &mut String, thing: &Thing<'_>, style: Style) {
+    let (name, color) = (text::comment(&thing.name), color(thing.color, style));
     let is_seen = |radius: f64| style.can_tell(DVec3::ZERO, DVec3::X * radius);
-    match &link.form {
-        LinkShape::Pin { at, radius } => {
+    match &thing.form {
+        Form::Ball { at, radius } => {
             out.push_str("sphere { ");
             style.point(out, *at);
             out.push_str(", ");
             style.length(out, *radius);
-            out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}, its end\n"));
+            out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}\n"));
         }
-        LinkShape::Rod { ends: [from, to], radius } if is_seen(*radius) && style.can_tell(*from, *to) => {
+        Form::Rod { ends: [from, to], radius } if is_seen(*radius) && style.can_tell(*from, *to) => {
             out.push_str("cylinder { ");
             bar(out, [*from, *to], *radius, style);
             out.push_str(&format!(" pigment {{ color srgb {color} }} }} // {name}\n"));
         }
-        LinkShape::Coil { ends: [from, to], radius, wire, turns }
+        Form::Coil { ends: [from, to], radius, wire, turns }
             if is_seen(*radius) && style.can_tell(*from, *to) =>
         {
             out.push_str("Coil(");
@@ -38,10 +33,23 @@ fn link(out: &mut String, link: &Link<'_>, style: Style) {
             style.length(out, *wire);
             out.push_str(&format!(", {turns}, {color}) // {name}\n"));
         }
-        LinkShape::Rope { points, radius } if is_seen(*radius) => {
+        Form::Rope { points, radius } if is_seen(*radius) => {
             rope(out, points, *radius, &color, &name, style);
         }
-        LinkShape::Rod { .. } | LinkShape::Coil { .. } | LinkShape::Rope { .. } => {}
+        Form::Arrow { from, to, radius } if style.can_tell(*from, *to) => {
+            out.push_str("Arrow(");
+            bar(out, [*from, *to], *radius, style);
+            out.push_str(&format!(", {color}) // {name}\n"));
+        }
+        Form::Axes { location, orientation, length } => {
+            out.push_str("object { Axes scale ");
+            style.length(out, *length);
+            out.push(' ');
+            style.matrix(out, *orientation, *location);
+            out.push_str(&format!(" no_shadow }} // {name}\n"));
+        }
+        Form::Lines(lines) => thin(out, lines, &color, &name, style),
+        Form::Rod { .. } | Form::Coil { .. } | Form::Rope { .. } | Form::Arrow { .. } => {}
     }
 }
 
@@ -88,4 +96,22 @@ fn rope(out: &mut String, points: &[DVec3], radius: f64, color: &str, name: &str
         }
     }
     out.push_str(&look);
+}
+
+/// Appends thin straight lines, which shine and cast no shadow.
+fn thin(out: &mut String, lines: &[Line], color: &str, name: &str, style: Style) {
+    if lines.is_empty() {
+        return;
+    }
+    // POV-Ray warns about a union of one object.
+    let kind = if lines.len() > 1 { "union" } else { "object" };
+    out.push_str(&format!("{kind} {{ // {name}\n"));
+    for line in lines {
+        out.push_str("  cylinder { ");
+        bar(out, [line.from, line.to], line.radius, style);
+        out.push_str(" }\n");
+    }
+    out.push_str(&format!(
+        "  pigment {{ color srgb {color} }} finish {{ ambient 0 diffuse 0 emission 1 }} no_shadow no_reflection\n}}\n"
+    ));
 }

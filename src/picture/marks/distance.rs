@@ -1,0 +1,105 @@
+//! Dimension lines: a line between two points with ticks at its ends, and the distance as a text.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::angle::drawn;
+use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sketch};
+use crate::picture::length::prefixed;
+use crate::picture::number;
+use crate::picture::thing::{Form, Line, Thing};
+use crate::scene::{Color, Distance, Scene};
+use crate::simulate::DistanceNow;
+
+/// The length of a tick on each side of the line, relative to the width in view.
+const TICK_LENGTH: f64 = 0.009;
+/// The smallest difference of lengths that a text shows, relative to the width in view, up to a factor of ten.
+const FINENESS: f64 = 0.005;
+
+#[derive(Debug)]
+struct DistanceMark {
+    /// The distance, with its points on bodies in their drawn size.
+    distance: Distance,
+    name: String,
+    color: Color,
+}
+
+/// Plans the marks for the distances of a scene.
+pub(super) fn marks(scene: &Scene, ink: Color) -> Vec<Arc<dyn Mark>> {
+    let mark = |distance: &Distance| {
+        let between = distance.between.map(|end| drawn(end, &scene.bodies));
+        let (name, color) = (format!("distance {}", distance.name), distance.color.unwrap_or(ink));
+        Arc::new(DistanceMark { distance: Distance { between, ..distance.clone() }, name, color })
+            as Arc<dyn Mark>
+    };
+    scene.distances.iter().map(mark).collect()
+}
+
+impl Mark for DistanceMark {
+    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+        let Some(now) = DistanceNow::of(&self.distance, &scale.frame.bodies) else { return };
+        let [begin, end] = now.line;
+        let middle = (begin + end) / 2.0;
+        let aside = scale.camera.towards(middle).cross(end - begin);
+        let aside = aside.try_normalize().unwrap_or(scale.screen.up());
+        let tick = aside * TICK_LENGTH * scale.view;
+        let line = |from: DVec3, to: DVec3, radius: f64| Line { from, to, radius: radius * scale.stroke };
+        let mut lines = vec![
+            line(begin, end, MAIN_LINE_RADIUS),
+            line(begin - tick, begin + tick, MAIN_LINE_RADIUS),
+            line(end - tick, end + tick, MAIN_LINE_RADIUS),
+        ];
+        lines.extend([0, 1].map(|i| line(now.ends[i], now.line[i], HELPING_LINE_RADIUS)));
+        lines.retain(|line| line.from.distance(line.to) > line.radius);
+        sketch.things.push(Thing {
+            name: self.name.as_str().into(),
+            form: Form::Lines(lines),
+            color: self.color,
+        });
+        // The text stands on the side of the offset; without an offset above the line, or to the right of it.
+        let (up, right) = (scale.screen.up(), scale.screen.right());
+        let outward =
+            self.distance.offset.dot(aside) + 1e-9 * scale.view * (aside.dot(up) + 0.5 * aside.dot(right));
+        sketch.notes.push(Note {
+            name: &self.name,
+            says: self
+                .distance
+                .text
+                .as_deref()
+                .map_or_else(|| Says::Words(with_unit(now.value, scale.view)), Says::Text),
+            at: middle,
+            away: aside * outward.signum(),
+            color: self.color,
+        });
+    }
+}
+
+/// Writes a length. The unit and the number of decimals follow from the width in view (m), so that they stay the same while the length
+/// changes.
+fn with_unit(length: f64, view: f64) -> String {
+    let (unit, symbol) = prefixed(0.1 * view);
+    let decimals = -libm::floor(libm::log10(FINENESS * view / unit));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is limited")]
+    let decimals = decimals.clamp(0.0, 6.0) as usize;
+    format!("{} {symbol}", number::typeset(&format!("{:.decimals$}", length / unit)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_the_unit_and_the_decimals_of_the_picture() {
+        for (length, view, said) in [
+            (1.23456, 5.0, "1.23 m"),
+            (0.05, 5.0, "0.05 m"),
+            (0.05, 0.3, "5.0 cm"),
+            (123.456, 200.0, "123 m"),
+            (0.0, 5.0, "0.00 m"),
+            (384.4e6, 1e9, "384400 km"),
+        ] {
+            assert_eq!(with_unit(length, view), said);
+        }
+    }
+}

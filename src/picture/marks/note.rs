@@ -1,0 +1,92 @@
+//! Notes: texts at points of the world, placed where there is room.
+
+use glam::DVec3;
+
+use crate::picture::labels::Labels;
+use crate::picture::occupancy::Occupancy;
+use crate::picture::screen::Screen;
+use crate::picture::text::{Text, Vertical, width};
+use crate::scene::{Color, Piece};
+use crate::simulate::MomentState;
+
+/// The gap between a point and its text, in heights of a line.
+const GAP: f64 = 0.3;
+/// The directions in which a text is tried, relative to the wanted one, degrees.
+const TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
+/// The additional distances at which a text is tried, in heights of a line.
+const FARTHER: [f64; 3] = [0.0, 0.8, 1.6];
+
+/// A text at a point of the world.
+pub(in crate::picture) struct Note<'a> {
+    /// What the note belongs to, such as `angle alpha`.
+    pub(in crate::picture) name: &'a str,
+    pub(in crate::picture) says: Says<'a>,
+    /// The point, m.
+    pub(in crate::picture) at: DVec3,
+    /// The direction from the point in which the text stands, a unit vector.
+    pub(in crate::picture) away: DVec3,
+    pub(in crate::picture) color: Color,
+}
+
+/// The words of a note.
+pub(in crate::picture) enum Says<'a> {
+    /// Pieces of a text that the scene gives, with values of the moment.
+    Text(&'a [Piece]),
+    /// Words that the picture chooses.
+    Words(String),
+}
+
+/// Places notes in the picture, and marks their places as taken. `crowd` holds the bodies, which a text covers only if it has no other
+/// place. A note outside of the picture is left out.
+pub(in crate::picture) fn place<'a>(
+    notes: Vec<Note<'a>>,
+    labels: &Labels,
+    moment: &MomentState<'_>,
+    screen: &Screen,
+    (room, crowd): (&mut Occupancy, &Occupancy),
+) -> Vec<Text<'a>> {
+    let mut texts = Vec::new();
+    for note in notes {
+        let Some(point) = screen.project(note.at) else { continue };
+        if point.x.abs() > 1.0 || point.y.abs() > room.aspect() {
+            continue;
+        }
+        let says = match note.says {
+            Says::Text(pieces) => labels.said(pieces, moment),
+            Says::Words(words) => words,
+        };
+        let height = labels.note_height();
+        let half = [width(&says, height) / 2.0, height / 2.0];
+        // A hundredth of the picture's width in the wanted direction.
+        let beyond = screen.project(note.at + note.away * (0.02 / point.scale));
+        let wanted = beyond.map_or([0.0, 1.0], |beyond| [beyond.x - point.x, beyond.y - point.y]);
+        let length = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).sqrt();
+        let wanted = if length > 1e-6 { wanted.map(|part| part / length) } else { [0.0, 1.0] };
+        let candidate = |turn: f64, farther: f64| {
+            let (sin, cos) = libm::sincos(turn.to_radians());
+            let way = [wanted[0] * cos - wanted[1] * sin, wanted[0] * sin + wanted[1] * cos];
+            let reach = half[0] * way[0].abs() + half[1] * way[1].abs() + (GAP + farther) * height;
+            let [x, y] = [point.x + way[0] * reach, point.y + way[1] * reach];
+            // The base line is below the middle of the letters.
+            let y = Vertical::Middle(y - 0.25 * height);
+            labels.kept_inside(Text {
+                name: note.name,
+                says: says.clone().into(),
+                x,
+                y,
+                height,
+                align: 0.5,
+                color: note.color,
+                anchor: Some(note.at),
+            })
+        };
+        let tried = || FARTHER.into_iter().flat_map(|farther| TURNS.map(|turn| candidate(turn, farther)));
+        let text = tried()
+            .find(|text| room.has_room_for(text) && crowd.has_room_for(text))
+            .or_else(|| tried().find(|text| room.has_room_for(text)))
+            .unwrap_or_else(|| candidate(0.0, 0.0));
+        room.take_text(&text);
+        texts.push(text);
+    }
+    texts
+}

@@ -1,0 +1,195 @@
+//! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the names of arrows.
+
+use super::label::pieces;
+use super::view::View;
+use super::{Context, end};
+use crate::diagnostic::{Code, Diagnostic, Span, nearest};
+use crate::physics::{Anchor, BodyId};
+use crate::scene::grammar::Bound;
+use crate::scene::grammar::bodies::body;
+use crate::scene::grammar::marks::{angle, distance, leg};
+use crate::scene::grammar::scene::scene;
+use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
+use crate::scene::grammar::{Any, Key, KeySpec, joints};
+use crate::scene::source::{Node, Value};
+use crate::scene::{
+    Angle, ArrowName, ArrowOwner, Body, Corner, Distance, Joint, LabelPlace, Leg, Piece, Quantity, Side, read,
+};
+
+/// The vectors of a body that a leg of an angle can point along.
+const VECTORS: [Quantity; 3] = Quantity::OF_BODIES;
+
+/// What the texts of marks can name.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a, 'b> {
+    pub(super) root: &'a View<'b>,
+    pub(super) bodies: &'a [Body],
+    pub(super) joints: &'a [Joint],
+}
+
+impl Known<'_, '_> {
+    /// Reads the text of a key. `of` is the body whose measures need no name. `None` if the key is missing.
+    fn text(
+        self,
+        view: &View<'_>,
+        key: &Key<Option<crate::scene::value::Text>>,
+        of: Option<usize>,
+        context: &mut Context<'_>,
+    ) -> Option<Vec<Piece>> {
+        let place = match of {
+            Some(body) => LabelPlace::Body { body, side: Side::Above, ghosts: false },
+            None => LabelPlace::Corner(Corner::TopLeft),
+        };
+        let (text, span) = view.get(key).zip(view.span(key))?;
+        Some(pieces(text, span, self.root, place, self.bodies, self.joints, context))
+    }
+}
+
+pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Angle> {
+    let read = |(name, span, view): (&str, Span, View<'_>)| {
+        let text = known.text(&view, &angle::TEXT, None, context);
+        let text = text.unwrap_or_else(|| vec![Piece::Words(usual_text((name, span), context))]);
+        let vertex = end::anchor(view.node(&angle::AT)?, context)?;
+        let legs = [&angle::FROM, &angle::TO].map(|key| leg_of(&view, key, vertex, known.bodies, context));
+        let [from, to] = legs;
+        Some(Angle {
+            name: name.to_owned(),
+            vertex,
+            legs: [from?, to?],
+            axis: view.get(&angle::AXIS).and_then(|axis| axis.try_normalize()),
+            radius: view.get(&angle::RADIUS),
+            text,
+            color: view.get(&angle::COLOR),
+        })
+    };
+    known.root.named(&scene::ANGLE).into_iter().filter_map(read).collect()
+}
+
+/// Returns the text of an angle without one, which comes from its name. Reports letters of the name that the font does not have.
+fn usual_text((name, span): (&str, Span), context: &mut Context<'_>) -> String {
+    let text = Angle::usual_text(name).to_owned();
+    if let Some(letter) = text.chars().find(|letter| !crate::font::has(*letter)) {
+        let message = format!("the font has no letter `{letter}`");
+        let error =
+            Diagnostic::error(Code::LabelLetter, message).at(span, "the name is the text of the angle");
+        context.diagnostics.push(error.help("another text: `text = \"…\"`"));
+    }
+    text
+}
+
+/// Reads a leg of an angle. Reports a leg without a direction.
+fn leg_of(
+    view: &View<'_>,
+    key: &Key<Any>,
+    vertex: Anchor,
+    bodies: &[Body],
+    context: &mut Context<'_>,
+) -> Option<Leg> {
+    let node = view.node(key)?;
+    let leg = match &node.value {
+        Value::Array(_) => Leg::Along(read::vector(node, Bound::Any)?.try_normalize()?),
+        Value::Table(table) => {
+            let view = View::new(&leg::TABLE, Some(table));
+            match view.get(&leg::POINT) {
+                Some(point) => Leg::Towards(Anchor::Point(point)),
+                None => {
+                    let id = BodyId::new(end::body(view.node(&leg::BODY)?, context)?);
+                    Leg::Towards(Anchor::Body { id, at: view.get(&leg::AT) })
+                }
+            }
+        }
+        _ => named_leg(node, bodies, context)?,
+    };
+    if leg == Leg::Towards(vertex) {
+        let error = Diagnostic::error(Code::BadMark, "this leg of the angle has no direction");
+        context.diagnostics.push(error.at(node.span, "it is the vertex itself"));
+        return None;
+    }
+    Some(leg)
+}
+
+/// Reads a leg that names a body, such as `"bob"`, or a vector of a body, such as `"ball.velocity"`.
+fn named_leg(node: &Node, bodies: &[Body], context: &mut Context<'_>) -> Option<Leg> {
+    let text = node.as_str()?;
+    if let Some(body) = context.names.bodies.get(text) {
+        return Some(Leg::Towards(Anchor::centre(BodyId::new(*body))));
+    }
+    let (name, vector) = text.rsplit_once('.').map_or((text, None), |(name, vector)| (name, Some(vector)));
+    let Some(body) = context.names.bodies.get(name).copied() else {
+        let error = Diagnostic::error(Code::UnknownName, format!("there is no body `{name}`"));
+        let near = nearest(name, bodies.iter().map(|body| &*body.name).take(1000));
+        let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+        context.diagnostics.push(error.at(node.span, label));
+        return None;
+    };
+    let vector = vector.unwrap_or_default();
+    let quantity = VECTORS.into_iter().find(|quantity| quantity.name() == vector);
+    if quantity.is_none() {
+        let message = format!("a body has no vector `{vector}` that an angle could begin with");
+        let known = VECTORS.map(Quantity::name);
+        let label = nearest(vector, known).map_or(String::new(), |near| format!("did you mean `{near}`?"));
+        let known = format!("there are {}", crate::scene::grammar::quoted(&known));
+        context
+            .diagnostics
+            .push(Diagnostic::error(Code::UnknownName, message).at(node.span, label).help(known));
+    }
+    Some(Leg::Of(body, quantity?))
+}
+
+pub(super) fn distances(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Distance> {
+    let read = |(name, _, view): (&str, Span, View<'_>)| {
+        let text = known.text(&view, &distance::TEXT, None, context);
+        let [first, second] = view.list(&distance::BETWEEN)? else { return None };
+        let between = [end::anchor(first, context)?, end::anchor(second, context)?];
+        if between[0] == between[1] {
+            let error = Diagnostic::error(Code::BadMark, "this distance is always 0");
+            context.diagnostics.push(error.at(second.span, "both ends are the same point"));
+            return None;
+        }
+        Some(Distance {
+            name: name.to_owned(),
+            between,
+            along: view.get(&distance::ALONG).and_then(|along| along.try_normalize()),
+            offset: view.get(&distance::OFFSET),
+            text,
+            color: view.get(&distance::COLOR),
+        })
+    };
+    known.root.named(&scene::DISTANCE).into_iter().filter_map(read).collect()
+}
+
+/// Reads the texts at the tips of arrows.
+pub(super) fn arrow_names(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<ArrowName> {
+    let mut names = Vec::new();
+    let mut read = |owner: ArrowOwner, arrows: &View<'_>, key: &KeySpec, quantity: Quantity| {
+        let of = match owner {
+            ArrowOwner::Body(body) => Some(body),
+            ArrowOwner::Joint(_) => None,
+        };
+        let arrow = arrows.variant(key);
+        let text = arrow.and_then(|arrow| known.text(&arrow, &arrow::LABEL, of, context));
+        names.extend(text.map(|text| ArrowName { owner, quantity, text }));
+    };
+    for (number, body) in known.root.bodies().enumerate() {
+        // Most bodies have no arrows. The table of a copy is rebuilt each time that it is read.
+        if known.bodies.get(number).is_some_and(|body| body.showing.has_arrows()) {
+            body.look(|view| {
+                let arrows = view.table(&body::ARROWS);
+                for quantity in Quantity::OF_BODIES.into_iter().chain(Quantity::OF_LOADS) {
+                    let key = arrows::TABLE.key(quantity.name());
+                    key.into_iter().for_each(|key| read(ArrowOwner::Body(number), &arrows, key, quantity));
+                }
+            });
+        }
+    }
+    for (number, (_, _, view)) in known.root.named(&scene::JOINT).into_iter().enumerate() {
+        let arrows = view.chosen().and_then(|(_, kind)| kind.variant(&joints::ball::ARROWS));
+        for quantity in Quantity::OF_JOINTS {
+            let key = joint_arrows::TABLE.key(quantity.name());
+            key.into_iter()
+                .zip(&arrows)
+                .for_each(|(key, arrows)| read(ArrowOwner::Joint(number), arrows, key, quantity));
+        }
+    }
+    names
+}

@@ -1,0 +1,101 @@
+//! The grammar of the marks that name what is measured: angles and dimension lines.
+
+use super::Kind::{Color, Either, List, Named, Reference, Table, Text};
+use super::forces::end;
+use super::key::table;
+use super::kind::{AXIS, POSITIVE, VECTOR};
+use super::{Collection, KeySpec, Kind, Rule};
+
+pub(super) const ANGLE: KeySpec =
+    KeySpec::new("angle", Named(&angle::TABLE), "Angles, drawn as arcs between two directions")
+        .also(&["angles", "arc"]);
+pub(super) const DISTANCE: KeySpec = KeySpec::new(
+    "distance",
+    Named(&distance::TABLE),
+    "Dimension lines: distances, drawn as lines with their length",
+)
+.also(&["distances", "dimension", "dimensions", "length"]);
+
+/// A point: the center of a body, a point of a body, or a point of the world.
+static POINT_KINDS: [Kind; 3] = [Reference(Collection::Body), VECTOR, Table(&end::TABLE)];
+const POINT: Kind = Either(&POINT_KINDS);
+static LEG_KINDS: [Kind; 3] = [Text, AXIS, Table(&leg::TABLE)];
+const LEG: Kind = Either(&LEG_KINDS);
+
+table! {
+    angle: "an angle", Rule::Any;
+    AT: Any = KeySpec::new(
+        "at",
+        POINT,
+        "Its vertex: the name of a body (its center), a point of a body, or a point of the world",
+    )
+    .unit("m")
+    .required()
+    .also(&["vertex", "center", "location", "position"]),
+    FROM: Any = KeySpec::new(
+        "from",
+        LEG,
+        "Its first leg: a direction `[1, 0, 0]`, the name of a body that it points to, a point \
+         `{ body = \"bob\", at = [0, 0.1, 0] }` or `{ point = [0, 2, 0] }`, or a vector of a body: `\"ball.velocity\"`",
+    )
+    .required()
+    .also(&["start", "begin"]),
+    TO: Any = KeySpec::new("to", LEG, "Its second leg, likewise").required().also(&["end"]),
+    AXIS: Option<value::Axis> = KeySpec::new(
+        "axis",
+        super::AXIS,
+        "The axis about which it counts, counterclockwise from the first leg, from −180° to 180°",
+    )
+    .default("none: the angle between the legs, from 0° to 180°")
+    .also(&["about", "normal"]),
+    RADIUS: Option<f64> = KeySpec::new("radius", POSITIVE, "The radius of its arc")
+        .unit("m")
+        .default("a tenth of the picture's width")
+        .also(&["size"]),
+    TEXT: Option<value::Text> = KeySpec::new(
+        "text",
+        Text,
+        "Its text, with values as in a label: `\"α = ${angle.alpha:.0}°\"`",
+    )
+    .default("its name; as a Greek letter if the name spells one")
+    .also(&["label", "name"]),
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
+        .default("that of texts")
+        .also(&["colour"]),
+}
+
+table! {
+    /// The grammar of a leg that points to a point.
+    leg: "a leg of an angle", Rule::ExactlyOne(&["body", "point"]);
+    BODY: Option<value::Text> = KeySpec::new("body", Reference(Collection::Body), "The body that it points to"),
+    POINT: Option<DVec3> = KeySpec::new("point", VECTOR, "The point of the world that it points to").unit("m"),
+    AT: DVec3 = KeySpec::new("at", VECTOR, "With `body`, the point in the body's own axes, relative to its center of mass")
+        .unit("m")
+        .default_numbers(&[0.0, 0.0, 0.0])
+        .also(&["offset"]),
+}
+
+table! {
+    distance: "a distance", Rule::Any;
+    BETWEEN: Any = KeySpec::new(
+        "between",
+        List { of: &POINT, min: 2, max: 2 },
+        "Its ends: each the name of a body (its center), a point of a body, or a point of the world",
+    )
+    .unit("m")
+    .required()
+    .also(&["bodies", "ends", "points"]),
+    ALONG: Option<value::Axis> = KeySpec::new("along", AXIS, "The direction in which it is measured, such as `[0, 1, 0]` for a height")
+        .default("from end to end")
+        .also(&["direction", "axis"]),
+    OFFSET: DVec3 = KeySpec::new("offset", VECTOR, "The way from its ends to its line")
+        .unit("m")
+        .default_numbers(&[0.0, 0.0, 0.0])
+        .also(&["aside", "shift"]),
+    TEXT: Option<value::Text> = KeySpec::new("text", Text, "Its text, with values as in a label: `\"h = ${distance.h:.2} m\"`")
+        .default("the distance with its unit")
+        .also(&["label", "name"]),
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
+        .default("that of texts")
+        .also(&["colour"]),
+}

@@ -1,0 +1,120 @@
+//! The marks of a scene: angles, dimension lines, and the names of arrows.
+
+use glam::DVec3;
+
+use super::{Color, Piece, Quantity};
+use crate::physics::Anchor;
+
+/// An angle between two directions, drawn as an arc with its name.
+#[derive(Clone, Debug)]
+pub struct Angle {
+    /// The name of the angle, unique among angles.
+    pub name: String,
+    /// The point at which both legs of the angle begin.
+    pub vertex: Anchor,
+    /// The two legs. The angle counts from the first to the second.
+    pub legs: [Leg; 2],
+    /// The axis about which the angle turns, a unit vector in world axes: the angle is then that of the legs as seen along the axis, from
+    /// −180° to 180°. `None` for the angle between the legs, from 0° to 180°.
+    pub axis: Option<DVec3>,
+    /// The radius of the arc, m. `None` for a radius that is easy to see.
+    pub radius: Option<f64>,
+    /// The text at the arc.
+    pub text: Vec<Piece>,
+    /// The color of the arc and its text. `None` for the color of texts.
+    pub color: Option<Color>,
+}
+
+/// The direction of a leg of an angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Leg {
+    /// A fixed direction, a unit vector in world axes.
+    Along(DVec3),
+    /// The direction from the vertex to a point.
+    Towards(Anchor),
+    /// The direction of a quantity of the body with this index.
+    Of(usize, Quantity),
+}
+
+/// A dimension line: a line with the distance that it measures.
+#[derive(Clone, Debug)]
+pub struct Distance {
+    /// The name of the distance, unique among distances.
+    pub name: String,
+    /// The two points between which it is measured.
+    pub between: [Anchor; 2],
+    /// The direction along which it is measured, a unit vector in world axes. `None` for the direction from point to point.
+    pub along: Option<DVec3>,
+    /// The way from the points to the drawn line, m, in world axes.
+    pub offset: DVec3,
+    /// The text at the line. `None` for the distance with its unit.
+    pub text: Option<Vec<Piece>>,
+    /// The color of the line and its text. `None` for the color of texts.
+    pub color: Option<Color>,
+}
+
+/// The text at the tip of an arrow.
+#[derive(Clone, Debug)]
+pub struct ArrowName {
+    /// The body or joint that has the arrow.
+    pub owner: ArrowOwner,
+    /// The quantity that the arrow shows.
+    pub quantity: Quantity,
+    /// The text.
+    pub text: Vec<Piece>,
+}
+
+/// The body or joint that has an arrow, by its index in the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ArrowOwner {
+    /// A body.
+    Body(usize),
+    /// A joint.
+    Joint(usize),
+}
+
+/// The Greek letters by their English names.
+const GREEK: [(&str, &str); 24] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "ε"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θ"),
+    ("iota", "ι"),
+    ("kappa", "κ"),
+    ("lambda", "λ"),
+    ("mu", "μ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("omicron", "ο"),
+    ("pi", "π"),
+    ("rho", "ρ"),
+    ("sigma", "σ"),
+    ("tau", "τ"),
+    ("upsilon", "υ"),
+    ("phi", "φ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+];
+
+impl Angle {
+    /// The usual text of an angle: the Greek letter that its name spells, or the name itself.
+    pub fn usual_text(name: &str) -> &str {
+        GREEK.iter().find(|(word, _)| *word == name).map_or(name, |(_, letter)| letter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_spells_a_greek_letter_is_written_as_the_letter() {
+        assert_eq!((Angle::usual_text("alpha"), Angle::usual_text("launch")), ("α", "launch"));
+        assert!(GREEK.iter().all(|(_, letter)| letter.chars().all(crate::font::has)));
+    }
+}
