@@ -41,7 +41,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         plots: _,
         angles: _,
         distances: _,
-        arrow_names: _,
+        arrow_marks: _,
         scale_bar: _,
         grid: _,
         povray: _,

@@ -1,4 +1,4 @@
-//! The marks of a scene: angles, dimension lines, and the names of arrows.
+//! The marks of a scene: angles, dimension lines, and the texts and components of arrows.
 
 use glam::DVec3;
 
@@ -53,15 +53,26 @@ pub struct Distance {
     pub color: Option<Color>,
 }
 
-/// The text at the tip of an arrow.
+/// What is drawn with an arrow: a text at its tip, and its components.
 #[derive(Clone, Debug)]
-pub struct ArrowName {
+pub struct ArrowMark {
     /// The body or joint that has the arrow.
     pub owner: ArrowOwner,
     /// The quantity that the arrow shows.
     pub quantity: Quantity,
-    /// The text.
-    pub text: Vec<Piece>,
+    /// The text at the tip. `None` for no text.
+    pub text: Option<Vec<Piece>>,
+    /// The components of the arrow. `None` if they are not drawn.
+    pub components: Option<Components>,
+}
+
+/// The two components of an arrow: the one along a direction, and the one across it.
+#[derive(Clone, Debug)]
+pub struct Components {
+    /// The direction, a unit vector in world axes.
+    pub along: DVec3,
+    /// The texts at the tips of both components. `None` for no texts.
+    pub texts: Option<[Vec<Piece>; 2]>,
 }
 
 /// The body or joint that has an arrow, by its index in the scene.

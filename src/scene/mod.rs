@@ -123,7 +123,7 @@ pub use look::{
     Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
-pub use mark::{Angle, ArrowName, ArrowOwner, Distance, Leg};
+pub use mark::{Angle, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
@@ -183,8 +183,8 @@ pub struct Scene {
     pub angles: Vec<Angle>,
     /// The dimension lines in the picture, in the order of the file.
     pub distances: Vec<Distance>,
-    /// The texts at the tips of arrows: first those of bodies, then those of joints.
-    pub arrow_names: Vec<ArrowName>,
+    /// The texts and components of arrows: first those of bodies, then those of joints.
+    pub arrow_marks: Vec<ArrowMark>,
     /// The scale bar in the picture. `None` if the scene has no scale bar.
     pub scale_bar: Option<ScaleBar>,
     /// The grid in the picture. `None` if the scene has no grid.

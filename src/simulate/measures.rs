@@ -61,7 +61,7 @@ impl Measures {
         let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
         let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
         let has_marks =
-            !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_names.is_empty();
+            !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_marks.is_empty();
         Measures { bodies: if has_labels || has_marks { scene.bodies.clone() } else { Vec::new() }, joints }
     }
 

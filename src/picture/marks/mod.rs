@@ -4,12 +4,14 @@
 //! lists: scripts, page, room for texts. A new kind of mark is one file here, and a line in [`Marks::new`].
 
 mod angle;
+mod arrow;
 mod distance;
 mod note;
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
+pub(super) use self::arrow::ArrowMarks;
 pub(super) use self::note::{Note, Says, place};
 
 use super::camera::Placed;

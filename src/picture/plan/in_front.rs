@@ -3,9 +3,8 @@
 use super::Plan;
 use crate::picture::arrows::{Arrow, ArrowOwner};
 use crate::picture::in_front::lift_from_link;
-use crate::picture::marks::{Note, Says, Scale, Sketch};
+use crate::picture::marks::{Scale, Sketch};
 use crate::picture::thing::{Form, Thing};
-use crate::scene;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
@@ -22,6 +21,7 @@ impl Plan {
             marks.push(axes);
         }
         marks.extend(arrows.map(|arrow| self.arrows.thing(&arrow)));
+        marks.extend(self.sketch_of_arrows(frame).things);
         marks.extend(self.sketch(frame).things);
         marks
     }
@@ -50,21 +50,12 @@ impl Plan {
         sketch
     }
 
-    /// The notes at the tips of arrows.
-    pub(super) fn names_of_arrows(&self, frame: &Frame) -> Vec<Note<'_>> {
-        if self.arrow_names.is_empty() {
-            return Vec::new();
+    /// The texts and components of the arrows of a frame.
+    pub(super) fn sketch_of_arrows(&self, frame: &Frame) -> Sketch<'_> {
+        if self.arrow_marks.is_empty() {
+            return Sketch::default();
         }
-        let note = |arrow: &Arrow| {
-            let owner = match arrow.owner {
-                ArrowOwner::Body(body) => scene::ArrowOwner::Body(body),
-                ArrowOwner::Joint { joint, .. } => scene::ArrowOwner::Joint(joint),
-            };
-            let (name, text) = self.arrow_names.get(&(owner, arrow.quantity))?;
-            let away = (arrow.to - arrow.from).normalize_or_zero();
-            Some(Note { name, says: Says::Text(text), at: arrow.to, away, color: arrow.color })
-        };
-        self.arrows_in_front(frame).iter().filter_map(note).collect()
+        self.arrow_marks.sketch(&self.arrows_in_front(frame), &self.arrows, self.sizes(frame).stroke)
     }
 
     /// The arrows of a frame, moved in front of what would hide them.

@@ -7,7 +7,6 @@ mod tests;
 mod written;
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 
 pub use largest::Largest;
 pub use written::Written;
@@ -22,7 +21,7 @@ use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
-use super::marks::Marks;
+use super::marks::{ArrowMarks, Marks};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{CurveNow, PlannedPlot, Plots};
 use super::scope::{Part, Scope};
@@ -32,7 +31,7 @@ use super::stage::{Scenery, Stage, stroke};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{ArrowName, ArrowOwner, Camera, Piece, Quantity, Scene};
+use crate::scene::{Camera, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
@@ -57,8 +56,7 @@ pub struct Plan {
     plots: Plots,
     /// Angles and dimension lines.
     marks: Marks,
-    /// The names of arrows, each with its name in scripts and its text.
-    arrow_names: HashMap<(ArrowOwner, Quantity), (String, Vec<Piece>)>,
+    arrow_marks: ArrowMarks,
     /// The image plane at the start. `None` if the pictures have no texts.
     screen: Option<Screen>,
     /// The sizes of arrows and lines for the camera at the start.
@@ -81,19 +79,9 @@ struct Sizes {
 
 /// True if the pictures of a scene have texts: labels, plots, names of arrows, angles, distances, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
-    let has_marks = !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_names.is_empty();
+    let has_marks = !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_marks.is_empty();
     let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
     has_labels || has_marks || scene.grid.is_some() || scene.scale_bar.is_some()
-}
-
-/// The name of an arrow: the arrow, its name in scripts, and its text.
-fn arrow_name(scene: &Scene, name: &ArrowName) -> ((ArrowOwner, Quantity), (String, Vec<Piece>)) {
-    let owner = match name.owner {
-        ArrowOwner::Body(body) => &*scene.bodies[body].name,
-        ArrowOwner::Joint(joint) => &scene.joints[joint].name,
-    };
-    let words = format!("{owner}, {}", name.quantity.name());
-    ((name.owner, name.quantity), (words, name.text.clone()))
 }
 
 impl Plan {
@@ -162,7 +150,7 @@ impl Plan {
             labels: Labels::new(scene, ink, plots.areas()),
             plots,
             marks: Marks::new(scene, ink),
-            arrow_names: scene.arrow_names.iter().map(|name| arrow_name(scene, name)).collect(),
+            arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),
             part: scope.part,

@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use super::Plan;
 use crate::picture::bar::Bar;
-use crate::picture::marks;
+use crate::picture::marks::{self, Note};
 use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
 use crate::picture::text::Text;
+use crate::picture::thing::Thing;
 use crate::simulate::{Frame, MomentState};
 
 /// The texts of a frame, by kind.
@@ -57,13 +58,14 @@ impl Plan {
         let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
         let sketch = self.sketch(frame);
-        let mut notes = self.names_of_arrows(frame);
-        notes.extend(sketch.notes);
+        let of_arrows = self.sketch_of_arrows(frame);
+        let things: Vec<Thing<'_>> = of_arrows.things.into_iter().chain(sketch.things).collect();
+        let notes: Vec<Note<'_>> = of_arrows.notes.into_iter().chain(sketch.notes).collect();
         let mut named = Vec::new();
         if labels.len() < self.labels.count() || !notes.is_empty() {
             let before = labels.len();
             self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
-            for (ends, width) in sketch.things.iter().flat_map(|thing| thing.form.avoided()) {
+            for (ends, width) in things.iter().flat_map(|thing| thing.form.avoided()) {
                 room.cross(ends, width, &screen);
             }
             let mut beside = Occupancy::new(room.aspect());

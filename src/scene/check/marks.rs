@@ -1,4 +1,4 @@
-//! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the names of arrows.
+//! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the texts and components of arrows.
 
 use super::label::pieces;
 use super::view::View;
@@ -13,7 +13,8 @@ use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowName, ArrowOwner, Body, Corner, Distance, Joint, LabelPlace, Leg, Piece, Quantity, Side, read,
+    Angle, ArrowMark, ArrowOwner, Body, Components, Corner, Distance, Joint, LabelPlace, Leg, Piece,
+    Quantity, Side, read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -36,12 +37,16 @@ impl Known<'_, '_> {
         of: Option<usize>,
         context: &mut Context<'_>,
     ) -> Option<Vec<Piece>> {
+        Some(self.pieces(view.get(key).zip(view.span(key))?, of, context))
+    }
+
+    /// Reads a text with values. `of` is the body whose measures need no name.
+    fn pieces(self, (text, span): (&str, Span), of: Option<usize>, context: &mut Context<'_>) -> Vec<Piece> {
         let place = match of {
             Some(body) => LabelPlace::Body { body, side: Side::Above, ghosts: false },
             None => LabelPlace::Corner(Corner::TopLeft),
         };
-        let (text, span) = view.get(key).zip(view.span(key))?;
-        Some(pieces(text, span, self.root, place, self.bodies, self.joints, context))
+        pieces(text, span, self.root, place, self.bodies, self.joints, context)
     }
 }
 
@@ -158,17 +163,31 @@ pub(super) fn distances(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<
     known.root.named(&scene::DISTANCE).into_iter().filter_map(read).collect()
 }
 
-/// Reads the texts at the tips of arrows.
-pub(super) fn arrow_names(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<ArrowName> {
-    let mut names = Vec::new();
+/// Reads the texts and components of arrows.
+pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<ArrowMark> {
+    let mut marks = Vec::new();
     let mut read = |owner: ArrowOwner, arrows: &View<'_>, key: &KeySpec, quantity: Quantity| {
+        let Some(view) = arrows.variant(key) else { return };
         let of = match owner {
             ArrowOwner::Body(body) => Some(body),
             ArrowOwner::Joint(_) => None,
         };
-        let arrow = arrows.variant(key);
-        let text = arrow.and_then(|arrow| known.text(&arrow, &arrow::LABEL, of, context));
-        names.extend(text.map(|text| ArrowName { owner, quantity, text }));
+        let text = known.text(&view, &arrow::LABEL, of, context);
+        let mut texts = view.list(&arrow::COMPONENT_LABELS).unwrap_or_default().iter();
+        let mut next = || {
+            let node = texts.next()?;
+            Some(known.pieces((node.as_str()?, node.span), of, context))
+        };
+        let texts = next().zip(next()).map(|(along, across)| [along, across]);
+        let components = view.get(&arrow::COMPONENTS);
+        if let (None, Some(span)) = (components, view.key_span(&arrow::COMPONENT_LABELS)) {
+            let message = "`component_labels` has no effect without `components`";
+            context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));
+        }
+        let components = components.map(|along| Components { along: along.normalize(), texts });
+        if text.is_some() || components.is_some() {
+            marks.push(ArrowMark { owner, quantity, text, components });
+        }
     };
     for (number, body) in known.root.bodies().enumerate() {
         // Most bodies have no arrows. The table of a copy is rebuilt each time that it is read.
@@ -191,5 +210,5 @@ pub(super) fn arrow_names(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
                 .for_each(|(key, arrows)| read(ArrowOwner::Joint(number), arrows, key, quantity));
         }
     }
-    names
+    marks
 }

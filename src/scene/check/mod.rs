@@ -347,10 +347,10 @@ fn build(
     let known = marks::Known { root: &root, bodies: &bodies, joints: &joints };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
-    let arrow_names = marks::arrow_names(known, context);
+    let arrow_marks = marks::arrow_marks(known, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     let has_labels = !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some();
-    let has_marks = !angles.is_empty() || !distances.is_empty() || !arrow_names.is_empty();
+    let has_marks = !angles.is_empty() || !distances.is_empty() || !arrow_marks.is_empty();
     if has_labels || has_marks {
         asset::add_font(&mut povray.assets);
     }
@@ -366,7 +366,7 @@ fn build(
         plots,
         angles,
         distances,
-        arrow_names,
+        arrow_marks,
         scale_bar,
         grid,
         pairs: std::mem::take(&mut context.pairs),

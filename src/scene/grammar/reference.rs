@@ -407,6 +407,43 @@ label, it moves to another side, or farther away. It hides the grid numbers that
 | --- | --- |
 ";
 
+/// The documentation section on angles, distances and the texts of arrows.
+const MARKS: &str = "
+## Angles, distances, names of arrows
+
+```toml
+[simulation]
+gravity = [0, -9.81, 0]
+
+[body.bob]
+shape.sphere.radius = 0.1
+location = [1, 1, 0]
+arrows.weight = { label = \"G\", components = [1, 1, 0], component_labels = [\"G₁\", \"G₂\"] }
+arrows.velocity.label = \"v = ${speed:.1} m/s\"
+
+[joint.string.rod]
+between = [[0, 2, 0], \"bob\"]
+
+[angle.phi]
+at = [0, 2, 0]
+from = [0, -1, 0]
+to = \"bob\"
+text = \"φ = ${angle.phi:.0}°\"
+
+[distance.h]
+between = [[0, 0, 0], \"bob\"]
+along = [0, 1, 0]
+offset = [1.5, 0, 0]
+```
+
+An angle is an arc between two legs that begin at one point. A leg is a direction, or points to a body or a point, or along the velocity, acceleration or
+force of a body. Without `axis`, the angle is that between the legs, from 0° to 180°. With `axis`, it counts counterclockwise about the axis, as seen
+along it, from −180° to 180°. A distance is a dimension line. `offset` moves the line away from its ends, and `along` measures in one direction only. Without a
+`text`, an angle shows its name (`alpha` as α), and a distance shows its length.
+
+`label` writes a text at the tip of an arrow. `components` draws the components of the vector along a direction and across it, too. Texts stand where there is
+room: they move aside for arrows, bodies and each other.
+";
 /// The documentation section on plots.
 const PLOTS: &str = "
 ## Plots
@@ -492,6 +529,7 @@ impl Page {
             let _ = writeln!(self.text, "| `{name}` | {what} |");
         }
         self.text.push_str(PLOTS);
+        self.text.push_str(MARKS);
     }
 
     fn row(&mut self, key: &KeySpec) {

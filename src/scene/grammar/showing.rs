@@ -1,8 +1,8 @@
 //! The grammar of the keys that visualize physics: arrows, axes, ghosts, trails and the look of springs.
 
-use super::Kind::{Boolean, Choice, Color, Either, Integer, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Table, Text};
 use super::key::table;
-use super::kind::{POSITIVE, VECTOR};
+use super::kind::{AXIS, POSITIVE, VECTOR};
 use super::{KeySpec, Kind, Rule};
 
 static AXES_KINDS: [Kind; 2] = [Boolean, Table(&axes::TABLE)];
@@ -105,9 +105,23 @@ table! {
         )
         .also(&["length", "factor", "size"]),
     COLOR: Option<value::Color> = super::COLOR.default("that of its kind"),
-    LABEL: Option<value::Text> = KeySpec::new("label", Text, "The text at its tip, with values as in a label: `\"v\"`")
+    LABEL: Option<value::Text> = KeySpec::new("label", Text, "The text at its tip, with values as in a label: `\"v = ${speed:.1}\"`")
         .default("none")
         .also(&["text", "name", "caption"]),
+    COMPONENTS: Option<value::Axis> = KeySpec::new(
+        "components",
+        AXIS,
+        "A direction: its components along and across the direction are drawn, too, as thinner arrows",
+    )
+    .default("none")
+    .also(&["component", "along", "split"]),
+    COMPONENT_LABELS: Any = KeySpec::new(
+        "component_labels",
+        List { of: &Text, min: 2, max: 2 },
+        "The texts at the tips of both components",
+    )
+    .default("none")
+    .also(&["component_texts", "component_names"]),
 }
 
 table! {

@@ -1,0 +1,91 @@
+//! What is drawn with arrows: a text at the tip, and components along and across a direction.
+
+use std::collections::HashMap;
+
+use super::{HELPING_LINE_RADIUS, Note, Says, Sketch};
+use crate::picture::arrows::{self, Arrow, Arrows};
+use crate::picture::thing::{Form, Line, Thing};
+use crate::scene::{ArrowMark, ArrowOwner, Piece, Quantity, Scene};
+
+/// The radius of a component's shaft, relative to that of its arrow.
+const COMPONENT_RADIUS: f64 = 0.7;
+/// The length below which a component is omitted, relative to its arrow.
+const MIN_COMPONENT: f64 = 1e-3;
+
+/// The texts and components of the arrows of a scene.
+#[derive(Clone, Debug)]
+pub(in crate::picture) struct ArrowMarks {
+    marks: HashMap<(ArrowOwner, Quantity), Named>,
+}
+
+/// A mark, with the name of its arrow in scripts.
+#[derive(Clone, Debug)]
+struct Named {
+    name: String,
+    mark: ArrowMark,
+}
+
+impl ArrowMarks {
+    pub(in crate::picture) fn new(scene: &Scene) -> ArrowMarks {
+        let mark = |mark: &ArrowMark| {
+            let owner = match mark.owner {
+                ArrowOwner::Body(body) => &*scene.bodies[body].name,
+                ArrowOwner::Joint(joint) => &scene.joints[joint].name,
+            };
+            let name = format!("{owner}, {}", mark.quantity.name());
+            ((mark.owner, mark.quantity), Named { name, mark: mark.clone() })
+        };
+        ArrowMarks { marks: scene.arrow_marks.iter().map(mark).collect() }
+    }
+
+    pub(in crate::picture) fn is_empty(&self) -> bool {
+        self.marks.is_empty()
+    }
+
+    /// Draws the texts and components of arrows. `stroke` is the width of a clearly visible line, m.
+    pub(in crate::picture) fn sketch(&self, arrows: &[Arrow], of: &Arrows, stroke: f64) -> Sketch<'_> {
+        let mut sketch = Sketch::default();
+        for arrow in arrows {
+            let owner = match arrow.owner {
+                arrows::ArrowOwner::Body(body) => ArrowOwner::Body(body),
+                arrows::ArrowOwner::Joint { joint, .. } => ArrowOwner::Joint(joint),
+            };
+            let Some(named) = self.marks.get(&(owner, arrow.quantity)) else { continue };
+            named.draw(arrow, of, stroke, &mut sketch);
+        }
+        sketch
+    }
+}
+
+impl Named {
+    fn draw<'a>(&'a self, arrow: &Arrow, of: &Arrows, stroke: f64, sketch: &mut Sketch<'a>) {
+        let mut note = |arrow: &Arrow, text: &'a [Piece]| {
+            let away = (arrow.to - arrow.from).normalize_or_zero();
+            let Arrow { to: at, color, .. } = *arrow;
+            sketch.notes.push(Note { name: &self.name, says: Says::Text(text), at, away, color });
+        };
+        if let Some(text) = &self.mark.text {
+            note(arrow, text);
+        }
+        let Some(components) = &self.mark.components else { return };
+        let whole = arrow.to - arrow.from;
+        let along = components.along * whole.dot(components.along);
+        let mut helping = Vec::new();
+        for (number, way) in [along, whole - along].into_iter().enumerate() {
+            if way.length() <= MIN_COMPONENT * whole.length() {
+                continue;
+            }
+            let to = arrow.from + way;
+            let component = Arrow { to, radius: COMPONENT_RADIUS * arrow.radius, ..*arrow };
+            sketch.things.push(of.thing(&component));
+            helping.push(Line { from: to, to: arrow.to, radius: HELPING_LINE_RADIUS * stroke });
+            if let Some(texts) = &components.texts {
+                note(&component, &texts[number]);
+            }
+        }
+        if helping.len() == 2 {
+            let name = format!("{}, components", self.name).into();
+            sketch.things.push(Thing { name, form: Form::Lines(helping), color: arrow.color });
+        }
+    }
+}
