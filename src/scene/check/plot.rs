@@ -10,7 +10,7 @@ use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Any, Key};
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Body, Curve, Joint, LabelPlace, MeasureFormula, Plot, PlotPlace};
+use crate::scene::{Body, Curve, Joint, MeasureFormula, Plot, PlotPlace};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -147,7 +147,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             text,
             span,
             root: self.root,
-            place: LabelPlace::Corner(crate::scene::Corner::TopRight),
+            own: None,
             bodies: self.bodies,
             joints: self.joints,
             context: self.context,
