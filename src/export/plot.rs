@@ -1,17 +1,22 @@
 //! Writes a plot of a scene as a drawing (SVG), with the curves of the whole run.
 
-use std::fmt::Write as _;
 use std::io::Write;
 
 use super::ExportError;
 use super::format::{Contents, DRAWING, FileKind, Format};
 use crate::picture::{PlannedPlot, plot_alone};
-use crate::report::plot::escaped;
 use crate::scene::Color;
 use crate::simulate::{Recorded, Selection};
+use crate::svg::{Anchor, HALF_OF_LETTERS, Svg};
 
 /// The width of the drawing, pixels.
 const WIDTH: f64 = 800.0;
+/// The width of the lines of grid and axes, pixels.
+const RULED: f64 = 1.0;
+/// The width of the curves, pixels.
+const DRAWN: f64 = 2.0;
+/// The fonts of the texts. Their letters are as wide as those in pictures.
+const FONTS: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// The drawing of a plot, given by its index in the scene.
 #[derive(Clone, Copy, Debug)]
@@ -44,52 +49,26 @@ impl Format for PlotDrawing {
 fn svg(plot: &PlannedPlot) -> String {
     let scale = WIDTH / plot.size[0];
     let high = plot.size[1] * scale;
-    let at = |[x, y]: [f64; 2]| format!("{:.2},{:.2}", x * scale, high - y * scale);
-    let bottom = plot.bottom.above_middle(1.0);
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{high:.0}\" viewBox=\"0 0 {WIDTH} {high:.2}\" \
-         font-family=\"DejaVu Sans, Verdana, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
-    );
-    // Writing to a string cannot fail.
+    let at = |[x, y]: [f64; 2]| [x * scale, high - y * scale];
+    let mut svg = Svg::new([WIDTH, high], Color::WHITE.bytes(), FONTS);
     for line in &plot.lines {
-        let (points, color) = ([line.from, line.to].map(at).join(" "), hex(line.color));
-        let _ = writeln!(out, "<polyline points=\"{points}\" stroke=\"{color}\"/>");
+        svg.line([line.from, line.to].map(at), RULED, line.color.bytes());
     }
     for curve in &plot.curves {
         for part in curve.points.split(|point| point.at.is_none()).filter(|part| part.len() > 1) {
-            let points: Vec<String> = part.iter().filter_map(|point| point.at.map(at)).collect();
-            let _ = writeln!(
-                out,
-                "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" stroke-linejoin=\"round\"/>",
-                points.join(" "),
-                hex(curve.color)
-            );
+            svg.line(part.iter().filter_map(|point| point.at.map(at)), DRAWN, curve.color.bytes());
         }
     }
+    let bottom = plot.bottom.above_middle(1.0);
     for text in &plot.texts {
-        let place = [text.x - plot.left, text.y.above_middle(1.0) - bottom];
-        let (x, y) = (place[0] * scale, high - place[1] * scale);
+        let middle = text.y.above_middle(1.0) + HALF_OF_LETTERS * text.height;
         let anchor = match text.align {
-            0.0 => "start",
-            1.0 => "end",
-            _ => "middle",
+            0.0 => Anchor::Start,
+            1.0 => Anchor::End,
+            _ => Anchor::Middle,
         };
-        let (size, color, words) = (text.height * scale, hex(text.color), escaped(&text.says));
-        let _ = writeln!(
-            out,
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size:.2}\" text-anchor=\"{anchor}\" fill=\"{color}\">{words}</text>"
-        );
+        let place = at([text.x - plot.left, middle - bottom]);
+        svg.text(place, &text.says, anchor, text.height * scale, text.color.bytes());
     }
-    out.push_str("</svg>\n");
-    out
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the parts of a color are from 0 to 1"
-)]
-fn hex(Color(parts): Color) -> String {
-    let [red, green, blue] = parts.map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u8);
-    format!("#{red:02x}{green:02x}{blue:02x}")
+    svg.finish()
 }

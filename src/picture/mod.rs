@@ -50,7 +50,7 @@ pub use arrows::{Arrow, ArrowOwner, Axes};
 pub use bar::Bar;
 pub use camera::{Lens, Placed};
 pub use colors::pale;
-pub(crate) use framing::{decimal_step, rounded_outward};
+pub(crate) use framing::rounded_outward;
 pub use grid::{Grid, Line};
 pub use lights::{Lamp, PlacedLight};
 pub use links::{Link, LinkKind, LinkShape, PlannedLink};

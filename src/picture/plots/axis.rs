@@ -1,7 +1,7 @@
 //! The axes of plots: their ranges, and the numbers beside them.
 
-use super::super::framing::decimal_step;
 use super::super::number::typeset;
+use crate::decimal::{decimal_step, round_above};
 
 /// A range of numbers is flat if it is smaller than this part of the numbers: the difference is then rounding.
 const FLAT: f64 = 1e-9;
@@ -57,7 +57,7 @@ impl Axis {
             true => (low.min(0.0) * 2.0, high.max(0.0) * 2.0),
             false => (low, high),
         };
-        let step = round_up((high - low) / count.max(1.0)).max(if range.is_count { 1.0 } else { 0.0 });
+        let step = round_above((high - low) / count.max(1.0)).max(if range.is_count { 1.0 } else { 0.0 });
         let part = step / 4.0;
         let (low, high) = match range.is_wider {
             true => (libm::floor(low / part + 1e-9) * part, libm::ceil(high / part - 1e-9) * part),
@@ -111,13 +111,6 @@ impl Axis {
 #[allow(clippy::cast_possible_truncation, reason = "exponents of f64 are small")]
 fn exponent_of(number: f64) -> i32 {
     libm::round(libm::log10(decimal_step(number))) as i32
-}
-
-/// Returns the smallest of 1, 2 and 5 times a power of ten that is not below a positive number.
-fn round_up(number: f64) -> f64 {
-    let power = decimal_step(number);
-    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * power >= number * (1.0 - 1e-9));
-    digit.unwrap_or(10.0) * power
 }
 
 #[cfg(test)]

@@ -377,18 +377,7 @@ fn unit(plot: &Plot) -> &'static str {
 
 /// The colors of the curves: that of the only body in a formula, or else one of a palette whose colors can be told apart.
 fn colors(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
-    /// The colors of Okabe and Ito, which people with any color vision can tell apart, with a gray and a brown for the black and the yellow.
-    const PALETTE: [Color; Plot::MAX_CURVES] = [
-        Color([0.0, 0.447, 0.698]),
-        Color([0.835, 0.369, 0.0]),
-        Color([0.0, 0.62, 0.451]),
-        Color([0.8, 0.475, 0.655]),
-        Color([0.337, 0.706, 0.914]),
-        Color([0.902, 0.624, 0.0]),
-        Color([0.35, 0.35, 0.38]),
-        Color([0.55, 0.34, 0.16]),
-    ];
-    let mut free = PALETTE.into_iter().cycle();
+    let mut free = Color::OF_CURVES.into_iter().cycle();
     let mut colors: Vec<Color> = Vec::new();
     for curve in &plot.curves {
         let material = curve.y.body().and_then(|body| scene.bodies[body].material);
@@ -400,11 +389,11 @@ fn colors(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
         let color = own.or_else(|| {
             let mut palette = free
                 .by_ref()
-                .take(PALETTE.len())
+                .take(Color::OF_CURVES.len())
                 .map(|color| if dark { mixed(color, Color::WHITE, 0.25) } else { color });
             palette.find(|color| colors.iter().all(|other| difference(*color, *other) > 0.1))
         });
-        colors.push(color.unwrap_or(PALETTE[0]));
+        colors.push(color.unwrap_or(Color::OF_CURVES[0]));
     }
     colors
 }

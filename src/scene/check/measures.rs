@@ -97,7 +97,8 @@ impl Reader<'_, '_, '_> {
             }
         }
         for (name, measure) in dotted {
-            let of_ghost = matches!((self.own, measure), (Some(own), Measure::Body(body, _)) if body == own.body);
+            let of_ghost =
+                matches!((self.own, measure), (Some(own), Measure::Body(body, _)) if body == own.body);
             if with_run || of_ghost {
                 add(&name, measure);
             }
