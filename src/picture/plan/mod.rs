@@ -7,6 +7,7 @@ mod tests;
 mod written;
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 pub use largest::Largest;
 pub use written::Written;
@@ -30,7 +31,7 @@ use super::stage::{Scenery, Stage, stroke};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
 use crate::scene::{Camera, Quantity, Scene};
-use crate::simulate::{Bounds, Frame, Ghost, Survey};
+use crate::simulate::{Bounds, Frame, Ghost, Measures, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
 /// picture.
@@ -126,7 +127,8 @@ impl Plan {
         let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
-        let plots = Plots::new(scene, survey);
+        let measures = Arc::new(Measures::new(scene));
+        let plots = Plots::new(scene, survey, Arc::clone(&measures));
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
         Plan {
             lights_move: lights.moves(),
@@ -140,7 +142,7 @@ impl Plan {
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
             bar,
-            labels: Labels::new(scene, ink, plots.areas()),
+            labels: Labels::new(scene, ink, plots.areas(), measures),
             plots,
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),
