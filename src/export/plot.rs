@@ -107,12 +107,25 @@ mod tests {
         rest.split_once('"').unwrap().0
     }
 
-    /// Returns a function from positions along an axis to values, as a reader finds it from the first and the last number at the axis. The
-    /// numbers have this anchor, and their positions this attribute.
+    /// Returns the points of a line.
+    fn points(line: &str) -> Vec<[f64; 2]> {
+        let points = attribute(line, "points").split(' ').map(|point| point.split_once(',').unwrap());
+        points.map(|(x, y)| [x, y].map(|part| part.parse().unwrap())).collect()
+    }
+
+    /// Returns a function from positions along an axis to values, as a reader finds it from the first and the last number at the axis, and the
+    /// lines of the grid beside these numbers. The numbers have this anchor, and their positions this attribute.
     fn scale(svg: &str, anchor: &str, position: &str) -> impl Fn(f64) -> f64 {
+        let axis = usize::from(position == "y");
+        let lines = svg.lines().filter(|line| line.starts_with("<polyline")).map(points);
+        let lines = lines.filter(|points| points[0][axis] == points[points.len() - 1][axis]);
+        let lines: Vec<f64> = lines.map(|points| points[0][axis]).collect();
         let number = |element: &str| {
             let words = element.split_once('>')?.1.strip_suffix("</text>")?.replace('−', "-");
-            Some((attribute(element, position).parse::<f64>().ok()?, words.parse::<f64>().ok()?))
+            let at = attribute(element, position).parse::<f64>().ok()?;
+            let line =
+                lines.iter().min_by(|one, other| (**one - at).abs().total_cmp(&(**other - at).abs()))?;
+            Some((*line, words.parse::<f64>().ok()?))
         };
         let texts = svg.lines().filter(|line| line.starts_with("<text"));
         let numbers = texts.filter(|text| attribute(text, "text-anchor") == anchor).filter_map(number);
@@ -138,11 +151,7 @@ mod tests {
         let is_curve = |line: &&str| line.starts_with("<polyline") && attribute(line, "stroke-width") == "2";
         let curves: Vec<&str> = svg.lines().filter(is_curve).collect();
         let [curve] = curves[..] else { panic!("{svg}") };
-        let points: Vec<[f64; 2]> = attribute(curve, "points")
-            .split(' ')
-            .map(|point| point.split_once(',').unwrap())
-            .map(|(x, y)| [time(x.parse().unwrap()), height(y.parse().unwrap())])
-            .collect();
+        let points: Vec<[f64; 2]> = points(curve).into_iter().map(|[x, y]| [time(x), height(y)]).collect();
         assert!(points.len() > 10, "{points:?}");
         let [[begin, top], .., [end, bottom]] = points[..] else { panic!("{points:?}") };
         for (found, expected) in [(begin, 0.0), (top, 0.0), (end, 2.0), (bottom, -20.0)] {
