@@ -53,9 +53,12 @@ pub(super) fn write(
                 array(out, "local", &name(number, k), &curve.points[..drawn]);
             }
             let mut draw = |count: usize, here: Option<[f64; 2]>, layer: usize, ink: &str| {
-                let known = curve.points[..count].iter().filter(|point| point.at.is_some()).count();
+                let points = &curve.points[..count];
+                let known = points.iter().filter(|point| point.at.is_some()).count();
+                let is_beyond =
+                    here.is_some() && point(here) != point(points.last().and_then(|last| last.at));
                 // POV-Ray warns about a union of one object.
-                if known > 0 && known + usize::from(here.is_some()) > 1 {
+                if known > 0 && known + usize::from(is_beyond) > 1 {
                     let (name, here) = (name(number, k), point(here));
                     let _ = writeln!(out, "Curve({corner}, {name}, {count}, {here}, {layer}, {ink})");
                 }
