@@ -23,7 +23,7 @@ use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::{Link, Links, PlannedLink};
 use super::not_drawn::{self, NotDrawn};
-use super::plots::{CurveNow, PlannedPlot, Plots};
+use super::plots::{CurveNow, PlannedPlot, Plots, UnseenPlot};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
@@ -61,6 +61,7 @@ pub struct Plan {
     /// The part of the run that the camera frames.
     part: Part,
     not_drawn: Vec<NotDrawn>,
+    unseen_plots: Vec<UnseenPlot>,
 }
 
 /// The sizes of arrows and lines in a picture.
@@ -136,6 +137,7 @@ impl Plan {
             arrows,
             planes: Planes::new(scene, &stage),
             not_drawn: not_drawn::find(scene, survey, &links, narrowest, bar_at_start),
+            unseen_plots: plots.unseen(scene, survey),
             links,
             ghosts: Ghosts::new(scene),
             trails: Trails::new(scene, stroke(narrowest, scene.output)),
@@ -314,9 +316,14 @@ impl Plan {
         self.part
     }
 
-    /// The requested things that no picture shows.
+    /// The requested things that no picture shows, except plots.
     pub fn not_drawn(&self) -> &[NotDrawn] {
         &self.not_drawn
+    }
+
+    /// The plots without room in the picture, and the curves of which no picture shows a point.
+    pub fn unseen_plots(&self) -> &[UnseenPlot] {
+        &self.unseen_plots
     }
 
     /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be too small in a picture of the whole

@@ -8,6 +8,7 @@ mod clip;
 mod colors;
 mod panel;
 mod room;
+mod unseen;
 
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use self::axis::{Axis, Range};
 use self::clip::{clipped, simplified};
 use self::colors::mixed;
 use self::panel::{Legend, Panel};
-use self::room::Room;
+use self::room::{Room, column};
 use super::colors::ink;
 use super::occupancy::Rectangle;
 use super::text::{Text, Vertical};
@@ -23,6 +24,7 @@ use crate::scene::{Color, Corner, Measure, MeasureFormula, Plot, PlotPlace, RunM
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
 pub(super) use self::room::free;
+pub use self::unseen::UnseenPlot;
 
 /// The height of a line of text in a picture of a plot alone, where the picture has a width of 2.
 const LINE_ALONE: f64 = 0.04;

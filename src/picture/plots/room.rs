@@ -140,7 +140,7 @@ pub(in super::super) fn free(scene: &Scene) -> Free {
 }
 
 /// Returns the column of the picture that a plot stands in, numbered from left to right. A plot in a corner stands beside those at a side.
-fn column(place: PlotPlace) -> i8 {
+pub(super) fn column(place: PlotPlace) -> i8 {
     match place {
         PlotPlace::Left => -2,
         PlotPlace::Corner(Corner::TopLeft | Corner::BottomLeft) => -1,

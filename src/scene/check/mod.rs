@@ -339,7 +339,7 @@ fn build(
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, &bodies, &joints, context);
-    let plots = plot::read(&root, &bodies, &joints, context);
+    let (plots, places_of_plots) = plot::read(&root, &bodies, &joints, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     if !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some() {
         asset::add_font(&mut povray.assets);
@@ -378,6 +378,7 @@ fn build(
             bodies: root.bodies().map(NamedTable::span).collect(),
             contacts: root.table(&scene::SIMULATION).span(&grammar::scene::simulation::CONTACTS),
             camera: root.key_span(&scene::CAMERA),
+            plots: places_of_plots,
             unit: root.table(&scene::POVRAY).span(&grammar::scene::povray::UNIT),
         },
         overrides: options.overrides.iter().map(|set| set.as_str().to_owned()).collect(),
