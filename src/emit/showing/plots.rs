@@ -48,10 +48,7 @@ pub(super) fn write(
         let corner = corner(plot);
         for (k, (curve, now)) in plot.curves.iter().zip(now).enumerate() {
             let (layer, ink, all) = (k + 1, color(curve.color, style), curve.points.len());
-            if layout == Layout::SelfContained {
-                let drawn = if curve.pale.is_some() { all } else { now.count };
-                array(out, "local", &name(number, k), &curve.points[..drawn]);
-            }
+            let mut curves = String::new();
             let mut draw = |count: usize, here: Option<[f64; 2]>, layer: usize, ink: &str| {
                 let points = &curve.points[..count];
                 let known = points.iter().filter(|point| point.at.is_some()).count();
@@ -60,13 +57,18 @@ pub(super) fn write(
                 // POV-Ray warns about a union of one object.
                 if known > 0 && known + usize::from(is_beyond) > 1 {
                     let (name, here) = (name(number, k), point(here));
-                    let _ = writeln!(out, "Curve({corner}, {name}, {count}, {here}, {layer}, {ink})");
+                    let _ = writeln!(curves, "Curve({corner}, {name}, {count}, {here}, {layer}, {ink})");
                 }
             };
             if let Some(pale) = curve.pale {
                 draw(all, None, 0, &color(pale, style));
             }
             draw(now.count, now.here, layer, &ink);
+            if layout == Layout::SelfContained && !curves.is_empty() {
+                let drawn = if curve.pale.is_some() { all } else { now.count };
+                array(out, "local", &name(number, k), &curve.points[..drawn]);
+            }
+            out.push_str(&curves);
             if now.here.is_some() {
                 let (here, radius) = (point(now.here), length(plot.dot));
                 let _ = writeln!(out, "Dot({corner}, {here}, {radius}, {layer}, {ink})");
