@@ -67,6 +67,7 @@
 #[cfg(feature = "render")]
 pub mod cache;
 pub mod catalog;
+mod decimal;
 pub mod diagnostic;
 
 pub mod emit;
@@ -93,6 +94,7 @@ pub mod scene;
 pub mod simulate;
 pub mod starter;
 pub mod surface;
+mod svg;
 pub mod system;
 mod threads;
 

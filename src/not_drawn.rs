@@ -1,9 +1,9 @@
-//! Warnings about arrows, trails and other things that a scene requests but no image shows.
+//! Warnings about arrows, trails, plots and other things that a scene requests but no image shows.
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::picture::number::rounded;
-use crate::picture::{NotDrawn, Reason, RequestedItem};
-use crate::scene::Quantity;
+use crate::picture::{NotDrawn, Reason, RequestedItem, UnseenPlot};
+use crate::scene::{Quantity, Scene};
 
 /// Returns the warning that a requested arrow, trail, ghost or similar is not drawn. It gives the time, the reason, and the key to change.
 pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
@@ -76,4 +76,56 @@ pub(crate) fn warning(missing: &NotDrawn) -> Diagnostic {
         (None, _) => format!("leave `{key}` out"),
     };
     Diagnostic::warning(Code::NotDrawn, message).help(help)
+}
+
+/// Returns the warning about a plot without room in the picture, or about a curve of which no picture shows a point. It points to the plot or
+/// the curve, and tells how to mend it.
+pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
+    let warning = |message: String| Diagnostic::warning(Code::NotDrawn, message);
+    let plot = |plot: usize| format!("the plot `{}`", scene.plots[plot].name);
+    let curve = |of: usize, curve: usize| {
+        format!("the curve `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
+    };
+    let curve_at = |of: usize, curve: usize| scene.places.plots[of].curves[curve];
+    match *unseen {
+        UnseenPlot::Outside { plot: of } => {
+            warning(format!("{} has no room: it leaves the picture", plot(of)))
+                .at(scene.places.plots[of].name, "")
+                .help("give it another `corner` or `side`, or have fewer plots and labels there")
+        }
+        UnseenPlot::Covers { plot: of, other, is_beside } => {
+            let help = match is_beside {
+                true => "give both a smaller `width`, or give one another `corner` or `side`",
+                false => "give one of them another `corner` or `side`, or have fewer plots and labels there",
+            };
+            warning(format!("{} has no room: it covers {}", plot(of), plot(other)))
+                .at(scene.places.plots[of].name, "")
+                .at(scene.places.plots[other].name, "this one is covered")
+                .help(help)
+        }
+        UnseenPlot::OutOfRange { plot: of, curve: number, values: [low, high], fit } => {
+            let unit = scene.plots[of].curves[number].y.unit().unwrap_or_default();
+            let values = match (rounded(low), rounded(high)) {
+                (low, high) if low == high => format!("all values are {low} {unit}"),
+                (low, high) => format!("its values are from {low} to {high} {unit}"),
+            };
+            let message = format!("{} is not drawn: its values are outside of `range`", curve(of, number));
+            let warning = warning(message).at(curve_at(of, number), values.trim_end());
+            let range = scene.places.plots[of].range;
+            let warning = range.into_iter().fold(warning, |it, at| it.at(at, "this contains none of them"));
+            let [low, high] = fit.map(rounded);
+            warning.help(format!("write `range = [{low}, {high}]`, or leave `range` out"))
+        }
+        UnseenPlot::NeverThere { plot: of, curve: number, body } => {
+            let name = &scene.bodies[body].name;
+            warning(format!("{} is not drawn: `{name}` is never there", curve(of, number)))
+                .at(curve_at(of, number), "")
+                .help(format!("let `{name}` be there during the run, or leave the curve out"))
+        }
+        UnseenPlot::Undefined { plot: of, curve: number } => {
+            warning(format!("{} is not drawn: it has no finite value at any frame", curve(of, number)))
+                .at(curve_at(of, number), "")
+                .help("correct the formula, or leave the curve out")
+        }
+    }
 }

@@ -106,7 +106,13 @@ impl<'a> Run<'a> {
         let grid = plan.too_fine_grid().map(grid_too_fine);
         let of_motion = motion_warnings::all(self.scene(), self.survey());
         let not_drawn = plan.not_drawn().iter().map(not_drawn::warning);
-        of_motion.into_iter().chain(thin).chain(small).chain(grid).chain(not_drawn).collect()
+        let plots = plan.unseen_plots().iter().map(|unseen| not_drawn::of_plot(self.scene(), unseen));
+        of_motion.into_iter().chain(thin).chain(small).chain(grid).chain(not_drawn).chain(plots).collect()
+    }
+
+    /// Returns all warnings about the simulation and its images, with the texts of the scene that they point into.
+    pub fn report(&self) -> Report {
+        Report { sources: self.scene().warnings.sources.clone(), diagnostics: self.warnings() }
     }
 
     /// Iterates over the recorded frames, from the initial state on.

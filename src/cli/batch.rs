@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use jabuka::diagnostic::{Report, visible_path};
+use jabuka::diagnostic::visible_path;
 use jabuka::output::{self, OutputError};
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::Film;
@@ -124,7 +124,7 @@ fn of_scene(arguments: &Arguments) -> Result<(), Failure> {
         let said =
             make(arguments, folder, Some(&selection), write).map_err(|error| progress.failed(&error))?;
         progress.finish();
-        terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+        terminal::report(&run.report());
         terminal::result(&said);
     }
     Ok(())

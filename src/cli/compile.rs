@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use jabuka::Run;
-use jabuka::diagnostic::{Report, visible_path};
+use jabuka::diagnostic::visible_path;
 use jabuka::output::{self, Folder};
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::simulate::Selection;
@@ -78,7 +78,7 @@ fn write(
         written.map_err(|error| progress.failed(&error)).inspect_err(|_| terminal::edits(&folder))?;
     progress.finish();
     terminal::edits(&folder);
-    terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    terminal::report(&run.report());
     terminal::result(&summary::summary(run, path, folder.path(), &written, start.elapsed()));
     Ok(())
 }

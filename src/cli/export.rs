@@ -5,11 +5,10 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{Contents, DRAWING, ExportError, FORMATS, FileKind, Format, PlotDrawing};
+use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawing};
 use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
-use jabuka::scene::Scene;
 use jabuka::simulate::{Moments, Selection};
 use jabuka::system::Dir;
 
@@ -78,42 +77,26 @@ impl Arguments {
 }
 
 impl Arguments {
-    /// Returns the drawing of the plot that `--plot` names.
-    fn drawing(&self, scene: &Scene, output: &Path) -> Result<Option<PlotDrawing>, Failure> {
-        let Some(name) = &self.plot else { return Ok(None) };
-        let FileKind { noun, extension } = DRAWING;
-        if !output.extension().is_some_and(|given| given.eq_ignore_ascii_case(extension)) {
-            return Err(Failure::Usage(format!("`--plot` makes {noun}, `.{extension}`")));
-        }
-        let number = scene.plots.iter().position(|plot| plot.name == *name);
-        let names: Vec<&str> = scene.plots.iter().map(|plot| plot.name.as_str()).collect();
-        let known = if names.is_empty() {
-            "it has none".to_owned()
-        } else {
-            format!("it has `{}`", names.join("`, `"))
-        };
-        let unknown = || Failure::Usage(format!("the scene has no plot `{name}`: {known}"));
-        number.map(|number| Some(PlotDrawing(number))).ok_or_else(unknown)
-    }
-
     /// Returns the selected format: that of an option, or else that of the file's extension.
-    fn format(&self, output: &Path) -> Result<&'static dyn Format, Failure> {
+    fn format<'a>(&self, formats: &[&'a dyn Format], output: &Path) -> Result<&'a dyn Format, Failure> {
         let is_given = |option: &str| match option {
             "joints" => self.joints,
             "particles" => self.particles,
             "events" => self.events.is_some(),
+            "plot" => self.plot.is_some(),
             option => unreachable!("the command has no option `--{option}`"),
         };
         let extension = output.extension().unwrap_or_default();
         let has_extension =
             |format: &dyn Format| extension.eq_ignore_ascii_case(format.file_kind().extension);
-        if let Some(format) = FORMATS.into_iter().find(|format| format.option().is_some_and(is_given)) {
+        let formats = formats.iter().copied();
+        if let Some(format) = formats.clone().find(|format| format.option().is_some_and(is_given)) {
             let FileKind { noun, extension } = format.file_kind();
             let option = format.option().unwrap_or_default();
             let other = || Failure::Usage(format!("`--{option}` makes {noun}, `.{extension}`"));
             return if has_extension(format) { Ok(format) } else { Err(other()) };
         }
-        let formats = FORMATS.into_iter().filter(|format| format.option().is_none());
+        let formats = formats.filter(|format| format.option().is_none());
         formats.clone().find(|format| has_extension(*format)).ok_or_else(|| {
             let kinds = formats.map(Format::file_kind);
             let kinds: Vec<_> =
@@ -130,12 +113,11 @@ impl Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = arguments.files()?;
     let output = files.output;
-    let format = if arguments.plot.is_none() { Some(arguments.format(output)?) } else { None };
+    let drawing = arguments.plot.clone().map(PlotDrawing);
+    let drawing = drawing.iter().map(|drawing| drawing as &dyn Format);
+    let formats: Vec<&dyn Format> = FORMATS.into_iter().chain(drawing).collect();
+    let format = arguments.format(&formats, output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
-    let drawing = arguments.drawing(&scene, output)?;
-    let Some(format) = drawing.as_ref().map(|it| it as &dyn Format).or(format) else {
-        unreachable!("without a drawing, there is a format")
-    };
     terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
     if let Some(lack) = format.lack(&scene) {
         return Err(Failure::Scene(lack));

@@ -39,6 +39,7 @@ mod terminal;
 mod version;
 mod video_arguments;
 
+use std::borrow::Cow;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
@@ -88,7 +89,7 @@ enum Failure {
     /// The user has stopped the command by Ctrl-C. A message has been printed.
     Interrupted,
     /// The scene lacks what the arguments ask for. The text describes what is missing and has not been printed yet.
-    Scene(&'static str),
+    Scene(Cow<'static, str>),
     /// The arguments of the command are wrong. The text describes the mistake and has not been printed yet.
     Usage(String),
 }
@@ -141,7 +142,7 @@ fn run() -> u8 {
         // 130 is the exit code by which shells report that Ctrl-C has ended a command.
         Err(Failure::Interrupted) => 130,
         Err(Failure::Scene(message)) => {
-            terminal::error(&format!("error: {message}\n"));
+            terminal::error(&format!("error: {}\n", visible(&message)));
             1
         }
         Err(Failure::Usage(message)) => {

@@ -150,7 +150,8 @@ fn write_scripts(
             (warnings, drift) = (run.warnings(), Some((survey.drift, survey.drift_scale)));
         }
         if folders.is_empty() {
-            terminal::report(&Report { diagnostics: warnings, ..Report::default() });
+            let sources = scene.warnings.sources.clone();
+            terminal::report(&Report { sources, diagnostics: warnings });
         }
         folders.push((
             folder,

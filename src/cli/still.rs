@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use jabuka::diagnostic::{Report, visible_path};
+use jabuka::diagnostic::visible_path;
 use jabuka::output::{self, Folder};
 use jabuka::overwrite::ProtectedFiles;
 use jabuka::render::{Images, Job, Sequence};
@@ -122,7 +122,7 @@ fn write_script(
     progress.above(|| terminal::edits(&folder));
     written.map_err(|error| progress.failed(&error))?;
     progress.finish();
-    terminal::report(&Report { diagnostics: run.warnings(), ..Report::default() });
+    terminal::report(&run.report());
     Ok((folder, run.recorded().breakdown().cloned()))
 }
 

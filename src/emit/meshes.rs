@@ -8,8 +8,8 @@ use glam::DVec3;
 
 use super::sdl::Style;
 use super::text::{self, Identifiers};
+use crate::decimal::decimal_step;
 use crate::physics::{Mesh, Shape};
-use crate::picture::decimal_step;
 use crate::scene::{Layout, Scene};
 use crate::surface::normals;
 

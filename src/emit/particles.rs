@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::sdl::Style;
 use super::text;
+use crate::decimal::decimal_step;
 use crate::physics::Particle;
-use crate::picture::decimal_step;
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Frame;
 

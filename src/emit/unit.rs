@@ -1,6 +1,7 @@
 //! Chooses the length of one POV-Ray unit.
 
-use crate::picture::{Lens, Plan, decimal_step, rounded_outward};
+use crate::decimal::decimal_step;
+use crate::picture::{Lens, Plan, rounded_outward};
 use crate::scene::{Emitter, Scene};
 use crate::simulate::Bounds;
 

@@ -1,5 +1,6 @@
 //! Writes impacts as a CSV table with one row for each impact.
 
+use std::borrow::Cow;
 use std::io::Write;
 
 use super::ExportError;
@@ -16,12 +17,9 @@ impl Format for Events {
         Some("events")
     }
 
-    fn lack(&self, scene: &Scene) -> Option<&'static str> {
-        scene
-            .simulation
-            .contacts
-            .is_none()
-            .then_some("this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them")
+    fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
+        let lack = "this scene has no impacts: `simulation.contacts = \"event-driven\"` finds them";
+        scene.simulation.contacts.is_none().then_some(lack.into())
     }
 
     fn write(

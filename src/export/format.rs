@@ -1,5 +1,6 @@
 //! The formats of an export.
 
+use std::borrow::Cow;
 use std::io::Write;
 
 use super::ExportError;
@@ -24,7 +25,7 @@ pub trait Format: Sync {
     }
 
     /// Explains why a scene has nothing to write in this format. `None` if it has something.
-    fn lack(&self, _scene: &Scene) -> Option<&'static str> {
+    fn lack(&self, _scene: &Scene) -> Option<Cow<'static, str>> {
         None
     }
 

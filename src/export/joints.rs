@@ -1,5 +1,6 @@
 //! Writes the constraint forces and torques of joints as a CSV table with a row for each time and joint.
 
+use std::borrow::Cow;
 use std::io::Write;
 
 use super::ExportError;
@@ -17,13 +18,14 @@ impl Format for Joints {
         Some("joints")
     }
 
-    fn lack(&self, scene: &Scene) -> Option<&'static str> {
+    fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
         if scene.simulation.contacts == Some(ContactLaw::TimeStepping) {
             return Some(
-                "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does",
+                "time stepping does not know the forces of joints: `simulation.contacts = \"event-driven\"` does"
+                    .into(),
             );
         }
-        scene.joints.is_empty().then_some("this scene has no joints")
+        scene.joints.is_empty().then_some("this scene has no joints".into())
     }
 
     fn write(

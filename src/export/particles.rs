@@ -1,5 +1,6 @@
 //! Writes particles as a CSV table with a row for each time and particle.
 
+use std::borrow::Cow;
 use std::io::Write;
 
 use super::ExportError;
@@ -16,8 +17,8 @@ impl Format for Particles {
         Some("particles")
     }
 
-    fn lack(&self, scene: &Scene) -> Option<&'static str> {
-        scene.emitters.is_empty().then_some("this scene has no emitters, which send out particles")
+    fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
+        scene.emitters.is_empty().then_some("this scene has no emitters, which send out particles".into())
     }
 
     fn write(

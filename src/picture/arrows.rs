@@ -8,6 +8,7 @@ use super::beside;
 use super::camera::Placed;
 use super::in_front::lift_from_body;
 use super::thing::{Form, Line, Thing};
+use crate::decimal::decimal_step;
 use crate::physics::{BodyId, BodySnapshot, ContactSnapshot, find};
 use crate::scene::{self, Body, Color, Joint, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
@@ -141,7 +142,7 @@ pub(super) fn round_scales(longest: [f64; Quantity::COUNT], view: f64) -> Scales
 
 /// Rounds a positive number down to 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten. Returns 1 for 0.
 pub(super) fn round_down(number: f64) -> f64 {
-    let decade = libm::pow(10.0, libm::floor(libm::log10(number) + 1e-12));
+    let decade = decimal_step(number);
     let digits = [8.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.5];
     let digit = digits.into_iter().find(|digit| digit * decade <= number * (1.0 + 1e-9));
     if decade.is_finite() && decade > 0.0 { digit.unwrap_or(1.0) * decade } else { 1.0 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::framing::{Free, decimal_step};
+use super::framing::Free;
 use super::grid::{LEAST_PIXELS, SIZE};
 use super::length::{prefixed, value};
 use super::occupancy::Rectangle;
@@ -10,6 +10,7 @@ use super::plots;
 use super::screen::Screen;
 use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across_free, is_top, least_height};
+use crate::decimal::round_below;
 use crate::scene::{Color, ScaleBar, Scene};
 
 /// A scale bar in the image plane, where the picture has a width of 2.
@@ -63,8 +64,8 @@ impl ScaleBars {
     /// behind the camera.
     pub(super) fn extent(&self, screen: &Screen) -> Option<(f64, f64)> {
         let point = screen.project(self.middle)?;
-        let fifth = 0.5 / point.scale;
-        let length = self.bar.length.unwrap_or_else(|| decimal_step(fifth) * digit(fifth));
+        let quarter = 0.5 / point.scale;
+        let length = self.bar.length.unwrap_or_else(|| round_below(quarter));
         Some((length, length * point.scale))
     }
 
@@ -92,10 +93,4 @@ impl ScaleBars {
         };
         Some((bar, number))
     }
-}
-
-/// The largest of 1, 2 and 5 that does not exceed the leading digit of a number.
-fn digit(number: f64) -> f64 {
-    let rest = number / decimal_step(number) + 1e-9;
-    [5.0, 2.0].into_iter().find(|digit| *digit <= rest).unwrap_or(1.0)
 }

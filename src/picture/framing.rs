@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::sight::Sight;
+use crate::decimal::decimal_step;
 use crate::scene::Output;
 use crate::simulate::Bounds;
 
@@ -209,12 +210,6 @@ pub(crate) fn rounded_outward(bounds: Bounds) -> Bounds {
     Bounds { min: (bounds.min / step + slack).floor() * step, max: (bounds.max / step - slack).ceil() * step }
 }
 
-/// The largest power of ten that does not exceed a positive number.
-pub(crate) fn decimal_step(number: f64) -> f64 {
-    let exponent = libm::floor(libm::log10(number) + 1e-12);
-    libm::pow(10.0, exponent)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -340,13 +335,6 @@ mod tests {
         let rounded = rounded_outward(bounds);
         assert_eq!(rounded.min, DVec3::new(-1.0, 0.0, -2.0));
         assert_eq!(rounded.max, DVec3::new(62.0, 52.0, 2.0));
-    }
-
-    #[test]
-    fn decimal_steps_are_powers_of_ten() {
-        for (number, step) in [(1.0, 1.0), (9.99, 1.0), (10.0, 10.0), (0.001, 0.001), (85.0, 10.0)] {
-            assert!((decimal_step(number) / step - 1.0).abs() < 1e-12, "{number}");
-        }
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! Finds things that a scene requests but that no picture of the run shows.
 
 use super::arrows::{LONGEST, round_down};
-use super::decimal_step;
 use super::ghosts;
 use super::links::{Links, SpringSize};
 use super::text::MARGIN;
+use crate::decimal::decimal_step;
 use crate::scene::{Quantity, Scene};
 use crate::simulate::Survey;
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::camera::Placed;
 use super::framing;
 use super::scope::Part;
+use crate::decimal::decimal_step;
 use crate::scene::{Color, Environment, GridPlane, Output, Preset, Scene, Sky};
 use crate::simulate::Bounds;
 
@@ -165,20 +166,20 @@ fn ambient(environment: &Environment) -> [f64; 3] {
 
 /// Rounds a positive number up to two digits.
 fn two_digits_up(number: f64) -> f64 {
-    let step = framing::decimal_step(number) / 10.0;
+    let step = decimal_step(number) / 10.0;
     (number / step - 1e-6).ceil() * step
 }
 
 /// A rounded height slightly below the lowest point of the motion, m.
 fn just_under(lowest: f64, size: f64) -> f64 {
-    let step = framing::decimal_step(size) / 100.0;
+    let step = decimal_step(size) / 100.0;
     (lowest / step - 0.1).floor() * step
 }
 
 /// The edge length of a tile for a scene of the given size: 1, 2 or 5 times a power of ten, near a twelfth of the size.
 fn tile(size: f64) -> f64 {
     let wanted = size / 12.0;
-    let decade = framing::decimal_step(wanted);
+    let decade = decimal_step(wanted);
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
     let nearness = |step: &f64| (libm::log(step / wanted)).abs();
     steps.into_iter().min_by(|a, b| nearness(a).total_cmp(&nearness(b))).unwrap_or(decade)

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
-use super::{colors, decimal_step};
+use super::colors;
+use crate::decimal::decimal_step;
 use crate::scene::{Color, Scene};
 use crate::simulate::{Frame, TrailPath, TrailPoint};
 

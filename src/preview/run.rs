@@ -182,13 +182,12 @@ impl PreviewRun {
         let views = scene.views.iter().map(|view| plan(&view.camera));
         let plans = std::iter::once(plan(&scene.camera)).chain(views).collect();
         let run = Run::of(recorded).map_err(|error| error.report())?;
-        let mut diagnostics = run.warnings();
+        let mut warnings = run.report();
         for (name, stride) in swarms::thinned(self) {
             let message = format!("this page shows 1 of {stride} particles of `{name}`");
             let help = "a rendered frame shows all: press `Render this`, or use `jabuka still`";
-            diagnostics.push(Diagnostic::warning(Code::NotDrawn, message).help(help));
+            warnings.diagnostics.push(Diagnostic::warning(Code::NotDrawn, message).help(help));
         }
-        let warnings = Report { diagnostics, ..Report::default() };
         Ok(Outcome { survey, plans, warnings })
     }
 

@@ -15,6 +15,20 @@ impl Color {
     /// The color white.
     pub const WHITE: Color = Color([1.0; 3]);
 
+    /// The colors of curves in charts and plots, in the order in which curves get them. People with any color vision can distinguish them.
+    /// Source: M. Okabe & K. Ito, *Color Universal Design* (2008), with a gray and a brown for black and yellow, which cannot be seen on dark
+    /// and on light backgrounds.
+    pub const OF_CURVES: [Color; 8] = [
+        Color([0.0, 0.447, 0.698]),
+        Color([0.835, 0.369, 0.0]),
+        Color([0.0, 0.62, 0.451]),
+        Color([0.8, 0.475, 0.655]),
+        Color([0.337, 0.706, 0.914]),
+        Color([0.902, 0.624, 0.0]),
+        Color([0.35, 0.35, 0.38]),
+        Color([0.55, 0.34, 0.16]),
+    ];
+
     /// Parses a color: `#rrggbb`, `#rgb`, or a CSS name in uppercase or lowercase letters. `None` for other texts.
     pub fn parse(text: &str) -> Option<Color> {
         if let Some(&(_, code)) = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)) {
@@ -40,6 +54,12 @@ impl Color {
         Color([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
     }
 
+    /// Returns red, green and blue from 0 to 255.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the parts are from 0 to 255")]
+    pub fn bytes(self) -> [u8; 3] {
+        self.0.map(|part| (part.clamp(0.0, 1.0) * 255.0).round() as u8)
+    }
+
     /// Converts the color to linear RGB: red, green and blue from 0 to 1 (IEC 61966-2-1).
     pub fn linear(self) -> [f64; 3] {
         self.0.map(|c| if c <= 0.040_45 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) })
@@ -62,6 +82,14 @@ mod tests {
         {
             assert_eq!(Color::parse(wrong), None, "{wrong}");
         }
+    }
+
+    /// The first six are those of Okabe and Ito, as bytes.
+    #[test]
+    fn colors_of_curves_are_those_of_the_source() {
+        let bytes =
+            [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [230, 159, 0]];
+        assert_eq!(Color::OF_CURVES.map(Color::bytes)[..6], bytes);
     }
 
     #[test]

@@ -127,7 +127,7 @@ pub use mark::{Angle, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
-pub use places::Places;
+pub use places::{Places, PlotSpans};
 pub use plot::{Curve, Plot, PlotPlace};
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};

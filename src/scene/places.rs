@@ -17,6 +17,19 @@ pub struct Places {
     pub contacts: Option<Span>,
     /// The source span of the key `camera`. `None` if the scene has no `[camera]` table.
     pub camera: Option<Span>,
+    /// The source spans of each plot, in the order of [`Scene::plots`](super::Scene::plots).
+    pub plots: Vec<PlotSpans>,
     /// The source span of the value of `povray.unit`. `None` if the scene does not set it.
     pub unit: Option<Span>,
+}
+
+/// The source spans of a plot.
+#[derive(Clone, Debug)]
+pub struct PlotSpans {
+    /// The source span of the plot's name.
+    pub name: Span,
+    /// The source span of each curve's formula.
+    pub curves: Vec<Span>,
+    /// The source span of the value of `range`. `None` if the scene does not set it.
+    pub range: Option<Span>,
 }

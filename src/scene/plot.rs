@@ -1,6 +1,6 @@
 //! The plots of a scene: curves of measures, drawn in the picture.
 
-use super::{Corner, MeasureFormula};
+use super::{Color, Corner, MeasureFormula};
 
 /// A plot in the picture: curves of measures against the time, or against another measure.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ pub struct Curve {
 
 impl Plot {
     /// The maximum number of curves in a plot. More could not be told apart.
-    pub const MAX_CURVES: usize = 8;
+    pub const MAX_CURVES: usize = Color::OF_CURVES.len();
     /// The largest value that an axis can have.
     pub const MAX_VALUE: f64 = 1e290;
     /// The largest width of a plot at a side of the picture, as a fraction of the picture's width.

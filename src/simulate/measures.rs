@@ -166,6 +166,32 @@ mod tests {
         assert!((values(1)[0] + 80.0).abs() < 1e-12, "{:?}", values(1));
     }
 
+    /// The work of the forces on a body is its kinetic energy. So its power equals the rate of its kinetic energy, here for a ball that does not
+    /// turn, on a spring with damping and in the wind. The rate follows from the neighboring frames with an error of (Δt)²/6 times the third
+    /// derivative.
+    #[test]
+    fn the_power_of_a_body_is_the_rate_of_its_kinetic_energy() {
+        let text =
+            "simulation = { duration = 2, frame_rate = 1000, gravity = [0, -10, 0], integrator = 'rk4' }
+            [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
+            [force.s.spring]\nbetween = ['a', [0, 0, 0]]\nstiffness = 30\ndamping = 2
+            [force.d.drag]\nlinear = 0.4\nwind = [0, 0, 3]
+            [plot.p]\ny = ['a.power', 'a.kinetic']\n";
+        let scene = Scene::parse(text).unwrap();
+        let measures = Measures::new(&scene);
+        let values = |frame: Frame| -> [f64; 2] {
+            [0, 1].map(|curve| measures.value(&scene.plots[0].curves[curve].y, &MomentState::now(&frame)))
+        };
+        let values: Vec<[f64; 2]> =
+            crate::simulate::Frames::new(&scene).map(|frame| values(frame.unwrap())).collect();
+        let largest = values.iter().map(|[power, _]| power.abs()).fold(0.0, f64::max);
+        assert!(largest > 50.0, "{largest} W");
+        for near in values.windows(3) {
+            let rate = (near[2][1] - near[0][1]) / 0.002;
+            assert!((near[1][0] - rate).abs() < 1e-4 * largest, "{} W, and {rate} J/s", near[1][0]);
+        }
+    }
+
     /// A body on a given circle: ½ m (r ω)² + ½ I ω² with m = 2 kg, r = 3 m, ω = 2 rad/s, and I = 0.4 m 0.1² of a ball that turns at 1 rad/s. A
     /// free body beside it has its own 9 J.
     #[test]

@@ -7,13 +7,15 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 24] = [
+const STAGES: [&str; 26] = [
     "physics",
     "threads",
     "system",
     "diagnostic",
     "explain",
     "font",
+    "decimal",
+    "svg",
     "scene",
     "surface",
     "starter",

@@ -353,6 +353,42 @@ fn a_curve_of_a_plot_is_where_its_values_are() {
     }
 }
 
+/// A run of 20,000 frames has more frames than a curve has points. The speed of a body that jumps within one frame is a peak of this frame, and
+/// a pixel of the picture shows it.
+#[test]
+fn a_peak_of_one_frame_is_a_pixel_of_a_long_plot() {
+    let text = "[simulation]\nduration = 799.96\n[output]\nsize = [320, 180]\n\
+        [body.ball]\nshape.sphere.radius = 0.3\nmotion.formula.location = ['0', '0', 'exp(-((t - 480)/0.01)^2)']\n\
+        [plot.height]\ny = 'ball.z'\nrange = [0, 1]\nwidth = 0.5\n";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let last = run.frames().last().unwrap().unwrap();
+    assert_eq!(last.index, 19_999);
+    let image = render(&run.emitter().script(&last).unwrap(), [320, 180]);
+    let plot = &run.emitter().plan().planned_plots()[0];
+    let pixel = |[x, y]: [f64; 2]| {
+        let up = plot.bottom.above_middle(180.0 / 320.0) + y;
+        DVec2::new(160.0 * (1.0 + plot.left + x), 90.0 - 160.0 * up)
+    };
+    let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+    let (origin, top) = (axes[axes.len() - 1].from, axes[axes.len() - 1].to);
+    let right = axes[axes.len() - 2].to;
+    let at = |part: f64, height: f64| {
+        let across = origin[0] + (right[0] - origin[0]) * part;
+        pixel([across, origin[1] + (top[1] - origin[1]) * height])
+    };
+    let color = plot.curves[0].color.bytes();
+    let is_curve = |rgb: Rgb| {
+        rgb.iter().zip(color).all(|(part, wanted)| (i32::from(*part) - i32::from(wanted)).abs() < 70)
+    };
+    for height in [0.3, 0.55, 0.8, 0.95] {
+        assert!(near(&image, at(480.0 / 799.96, height), is_curve), "the peak, at {height}");
+        for part in [0.2, 0.45, 0.75, 0.9] {
+            assert!(!near(&image, at(part, height), is_curve), "no curve at {part}, {height}");
+        }
+    }
+}
+
 /// Checks that each moment of an image with motion blur shows its own past in ghosts and trails, and its own time in labels.
 #[test]
 fn the_moments_of_a_shutter_have_their_own_past() {

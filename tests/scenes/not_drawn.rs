@@ -154,3 +154,90 @@ fn arrows_for_what_never_touches_a_body() {
     assert_eq!(said_of(&keys("weight.scale = 2e-6")), [small]);
     assert_eq!(said_of(&keys("weight.scale = 0.02")), [""; 0]);
 }
+
+/// Returns the warnings about plots without room and curves that are not drawn, for a scene with these plots. Each has the text that it points
+/// to, and its help.
+fn of_plots(keys: &str) -> Vec<String> {
+    let text = format!(
+        "simulation = {{ duration = 1, gravity = [0, -10, 0] }}\n{BALL}mass = 2\n[body.late]
+        shape.sphere.radius = 0.5\nlocation = [2, 0, 0]\nstart = 9\n{keys}"
+    );
+    let scene = Scene::parse(&text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    // Every frame has a script, whatever is left out of it.
+    for frame in run.frames() {
+        run.script(&frame.unwrap()).unwrap();
+    }
+    let report = run.report();
+    let warnings = report.diagnostics.iter().filter(|warning| warning.code == Code::NotDrawn);
+    let said = warnings.map(|warning| {
+        let place = report.sources.raw(warning.labels[0].span);
+        format!("{place}: {}: {}", warning.message, warning.help.as_deref().unwrap_or_default())
+    });
+    said.collect()
+}
+
+#[test]
+fn plots_that_find_no_room_in_the_picture() {
+    let plots = |names: &[&str], keys: &str| -> String {
+        names.iter().map(|name| format!("[plot.{name}]\ny = 'kinetic'\n{keys}\n")).collect()
+    };
+    // Three plots have room below each other in a small picture, five have not.
+    let small = "[output]\nsize = [160, 90]\n";
+    assert_eq!(of_plots(&format!("{small}{}", plots(&["a", "b", "c"], ""))), [""; 0]);
+    let help = "give it another `corner` or `side`, or have fewer plots and labels there";
+    assert_eq!(
+        of_plots(&format!("{small}{}", plots(&["a", "b", "c", "d", "e"], ""))),
+        ["d", "e"]
+            .map(|name| format!("{name}: the plot `{name}` has no room: it leaves the picture: {help}"))
+    );
+    // Two that begin at the upper and two that begin at the lower edge.
+    let (upper, lower) = (plots(&["a", "b"], ""), plots(&["c", "d"], "corner = 'bottom-right'"));
+    let help = "give one of them another `corner` or `side`, or have fewer plots and labels there";
+    let said = of_plots(&format!("{small}{upper}{lower}"));
+    assert_eq!(said, [format!("d: the plot `d` has no room: it covers the plot `b`: {help}")]);
+    // Three beside each other have room if they are narrow.
+    let row = |width: f64| {
+        let corners = [("a", "top-left"), ("b", "top"), ("c", "top-right")];
+        let keys = |corner: &str| format!("width = {width}\ncorner = '{corner}'");
+        corners.map(|(name, corner)| plots(&[name], &keys(corner))).concat()
+    };
+    assert_eq!(of_plots(&row(0.3)), [""; 0]);
+    let help = "give both a smaller `width`, or give one another `corner` or `side`";
+    assert_eq!(
+        of_plots(&row(0.36)),
+        [("b", "a"), ("c", "b")].map(|(name, other)| {
+            format!("{name}: the plot `{name}` has no room: it covers the plot `{other}`: {help}")
+        })
+    );
+}
+
+#[test]
+fn curves_of_which_no_picture_shows_a_point() {
+    // The ball rises from 0 m with 2 m/s, and falls to -3 m.
+    let plot = |y: &str, range: &str| format!("[plot.p]\ny = {y}\n{range}\n");
+    assert_eq!(of_plots(&plot("['ball.y', 'late.y + ball.y']", "range = [-1, 1]")).len(), 1);
+    let outside = "is not drawn: its values are outside of `range`";
+    assert_eq!(
+        of_plots(&plot("['ball.y', 'ball.speed + 5']", "range = [-4, 1]")),
+        [format!(
+            "'ball.speed + 5': the curve `ball.speed + 5` of the plot `p` {outside}: \
+             write `range = [-4, 14]`, or leave `range` out"
+        )]
+    );
+    // The change that the warning suggests makes the curve visible.
+    assert_eq!(of_plots(&plot("['ball.y', 'ball.speed + 5']", "range = [-4, 14]")), [""; 0]);
+    assert_eq!(of_plots(&plot("['ball.y', 'ball.speed + 5']", "")), [""; 0]);
+    // A curve that crosses the range between two frames is visible.
+    assert_eq!(of_plots(&plot("'ball.y'", "range = [-1.0001, -1]")), [""; 0]);
+    assert_eq!(
+        of_plots(&plot("'late.y'", "")),
+        ["'late.y': the curve `late.y` of the plot `p` is not drawn: `late` is never there: \
+          let `late` be there during the run, or leave the curve out"]
+    );
+    assert_eq!(
+        of_plots(&plot("['ball.y', 'sqrt(-1 - ball.speed)']", "")),
+        ["'sqrt(-1 - ball.speed)': the curve `sqrt(-1 - ball.speed)` of the plot `p` is not drawn: \
+          it has no finite value at any frame: correct the formula, or leave the curve out"]
+    );
+}

@@ -1,7 +1,8 @@
 //! Tests that each key of the scene language changes the digest of a run, unless it only draws.
 //!
-//! The scenes in `tests/keys` give all keys. The test exchanges one value after another, checks the scene, and compares the digests. A new key
-//! needs a line in one of these scenes, where its value acts. If it only draws, it needs a line in `keys/drawn.rs`, too.
+//! The scenes in `tests/keys` contain all keys. The test replaces one value at a time by other values, checks the scene, and compares its
+//! digest with that of the original scene. A new key needs a line in one of these scenes, in which its value changes the run. If the key only
+//! draws, it also needs a line in `keys/drawn.rs`.
 
 mod document;
 mod drawn;
@@ -17,19 +18,19 @@ use self::document::{Document, Id, Place};
 use self::other::others;
 use crate::scene::grammar::{Kind, SCENE, TableSpec};
 
-/// The number of bodies above which a scene of the gallery takes too long to check many times.
+/// The largest number of bodies of a scene of the gallery that is tried. Scenes with more bodies take too long to check many times.
 const MAX_BODIES: usize = 50;
-/// The number of scenes of the gallery in which a key that only draws is tried, and the number of values that are tried in each scene.
-const TRIED: usize = 3;
+/// For each key that only draws, the test replaces at most this many values of the gallery, each by at most this many others.
+const MAX_TRIES: usize = 3;
 
-/// What other values of a key do to the digest.
+/// The effect of other values of a key on the digest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Effect {
     /// No other value is valid.
     Untried,
-    /// All tried values leave the digest as it is.
+    /// No tried value changes the digest.
     Equal,
-    /// A value changes the digest.
+    /// At least one value changes the digest.
     Different,
 }
 
@@ -54,9 +55,10 @@ fn tables() -> Vec<&'static TableSpec> {
     found
 }
 
+/// Returns true if the lists in `keys/drawn.rs` contain a key or its table.
 fn only_draws((noun, name): Id) -> bool {
     let is_listed = |(table, keys): &(&str, &[&str])| *table == noun && keys.contains(&name);
-    drawn::TABLES.contains(&noun) || drawn::KEYS.iter().any(is_listed)
+    drawn::TABLES_THAT_DRAW.contains(&noun) || drawn::KEYS_THAT_DRAW.iter().any(is_listed)
 }
 
 /// Reads the scenes of a folder of the project.
@@ -68,10 +70,10 @@ fn documents(folder: &str) -> Vec<Document> {
     paths.par_iter().map(|path| Document::read(path)).collect()
 }
 
-/// Tries other values until one changes the digest. If the key only draws, a few values are enough.
+/// Tries other values of a key until one changes the digest. If the key only draws, a few values are tried.
 fn effect(place: &Place<'_>) -> Effect {
     let digests = others(place).into_iter().filter_map(|other| place.digest_with(other.as_deref()));
-    let most = if only_draws(place.id()) { TRIED } else { usize::MAX };
+    let most = if only_draws(place.id()) { MAX_TRIES } else { usize::MAX };
     let mut effect = Effect::Untried;
     for digest in digests.take(most) {
         if digest != place.document.digest {
@@ -82,13 +84,13 @@ fn effect(place: &Place<'_>) -> Effect {
     effect
 }
 
-/// Returns all values of the scenes in `tests/keys`, and some values of the gallery for keys that only draw.
+/// Returns all values of the scenes in `tests/keys`, and a few values of each key that only draws from the gallery.
 fn places<'a>(own: &'a [Document], gallery: &'a [Document]) -> Vec<Place<'a>> {
     let mut places: Vec<Place<'a>> = own.iter().flat_map(Document::places).collect();
     let mut counts: BTreeMap<Id, usize> = BTreeMap::new();
     for place in gallery.iter().filter(|scene| scene.bodies <= MAX_BODIES).flat_map(Document::places) {
         let count = counts.entry(place.id()).or_default();
-        if only_draws(place.id()) && *count < TRIED {
+        if only_draws(place.id()) && *count < MAX_TRIES {
             *count += 1;
             places.push(place);
         }
@@ -104,7 +106,7 @@ fn each_key_changes_the_digest_unless_it_only_draws() {
     let mut wrong = BTreeSet::new();
     let mut found: BTreeMap<Id, Effect> = BTreeMap::new();
     for (place, &effect) in places.iter().zip(&effects) {
-        // A table acts if a key in it acts.
+        // A table changes the digest if a key in it does.
         for id in &place.ids {
             let known = found.entry(*id).or_insert(Effect::Untried);
             *known = effect.max(*known);
@@ -115,8 +117,8 @@ fn each_key_changes_the_digest_unless_it_only_draws() {
             }
             Effect::Equal if !only_draws(place.id()) && !place.is_table() => {
                 wrong.insert(format!(
-                    "{place} leaves the digest as it is: add it to `digest.rs`. If it only draws, add it to `keys/drawn.rs`. \
-                     If it does not act in this scene, move it to another one"
+                    "{place} does not change the digest: add it to `digest.rs`. If it only draws, add it to `keys/drawn.rs`. \
+                     If it does not change the run of this scene, move it to a scene whose run it changes"
                 ));
             }
             _ => {}
@@ -145,10 +147,10 @@ fn each_key_changes_the_digest_unless_it_only_draws() {
 fn the_lists_name_keys_that_exist_and_nouns_tell_tables_apart() {
     let nouns: Vec<&str> = tables().iter().map(|table| table.noun).collect();
     assert_eq!(nouns.iter().collect::<BTreeSet<_>>().len(), nouns.len());
-    for noun in drawn::TABLES {
+    for noun in drawn::TABLES_THAT_DRAW {
         assert!(nouns.contains(noun), "{noun}");
     }
-    for (noun, keys) in drawn::KEYS {
+    for (noun, keys) in drawn::KEYS_THAT_DRAW {
         let table = tables().into_iter().find(|table| table.noun == *noun);
         for key in *keys {
             assert!(table.is_some_and(|table| table.key(key).is_some()), "`{key}` of {noun}");

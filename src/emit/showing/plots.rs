@@ -12,9 +12,6 @@ use crate::picture::{CurveNow, PlannedPlot};
 use crate::scene::Layout;
 use crate::simulate::CurvePoint;
 
-/// The height in front of the panel that marks a gap of a curve. Points of curves lie at height 0.
-const GAP: &str = "1";
-
 /// Appends the declarations of all plots to the common part. A script that contains everything has its
 /// own arrays, with no more points than it draws.
 pub(super) fn declare(out: &mut String, plots: &[PlannedPlot], layout: Layout, style: Style) {
@@ -25,7 +22,8 @@ pub(super) fn declare(out: &mut String, plots: &[PlannedPlot], layout: Layout, s
         let _ = writeln!(out, "#macro Plot_{number}()");
         let _ = writeln!(out, "Panel({}, {wide}, {high}, {paper})", corner(plot));
         for line in &plot.lines {
-            let ([from, to], ink) = ([line.from, line.to].map(|at| point(at, "0")), color(line.color, style));
+            let ([from, to], ink) =
+                ([line.from, line.to].map(|at| point(Some(at))), color(line.color, style));
             let above = u8::from(line.is_axis);
             let _ = writeln!(out, "Ruled({}, {from}, {to}, {above}, {ink})", corner(plot));
         }
@@ -50,31 +48,30 @@ pub(super) fn write(
         let corner = corner(plot);
         for (k, (curve, now)) in plot.curves.iter().zip(now).enumerate() {
             let (layer, ink, all) = (k + 1, color(curve.color, style), curve.points.len());
-            if layout == Layout::SelfContained {
+            let mut curves = String::new();
+            let mut draw = |count: usize, here: Option<[f64; 2]>, layer: usize, ink: &str| {
+                let points = &curve.points[..count];
+                let known = points.iter().filter(|point| point.at.is_some()).count();
+                let is_beyond =
+                    here.is_some() && point(here) != point(points.last().and_then(|last| last.at));
+                // POV-Ray warns about a union of one object.
+                if known > 0 && known + usize::from(is_beyond) > 1 {
+                    let (name, here) = (name(number, k), point(here));
+                    let _ = writeln!(curves, "Curve({corner}, {name}, {count}, {here}, {layer}, {ink})");
+                }
+            };
+            if let Some(pale) = curve.pale {
+                draw(all, None, 0, &color(pale, style));
+            }
+            draw(now.count, now.here, layer, &ink);
+            if layout == Layout::SelfContained && !curves.is_empty() {
                 let drawn = if curve.pale.is_some() { all } else { now.count };
                 array(out, "local", &name(number, k), &curve.points[..drawn]);
             }
-            // POV-Ray warns about a union of one object.
-            if let Some(pale) = curve.pale.filter(|_| all > 1) {
-                let pale = color(pale, style);
-                let _ = writeln!(out, "Curve({corner}, {}, {all}, 0, {pale})", name(number, k));
-            }
-            if now.count > 1 {
-                let _ = writeln!(out, "Curve({corner}, {}, {}, {layer}, {ink})", name(number, k), now.count);
-            }
-            if let Some(here) = now.here {
-                let last = now.count.checked_sub(1).and_then(|last| curve.points[last].at);
-                if let Some(last) = last.filter(|last| point(*last, "0") != point(here, "0")) {
-                    // The last stretch of a long run, whose points are thinned.
-                    let ends = [last, here].map(|at| point(at, "0"));
-                    let _ = writeln!(out, "Stretch({corner}, {}, {}, {layer}, {ink})", ends[0], ends[1]);
-                }
-                let _ = writeln!(
-                    out,
-                    "Dot({corner}, {}, {}, {layer}, {ink})",
-                    point(here, "0"),
-                    length(plot.dot)
-                );
+            out.push_str(&curves);
+            if now.here.is_some() {
+                let (here, radius) = (point(now.here), length(plot.dot));
+                let _ = writeln!(out, "Dot({corner}, {here}, {radius}, {layer}, {ink})");
             }
         }
     }
@@ -89,18 +86,17 @@ fn name(plot: usize, curve: usize) -> String {
     format!("Plot_{plot}_{curve}")
 }
 
-/// Appends the points of a curve as an SDL array, several in a line. A single point is never drawn as a curve.
+/// Appends the points of a curve as an SDL array, several in a line. SDL has no empty arrays.
 fn array(out: &mut String, scope: &str, name: &str, points: &[CurvePoint]) {
-    if points.len() < 2 {
+    if points.is_empty() {
         return;
     }
-    let item = |each: &CurvePoint| each.at.map_or_else(|| format!("<0, 0, {GAP}>"), |at| point(at, "0"));
-    let items: Vec<String> = points.iter().map(item).collect();
+    let items: Vec<String> = points.iter().map(|each| point(each.at)).collect();
     let lines: Vec<String> = items.chunks(8).map(|items| items.join(", ")).collect();
     let _ = writeln!(out, "#{scope} {name} = array[{}] {{\n{}\n}}", points.len(), lines.join(",\n"));
 }
 
-/// A position in a panel as an SDL vector.
-fn point([x, y]: [f64; 2], z: &str) -> String {
-    format!("<{}, {}, {z}>", short(x), short(y))
+/// A position in a panel as an SDL vector. The height in front of the panel is 0 for a point, and 1 for a gap of a curve.
+fn point(at: Option<[f64; 2]>) -> String {
+    at.map_or_else(|| "<0, 0, 1>".to_owned(), |[x, y]| format!("<{}, {}, 0>", short(x), short(y)))
 }

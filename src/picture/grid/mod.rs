@@ -10,6 +10,7 @@ use super::length::{prefixed, value};
 use super::stage::Scenery;
 use super::text::least_height;
 use super::thing::{Form, Line, Thing};
+use crate::decimal::round_above;
 use crate::scene::{self, Color, GridPlane, Preset, Scene};
 use crate::simulate::{Bounds, anchors};
 
@@ -65,12 +66,11 @@ impl GridPlan {
         let given = grid.spacing.unwrap_or(scenery.spacing);
         let whole = (scenery.bounds.max - scenery.bounds.min).max_element();
         let extent = part.map_or(whole, |part| (2.0 * WINDOW * part).min(whole));
-        let coarser = |spacing: &f64| extent / spacing <= MOST_LINES - 4.0;
-        let spacing = if coarser(&given) {
+        let spacing = if extent / given <= MOST_LINES - 4.0 {
             given
         } else {
-            let decade = super::decimal_step(extent / (MOST_LINES - 4.0));
-            [2.0, 5.0, 10.0].map(|digit| digit * decade).into_iter().find(coarser).unwrap_or(scenery.spacing)
+            let round = round_above(extent / (MOST_LINES - 4.0));
+            if round.is_finite() { round } else { scenery.spacing }
         };
         let point = |point: DVec3| Bounds { min: point, max: point };
         let bounds = anchors(scene).map(point).fold(scenery.bounds, Bounds::union);

@@ -6,6 +6,7 @@ mod said;
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use self::corner::{Taken, inset_without_overlap, under_bar, under_plot};
 use self::said::longest;
@@ -28,7 +29,7 @@ const LINE: f64 = 1.15;
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
-    measures: Measures,
+    measures: Arc<Measures>,
     /// The part of the picture that plots at its sides leave free.
     free: Free,
     /// The height of the picture, relative to its width.
@@ -48,8 +49,14 @@ struct Planned {
 }
 
 impl Labels {
-    /// Plans the labels of a scene. `ink` is their default color. `panels` are those of plots, which no label covers.
-    pub(super) fn new(scene: &Scene, ink: Color, panels: impl Iterator<Item = Rectangle>) -> Labels {
+    /// Plans the labels of a scene. `ink` is their default color. `panels` are those of plots, which no label covers. `measures` are those of
+    /// the scene.
+    pub(super) fn new(
+        scene: &Scene,
+        ink: Color,
+        panels: impl Iterator<Item = Rectangle>,
+        measures: Arc<Measures>,
+    ) -> Labels {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let free = plots::free(scene);
         let mut taken: Vec<Taken> =
@@ -68,13 +75,7 @@ impl Labels {
             Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
-        Labels {
-            labels,
-            measures: Measures::new(scene),
-            free,
-            aspect,
-            note_height: usual_height(scene.output),
-        }
+        Labels { labels, measures, free, aspect, note_height: usual_height(scene.output) }
     }
 
     /// The number of labels in the scene.

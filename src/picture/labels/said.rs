@@ -97,7 +97,8 @@ mod tests {
             ",
         )
         .unwrap();
-        let labels = Labels::new(&scene, crate::scene::Color::WHITE, std::iter::empty());
+        let measures = std::sync::Arc::new(crate::simulate::Measures::new(&scene));
+        let labels = Labels::new(&scene, crate::scene::Color::WHITE, std::iter::empty(), measures);
         let frame = crate::simulate::Frames::new(&scene).next().unwrap().unwrap();
         let said = labels.said(&scene.labels[0].text, &MomentState::now(&frame));
         assert_eq!(said, "36.000000 45.000000 45.000000");

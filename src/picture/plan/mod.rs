@@ -7,6 +7,7 @@ mod tests;
 mod written;
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 pub use largest::Largest;
 pub use written::Written;
@@ -23,7 +24,7 @@ use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
 use super::marks::{ArrowMarks, Marks};
 use super::not_drawn::{self, NotDrawn};
-use super::plots::{CurveNow, PlannedPlot, Plots};
+use super::plots::{CurveNow, PlannedPlot, Plots, UnseenPlot};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
@@ -32,7 +33,7 @@ use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
 use crate::scene::{Camera, Quantity, Scene};
-use crate::simulate::{Bounds, Frame, Ghost, Survey};
+use crate::simulate::{Bounds, Frame, Ghost, Measures, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
 /// picture.
@@ -65,6 +66,7 @@ pub struct Plan {
     /// The part of the run that the camera frames.
     part: Part,
     not_drawn: Vec<NotDrawn>,
+    unseen_plots: Vec<UnseenPlot>,
 }
 
 /// The sizes of arrows and lines in a picture.
@@ -133,7 +135,8 @@ impl Plan {
         let links = Links::new(scene, survey);
         let narrowest = narrowest_view(scene, &eye, whole);
         let bar = scene.scale_bar.map(|bar| ScaleBars::new(scene, bar, &scenery, ink));
-        let plots = Plots::new(scene, survey);
+        let measures = Arc::new(Measures::new(scene));
+        let plots = Plots::new(scene, survey, Arc::clone(&measures));
         let bar_at_start = bar.as_ref().and_then(|bar| bar.extent(&placed.screen()));
         Plan {
             lights_move: lights.moves(),
@@ -141,13 +144,14 @@ impl Plan {
             arrows,
             planes: Planes::new(scene, &stage),
             not_drawn: not_drawn::find(scene, survey, &links, narrowest, bar_at_start),
+            unseen_plots: plots.unseen(scene, survey),
             links,
             ghosts: Ghosts::new(scene),
             trails: Trails::new(scene, stroke(narrowest, scene.output)),
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
             bar,
-            labels: Labels::new(scene, ink, plots.areas()),
+            labels: Labels::new(scene, ink, plots.areas(), measures),
             plots,
             marks: Marks::new(scene, ink),
             arrow_marks: ArrowMarks::new(scene),
@@ -316,9 +320,14 @@ impl Plan {
         self.part
     }
 
-    /// The requested things that no picture shows.
+    /// The requested things that no picture shows, except plots.
     pub fn not_drawn(&self) -> &[NotDrawn] {
         &self.not_drawn
+    }
+
+    /// The plots without room in the picture, and the curves of which no picture shows a point.
+    pub fn unseen_plots(&self) -> &[UnseenPlot] {
+        &self.unseen_plots
     }
 
     /// The largest body, if a warning about its size is needed: it is too small to be seen, or would be too small in a picture of the whole

@@ -1,18 +1,19 @@
 //! The axes of plots: their ranges, and the numbers beside them.
 
-use super::super::framing::decimal_step;
 use super::super::number::typeset;
+use crate::decimal::{decimal_step, round_above};
 
-/// A range of numbers is flat if it is smaller than this part of the numbers: the difference is then rounding.
-const FLAT: f64 = 1e-9;
-/// The largest number of an axis: sums of larger ones could overflow.
-const MOST: f64 = 1e300;
-/// The smallest difference that an axis can show: parts of a smaller one could vanish.
-const LEAST: f64 = 1e-290;
-/// Numbers from this on are written with a power of ten that stands at the unit.
-const LARGE: f64 = 1e5;
-/// Numbers below this are written with a power of ten that stands at the unit.
-const SMALL: f64 = 1e-2;
+/// The largest difference of values that counts as a rounding error, relative to the largest value. Such values are drawn as constant.
+const MAX_ROUNDING: f64 = 1e-9;
+/// The largest value of an axis, in its unit. Sums of larger values could overflow.
+const MAX_VALUE: f64 = 1e300;
+/// The smallest difference between the ends of an axis, in its unit. Parts of smaller differences could vanish.
+const MIN_RANGE: f64 = 1e-290;
+/// If the largest value of an axis, in its unit, is within these bounds, its numbers are written in full. Otherwise they are divided by a
+/// power of ten, which stands at the unit.
+const WRITTEN_IN_FULL: std::ops::Range<f64> = 1e-2..1e5;
+/// The largest count of numbers beside an axis. It is more than any axis has room for.
+const MAX_TICKS: f64 = 50.0;
 
 /// An axis of a plot: the range that it shows, and its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,16 +49,16 @@ pub(super) struct Range {
 impl Axis {
     /// Makes the axis of a range. It has about `count` numbers.
     pub(super) fn new(range: &Range, count: f64) -> Axis {
-        let [low, high] = range.span.map(|end| end.clamp(-MOST, MOST));
+        let [low, high] = range.span.map(|end| end.clamp(-MAX_VALUE, MAX_VALUE));
         let largest = low.abs().max(high.abs());
-        let is_flat = high - low <= if range.is_wider { FLAT * largest } else { 0.0 };
-        let (low, high) = match is_flat || high - low < LEAST {
-            true if largest < LEAST => (-1.0, 1.0),
+        let is_flat = high - low <= if range.is_wider { MAX_ROUNDING * largest } else { 0.0 };
+        let (low, high) = match is_flat || high - low < MIN_RANGE {
+            true if largest < MIN_RANGE => (-1.0, 1.0),
             // A quantity that keeps its value is a line between 0 and twice the value.
             true => (low.min(0.0) * 2.0, high.max(0.0) * 2.0),
             false => (low, high),
         };
-        let step = round_up((high - low) / count.max(1.0)).max(if range.is_count { 1.0 } else { 0.0 });
+        let step = round_above((high - low) / count.max(1.0)).max(if range.is_count { 1.0 } else { 0.0 });
         let part = step / 4.0;
         let (low, high) = match range.is_wider {
             true => (libm::floor(low / part + 1e-9) * part, libm::ceil(high / part - 1e-9) * part),
@@ -65,7 +66,7 @@ impl Axis {
         };
         let largest = low.abs().max(high.abs());
         let exponent = match largest {
-            large if !(SMALL..LARGE).contains(&large) => exponent_of(large),
+            large if !WRITTEN_IN_FULL.contains(&large) => exponent_of(large),
             _ => 0,
         };
         Axis { low, high, step, exponent }
@@ -81,9 +82,7 @@ impl Axis {
         let power = libm::pow(10.0, f64::from(self.exponent));
         let decimals = usize::try_from(-exponent_of(self.step / power)).unwrap_or(0);
         let first = libm::ceil(self.low / self.step - 1e-9);
-        /// More numbers than any axis has room for.
-        const MOST_TICKS: f64 = 50.0;
-        let count = (libm::floor(self.high / self.step + 1e-9) - first).min(MOST_TICKS);
+        let count = (libm::floor(self.high / self.step + 1e-9) - first).min(MAX_TICKS);
         let mut ticks = Vec::new();
         let mut number = 0.0;
         while number <= count {
@@ -111,13 +110,6 @@ impl Axis {
 #[allow(clippy::cast_possible_truncation, reason = "exponents of f64 are small")]
 fn exponent_of(number: f64) -> i32 {
     libm::round(libm::log10(decimal_step(number))) as i32
-}
-
-/// Returns the smallest of 1, 2 and 5 times a power of ten that is not below a positive number.
-fn round_up(number: f64) -> f64 {
-    let power = decimal_step(number);
-    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * power >= number * (1.0 - 1e-9));
-    digit.unwrap_or(10.0) * power
 }
 
 #[cfg(test)]

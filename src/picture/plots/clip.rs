@@ -24,7 +24,7 @@ pub(super) fn clipped(
     for point in points {
         // A point that is too far away to compute with is drawn as one that is just far away.
         let here = point.at.map(&place).filter(|at| at.iter().all(|part| !part.is_nan()));
-        let here = here.map(|at| at.map(|part| part.clamp(-FAR, FAR)));
+        let here = here.map(|at| at.map(|part| part.clamp(-MAX_DISTANCE, MAX_DISTANCE)));
         match (before, here) {
             (Some(from), Some(to)) => match visible(from, to) {
                 Some([first, last]) => {
@@ -48,8 +48,9 @@ pub(super) fn clipped(
     drawn
 }
 
-/// The largest distance between a curve and its drawn line, in a picture with a width of 2: 0.3 pixels of a picture 4000 pixels wide.
-const FINE: f64 = 1.5e-4;
+/// The largest distance between a curve and its drawn line, in the image plane, where the picture has a width of 2: 0.3 pixels of a picture
+/// 4000 pixels wide.
+const MAX_DEVIATION: f64 = 1.5e-4;
 
 /// Leaves out points that lie on the line between their neighbors (Ramer 1972, Douglas and Peucker 1973). Ends and gaps are kept.
 pub(super) fn simplified(points: Vec<CurvePoint>) -> Vec<CurvePoint> {
@@ -80,7 +81,7 @@ fn keep(points: &[CurvePoint], part: (usize, usize), is_kept: &mut [bool]) {
         }
         let distance = |number: &usize| points[*number].at.map_or(0.0, |at| away(at, from, to));
         let farthest = (first + 1..last).max_by(|one, other| distance(one).total_cmp(&distance(other)));
-        if let Some(middle) = farthest.filter(|number| distance(number) > FINE) {
+        if let Some(middle) = farthest.filter(|number| distance(number) > MAX_DEVIATION) {
             parts.extend([(first, middle), (middle, last)]);
         }
     }
@@ -94,7 +95,7 @@ fn turn(points: &[CurvePoint], (first, last): (usize, usize)) -> Option<usize> {
     let (mut farthest, mut most) = (first, 0.0);
     for (number, point) in points.iter().enumerate().take(last + 1).skip(first + 1) {
         let way = (glam::DVec2::from_array(point.at?) - from?).dot(along);
-        if way < most - 2.0 * FINE {
+        if way < most - 2.0 * MAX_DEVIATION {
             return (farthest > first).then_some(farthest).or((number < last).then_some(number));
         }
         if way > most {
@@ -112,14 +113,14 @@ fn away(at: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     at.distance(if part.is_nan() { from } else { from + part * way })
 }
 
-/// Points are at most this far away, in sizes of the plot.
-const FAR: f64 = 1e6;
+/// The largest distance of a point from the plot, relative to the size of the plot. Points farther away are moved to this distance.
+const MAX_DISTANCE: f64 = 1e6;
 
-/// Edges count as inside, and so does what rounding puts beside them.
-const SLACK: f64 = 1e-9;
+/// The largest distance of a point outside of the plot that counts as a rounding error, relative to the size of the plot.
+const MAX_ROUNDING: f64 = 1e-9;
 
 fn is_inside(at: [f64; 2]) -> bool {
-    at.iter().all(|part| (-SLACK..=1.0 + SLACK).contains(part))
+    at.iter().all(|part| (-MAX_ROUNDING..=1.0 + MAX_ROUNDING).contains(part))
 }
 
 fn between(from: [f64; 2], to: [f64; 2], part: f64) -> [f64; 2] {
@@ -135,7 +136,7 @@ fn visible(from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for k in 0..2 {
         let way = to[k] - from[k];
-        for (way, room) in [(-way, from[k] + SLACK), (way, 1.0 + SLACK - from[k])] {
+        for (way, room) in [(-way, from[k] + MAX_ROUNDING), (way, 1.0 + MAX_ROUNDING - from[k])] {
             if way == 0.0 && room < 0.0 {
                 return None;
             }
@@ -181,7 +182,7 @@ mod tests {
             let near = drawn.windows(2).filter(|pair| (pair[0].time..=pair[1].time).contains(&point.time));
             let distance =
                 near.filter_map(|pair| Some(away(point.at?, pair[0].at?, pair[1].at?))).fold(0.0, f64::max);
-            assert!(distance <= FINE, "{point:?}: {distance}");
+            assert!(distance <= MAX_DEVIATION, "{point:?}: {distance}");
         }
     }
 

@@ -5,49 +5,31 @@
 
 mod axis;
 mod clip;
+mod colors;
 mod panel;
+mod room;
+mod unseen;
+
+use std::sync::Arc;
 
 use self::axis::{Axis, Range};
 use self::clip::{clipped, simplified};
+use self::colors::mixed;
 use self::panel::{Legend, Panel};
-use super::colors::{ink, seen};
-use super::framing::Free;
-use super::grid;
-use super::labels;
+use self::room::{Room, column};
+use super::colors::ink;
 use super::occupancy::Rectangle;
-use super::text::{MARGIN, Text, Vertical, least_height};
-use crate::scene::{
-    Color, Corner, Label, LabelPlace, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene,
-};
+use super::text::{Text, Vertical};
+use crate::scene::{Color, Corner, Measure, MeasureFormula, Plot, PlotPlace, RunMeasure, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
-/// The height of a line of text, relative to the height of the picture.
-const SIZE: f64 = 0.036;
-/// The smallest height of a line of text, pixels.
-const LEAST_PIXELS: f64 = 10.5;
+pub(super) use self::room::free;
+pub use self::unseen::UnseenPlot;
 
-/// The width of a plot, as a fraction of the picture's width.
-fn width(plot: &Plot, output: Output) -> f64 {
-    /// The usual width.
-    const USUAL: f64 = 0.36;
-    /// The smallest usual width, pixels: smaller plots cannot be read.
-    const LEAST: f64 = 140.0;
-    let most = if matches!(plot.place, PlotPlace::Corner(_)) { 0.5 } else { Plot::MAX_WIDTH_AT_SIDE };
-    plot.width.unwrap_or_else(|| (LEAST / f64::from(output.width)).clamp(USUAL, most))
-}
-
-/// The part of the picture's width that plots at its sides leave free.
-pub(super) fn free(scene: &Scene) -> Free {
-    let taken = |place: PlotPlace| {
-        let plots = scene.plots.iter().filter(|plot| plot.place == place);
-        let widths = plots.map(|plot| width(plot, scene.output) + MARGIN / 2.0);
-        widths.fold(0.0, f64::max).min(0.44)
-    };
-    let [left, right] = [PlotPlace::Left, PlotPlace::Right].map(taken);
-    // Two wide plots leave a fifth of the picture.
-    let scale = 1.0_f64.min(0.8 / (left + right).max(1e-9));
-    Free { center: (left - right) * scale, half: 1.0 - (left + right) * scale }
-}
+/// The height of a line of text in a picture of a plot alone, where the picture has a width of 2.
+const LINE_ALONE: f64 = 0.04;
+/// The radius of the dots at the present values, relative to the height of a line of text.
+const DOT: f64 = 0.17;
 
 /// A plot, as it is drawn. Positions are in the image plane, relative to the lower left corner of the panel, unless noted otherwise.
 #[derive(Clone, Debug)]
@@ -112,7 +94,7 @@ pub(super) struct Plots {
     plots: Vec<Plot>,
     /// The axes of each plot, and the rectangle that they span in its panel.
     axes: Vec<(Axes, Rectangle)>,
-    measures: Measures,
+    measures: Arc<Measures>,
     aspect: f64,
 }
 
@@ -120,66 +102,21 @@ pub(super) struct Plots {
 type Axes = [Axis; 2];
 
 impl Plots {
-    /// Plans the plots of a run. `taken` are the parts of the picture where none can stand; the plots are added to it.
-    pub(super) fn new(scene: &Scene, survey: &Survey) -> Plots {
+    /// Plans the plots of a run. `measures` are those of its scene.
+    pub(super) fn new(scene: &Scene, survey: &Survey, measures: Arc<Measures>) -> Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-        let line = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
-        let around = Surroundings {
-            free: free(scene),
-            widest: 0.0,
-            width: 0.0,
-            line,
-            aspect,
-            used: 0.0,
-            count: 1,
-            column: 1,
-            others: 0.0,
-            dark: scene.environment.is_dark(),
-        };
         let mut points = survey.curves.iter();
-        let mut plots = Plots {
-            planned: Vec::new(),
-            plots: scene.plots.clone(),
-            axes: Vec::new(),
-            measures: Measures::new(scene),
-            aspect,
-        };
+        let mut plots =
+            Plots { planned: Vec::new(), plots: scene.plots.clone(), axes: Vec::new(), measures, aspect };
         for plot in &scene.plots {
             let curves: Vec<&[CurvePoint]> =
                 points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect();
-            let used = plots.used(scene, plot);
-            let here = || scene.plots.iter().filter(|other| other.place == plot.place);
-            let widest = here().map(|other| width(other, scene.output)).fold(0.0, f64::max);
-            let count = here().count();
-            let is_in_column = |other: &&Plot| column(other.place) == column(plot.place);
-            let column = scene.plots.iter().filter(is_in_column).count();
-            let others = others(scene, plot.place, aspect);
-            let (planned, axes) = plan(
-                scene,
-                plot,
-                &curves,
-                Surroundings {
-                    widest,
-                    width: width(plot, scene.output),
-                    used,
-                    count,
-                    column,
-                    others,
-                    ..around
-                },
-            );
+            let room = Room::in_picture(scene, plot, &plots.planned);
+            let (planned, axes) = plan(scene, plot, &curves, &room, scene.environment.is_dark());
             plots.planned.push(planned);
             plots.axes.push(axes);
         }
         plots
-    }
-
-    /// The height that a scale bar and other plots already use in the place of a plot.
-    fn used(&self, scene: &Scene, plot: &Plot) -> f64 {
-        let bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == plot.place);
-        let bar = bar.map_or(0.0, |_| 4.0 * self.aspect * grid::SIZE);
-        let others = self.plots.iter().zip(&self.planned).filter(|(other, _)| other.place == plot.place);
-        bar + others.map(|(_, planned)| planned.size[1] + panel::GAP).sum::<f64>()
     }
 
     pub(super) fn planned(&self) -> &[PlannedPlot] {
@@ -218,68 +155,24 @@ impl Plots {
 /// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, and curves over the whole run. `number` is its
 /// index in the scene.
 pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> PlannedPlot {
-    /// The height of a line of text, relative to half the width of the drawing.
-    const LINE: f64 = 0.04;
     let before: usize = scene.plots[..number].iter().map(|plot| plot.curves.len()).sum();
     let plot = Plot { place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
     let curves: Vec<&[CurvePoint]> =
         survey.curves.iter().skip(before).take(plot.curves.len()).map(Vec::as_slice).collect();
-    plan(
-        scene,
-        &plot,
-        &curves,
-        Surroundings {
-            free: Free::ALL,
-            widest: 1.0,
-            width: 1.0,
-            line: LINE,
-            aspect: 1.0,
-            used: 0.0,
-            count: 1,
-            column: 1,
-            others: 0.0,
-            dark: false,
-        },
-    )
-    .0
+    plan(scene, &plot, &curves, &Room::alone(LINE_ALONE), false).0
 }
 
-/// The picture that a plot stands in.
-#[derive(Clone, Copy)]
-struct Surroundings {
-    /// The part of the picture that plots at its sides leave free.
-    free: Free,
-    /// The largest width of the plots in its place, as a fraction of the picture's width.
-    widest: f64,
-    /// The width of the plot, as a fraction of the picture's width.
-    width: f64,
-    /// The height of a line of text in the image plane.
-    line: f64,
-    /// The height of the picture, relative to its width.
-    aspect: f64,
-    /// The height that other plots before it use in its place.
-    used: f64,
-    /// The number of plots in its place, itself included.
-    count: usize,
-    /// The number of plots in its column of the picture: at the left, in the middle, or at the right.
-    column: usize,
-    /// The height of the labels and the scale bar in the corners of this column.
-    others: f64,
-    /// Whether the background is dark.
-    dark: bool,
-}
-
-/// Plans a plot, given the points of its curves.
+/// Plans a plot, given the points of its curves. `dark` says whether the background of the picture is dark.
 fn plan(
     scene: &Scene,
     plot: &Plot,
     curves: &[&[CurvePoint]],
-    around: Surroundings,
+    room: &Room,
+    dark: bool,
 ) -> (PlannedPlot, (Axes, Rectangle)) {
-    let Surroundings { line, dark, .. } = around;
     let (ink, paper) =
         (ink(dark), if dark { Color([0.10, 0.11, 0.13]) } else { Color([0.985, 0.985, 0.98]) });
-    let colors = colors(scene, plot, dark);
+    let colors = colors::of_curves(scene, plot, dark);
     let names: Vec<(&str, Color)> =
         plot.curves.iter().zip(&colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
     let x_unit = plot.x.unit().unwrap_or_default();
@@ -306,7 +199,7 @@ fn plan(
         is_wider: plot.range.is_none(),
         is_count: plot.curves.iter().all(|curve| is_count(&curve.y)),
     };
-    let (panel, axes) = Panel::new(plot, &legend, &[level, upright], around);
+    let (panel, axes) = Panel::new(plot, &legend, &[level, upright], room);
     let area = panel.area;
     let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
     let planned_curves = curves.iter().zip(&colors).map(|(points, color)| PlannedCurve {
@@ -323,35 +216,9 @@ fn plan(
         lines: panel.lines(&axes, mixed(ink, paper, 0.82), mixed(ink, paper, 0.25)),
         texts: panel.texts(&axes, &legend, mixed(ink, paper, 0.1)),
         curves: planned_curves.collect(),
-        dot: 0.17 * line,
+        dot: DOT * room.line,
     };
     (planned, (axes, area))
-}
-
-/// The column of the picture that a plot stands in, from the left side to the right side. A plot in a corner stands beside those at a side.
-fn column(place: PlotPlace) -> i8 {
-    match place {
-        PlotPlace::Left => -2,
-        PlotPlace::Corner(Corner::TopLeft | Corner::BottomLeft) => -1,
-        PlotPlace::Corner(Corner::Top | Corner::Bottom) => 0,
-        PlotPlace::Right => 2,
-        PlotPlace::Corner(Corner::TopRight | Corner::BottomRight) => 1,
-    }
-}
-
-/// The height of the labels and the scale bar that stand in the same column as a plot in a corner. Beside plots at a side, they have the
-/// rest of the picture.
-fn others(scene: &Scene, place: PlotPlace, aspect: f64) -> f64 {
-    if !matches!(place, PlotPlace::Corner(_)) {
-        return 0.0;
-    }
-    let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
-    let bar = scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 4.0 * aspect * grid::SIZE);
-    let height = |label: &Label| match label.place {
-        LabelPlace::Corner(corner) if is_here(corner) => labels::least_room(label, scene.output),
-        _ => 0.0,
-    };
-    bar + scene.labels.iter().map(height).sum::<f64>()
 }
 
 /// The position in a panel of a point in its plot, which is given from 0 to 1.
@@ -373,48 +240,4 @@ fn unit(plot: &Plot) -> &'static str {
     let mut units = plot.curves.iter().map(|curve| curve.y.unit());
     let first = units.next().flatten();
     first.filter(|first| units.all(|unit| unit == Some(first))).unwrap_or_default()
-}
-
-/// The colors of the curves: that of the only body in a formula, or else one of a palette whose colors can be told apart.
-fn colors(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
-    /// The colors of Okabe and Ito, which people with any color vision can tell apart, with a gray and a brown for the black and the yellow.
-    const PALETTE: [Color; Plot::MAX_CURVES] = [
-        Color([0.0, 0.447, 0.698]),
-        Color([0.835, 0.369, 0.0]),
-        Color([0.0, 0.62, 0.451]),
-        Color([0.8, 0.475, 0.655]),
-        Color([0.337, 0.706, 0.914]),
-        Color([0.902, 0.624, 0.0]),
-        Color([0.35, 0.35, 0.38]),
-        Color([0.55, 0.34, 0.16]),
-    ];
-    let mut free = PALETTE.into_iter().cycle();
-    let mut colors: Vec<Color> = Vec::new();
-    for curve in &plot.curves {
-        let material = curve.y.body().and_then(|body| scene.bodies[body].material);
-        let own = material.and_then(|material| scene.materials[material].look.color());
-        let own = own.map(|color| seen(color, dark)).filter(|own| {
-            let is_legible = dark || own.linear().iter().sum::<f64>() < 1.5;
-            is_legible && colors.iter().all(|other| difference(*own, *other) > 0.3)
-        });
-        let color = own.or_else(|| {
-            let mut palette = free
-                .by_ref()
-                .take(PALETTE.len())
-                .map(|color| if dark { mixed(color, Color::WHITE, 0.25) } else { color });
-            palette.find(|color| colors.iter().all(|other| difference(*color, *other) > 0.1))
-        });
-        colors.push(color.unwrap_or(PALETTE[0]));
-    }
-    colors
-}
-
-/// The distance of two colors in sRGB.
-fn difference(one: Color, other: Color) -> f64 {
-    (glam::DVec3::from_array(one.0) - glam::DVec3::from_array(other.0)).length()
-}
-
-/// Mixes a part of a second color into a color.
-fn mixed(color: Color, other: Color, part: f64) -> Color {
-    Color(std::array::from_fn(|k| color.0[k] + part * (other.0[k] - color.0[k])))
 }

@@ -1,19 +1,45 @@
 //! Lays out the panel of a plot: where its axes, its numbers and its legend stand.
 
 use super::super::occupancy::Rectangle;
-use super::super::text::{MARGIN, Text, Vertical, across_free, is_top, width};
+use super::super::text::{Text, Vertical, width};
 use super::axis::{Axis, Range, Tick};
-use super::{Axes, PlotLine, Surroundings};
+use super::room::Room;
+use super::{Axes, PlotLine};
 use crate::scene::{Color, Plot, PlotPlace};
 
-/// The distance between two plots.
-pub(super) const GAP: f64 = 0.02;
-/// The height of a panel, relative to its width.
-const SHAPE: f64 = 0.64;
-/// The largest height of a panel at a side of the picture, relative to its width.
-const TALLEST: f64 = 0.9;
-/// The least height of the axes, in lines of text.
-const LEAST_LINES: f64 = 4.0;
+/// The usual height of a panel in a corner of the picture, relative to its width.
+const USUAL_HEIGHT: f64 = 0.64;
+/// The smallest usual height of the upright axis of a panel in a corner, relative to the width of the panel.
+const MIN_USUAL_AXIS: f64 = 0.4;
+/// The usual height of a panel at a side of the picture, relative to the width of the widest panel there.
+const USUAL_HEIGHT_AT_SIDE: f64 = 0.9;
+/// The smallest height of the upright axis at which a plot is easy to read, in lines of text.
+const MIN_AXIS: f64 = 4.0;
+/// The smallest height of the upright axis of a plot without room, in lines of text.
+const MIN_AXIS_WITHOUT_ROOM: f64 = 1.0;
+/// The smallest width of the level axis at which a plot is easy to read, relative to the width of the panel.
+const MIN_LEVEL_AXIS: f64 = 0.35;
+/// The width of the name of the level axis from which on it stands below the numbers, relative to the width of the panel.
+const LONG_NAME: f64 = 0.2;
+/// The heights of letters that are tried, relative to the usual height.
+const LETTERS: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
+/// The distance of the contents of a panel from its edges, in lines of text.
+const PADDING: f64 = 0.45;
+/// The distance between the numbers of the upright axis and the axis, in lines of text.
+const BESIDE_AXIS: f64 = 0.4;
+/// The distance between two rows of the legend, in lines of text.
+const ROW: f64 = 1.15;
+/// The height of the row with the title, in lines of text.
+const TITLE_ROW: f64 = 1.25;
+/// The height of the row with the numbers of the level axis, in lines of text.
+const NUMBERS_ROW: f64 = 1.25;
+/// The height of the row with the name of the level axis, in lines of text.
+const NAME_ROW: f64 = 1.1;
+/// The distance between two numbers of the level axis, and between two of the upright one, in lines of text. Numbers of the level axis may be
+/// farther apart, if they are wide.
+const BETWEEN_NUMBERS: [f64; 2] = [2.8, 2.0];
+/// The largest number of intervals between the numbers of the level and of the upright axis.
+const MAX_INTERVALS: [f64; 2] = [8.0, 6.0];
 
 /// The words of a plot.
 pub(super) struct Legend<'a> {
@@ -44,47 +70,32 @@ pub(super) struct Panel {
 
 impl Panel {
     /// Lays out a plot. If its words need more room than there is, its letters get smaller, and its longest words are cut.
-    pub(super) fn new(
-        plot: &Plot,
-        legend: &Legend<'_>,
-        ranges: &[Range; 2],
-        around: Surroundings,
-    ) -> (Panel, Axes) {
-        /// The heights of letters that are tried, relative to the usual height.
-        const SCALES: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
-        let mut layout = None;
-        for scale in SCALES {
-            let (panel, axes, fits) = Panel::with_letters(scale * around.line, plot, legend, ranges, around);
-            layout = Some((panel, axes));
+    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, ranges: &[Range; 2], room: &Room) -> (Panel, Axes) {
+        let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, ranges, room);
+        let [usual, smaller @ ..] = LETTERS;
+        let (mut panel, mut axes, mut fits) = with(usual);
+        for scale in smaller {
             if fits {
                 break;
             }
+            (panel, axes, fits) = with(scale);
         }
-        // The list of scales is not empty.
-        layout.unwrap_or_else(|| {
-            let (panel, axes, _) = Panel::with_letters(around.line, plot, legend, ranges, around);
-            (panel, axes)
-        })
+        (panel, axes)
     }
 
     /// Lays out a plot with letters of a height. Also returns whether all of its words have room.
-    #[allow(clippy::cast_precision_loss, reason = "there are few plots")]
     fn with_letters(
         line: f64,
         plot: &Plot,
         legend: &Legend<'_>,
         ranges: &[Range; 2],
-        Surroundings { width: share, widest, free, aspect, used, count, column, others, .. }: Surroundings,
+        room: &Room,
     ) -> (Panel, Axes, bool) {
-        let wide = (2.0 * share).min(2.0 - 2.0 * MARGIN);
-        let (pad, count, column) = (0.45 * line, count as f64, column as f64);
-        // All plots of a column of the picture share the height that a scale bar and labels leave.
-        let most = (2.0 * aspect - 2.0 * MARGIN - others - (column - 1.0) * GAP) / column;
-        // A long name of the level axis stands below its numbers.
-        let is_long = width(legend.x_name, line) > 0.2 * wide;
-        let name_row = if is_long { 1.1 * line } else { 0.0 };
-        let title_row = if legend.title.is_some() { 1.25 * line } else { 0.0 };
-        let foot = pad + 1.25 * line + name_row;
+        let (wide, most) = (room.panel_width(), room.max_height());
+        let (pad, beside_axis) = (PADDING * line, BESIDE_AXIS * line);
+        let name_row = if width(legend.x_name, line) > LONG_NAME * wide { NAME_ROW * line } else { 0.0 };
+        let title_row = if legend.title.is_some() { TITLE_ROW * line } else { 0.0 };
+        let foot = pad + NUMBERS_ROW * line + name_row;
         // The numbers of the upright axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
         let mut upright = Axis::new(&ranges[1], 1.0);
@@ -92,46 +103,39 @@ impl Panel {
             (width("0.00", line), Vec::new(), 0.0, 0.0, 0.0);
         for _ in 0..2 {
             let unit = width(&upright.unit(legend.units[1]), line);
-            let begin = (pad + numbers + 0.4 * line).max(pad + unit + 0.9 * line);
+            let begin = (pad + numbers + beside_axis).max(pad + unit + 0.9 * line);
             (names, rows) = placed(legend, (begin, pad, wide - pad), line);
-            let head = pad + title_row + (1.15 * rows + 0.5) * line;
-            least = head + foot + LEAST_LINES * line;
+            let head = pad + title_row + (ROW * rows + 0.5) * line;
+            least = head + foot + MIN_AXIS * line;
             let usual = match plot.place {
-                PlotPlace::Corner(_) => (SHAPE * wide).max(head + foot + 0.4 * wide),
-                _ => TALLEST * 2.0 * widest,
+                PlotPlace::Corner(_) => (USUAL_HEIGHT * wide).max(head + foot + MIN_USUAL_AXIS * wide),
+                _ => USUAL_HEIGHT_AT_SIDE * room.widest,
             };
-            // A panel that has no room at all still has axes.
-            high = usual.max(least).min(most.max(head + foot + line));
-            upright = Axis::new(&ranges[1], ((high - head - foot) / (2.0 * line)).clamp(1.0, 6.0));
+            high = usual.max(least).min(most.max(head + foot + MIN_AXIS_WITHOUT_ROOM * line));
+            let intervals = (high - head - foot) / (BETWEEN_NUMBERS[1] * line);
+            upright = Axis::new(&ranges[1], intervals.clamp(1.0, MAX_INTERVALS[1]));
             numbers = upright.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
         }
-        let left = pad + numbers + 0.4 * line;
-        let room = wide - left - 2.0 * pad;
-        let level = Axis::new(&ranges[0], (room / (2.8 * line)).clamp(1.0, 8.0));
-        let widest_number = level.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
-        let level =
-            Axis::new(&ranges[0], (room / (widest_number + 0.8 * line).max(2.8 * line)).clamp(1.0, 8.0));
+        let left = pad + numbers + beside_axis;
+        let across = wide - left - 2.0 * pad;
+        let level = |interval: f64| Axis::new(&ranges[0], (across / interval).clamp(1.0, MAX_INTERVALS[0]));
+        let narrow = BETWEEN_NUMBERS[0] * line;
+        let ticks = level(narrow).ticks();
+        let widest = ticks.iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
+        let level = level(narrow.max(widest + 0.8 * line));
         let legend_begin = pad + title_row + 0.8 * line;
         let area = Rectangle {
             left,
             right: wide - 2.0 * pad,
             bottom: foot,
-            top: high - legend_begin - (1.15 * (rows - 1.0) + 0.85) * line,
+            top: high - legend_begin - (ROW * (rows - 1.0) + 0.85) * line,
         };
-        let beside = Vertical::Middle((count * high + (count - 1.0) * GAP) / 2.0 - used - high);
-        let ((x, align), bottom) = match plot.place {
-            PlotPlace::Corner(corner) if is_top(corner) => {
-                (across_free(corner, free), Vertical::Top(MARGIN + used + high))
-            }
-            PlotPlace::Corner(corner) => (across_free(corner, free), Vertical::Bottom(MARGIN + used)),
-            PlotPlace::Left => ((MARGIN - 1.0, 0.0), beside),
-            PlotPlace::Right => ((1.0 - MARGIN, 1.0), beside),
-        };
+        let (left_edge, bottom) = room.corner_of(plot.place, [wide, high]);
         let words = legend.names.iter().map(|(name, _)| *name).chain([legend.x_name]).chain(legend.title);
         let longest = words.map(|words| width(words, line)).fold(0.0, f64::max);
-        let fits = least <= most && longest <= wide - 2.0 * pad && room > 0.35 * wide;
+        let fits = least <= most && longest <= wide - 2.0 * pad && across > MIN_LEVEL_AXIS * wide;
         let panel = Panel {
-            left: x - align * wide,
+            left: left_edge,
             bottom,
             size: [wide, high],
             area,
@@ -175,7 +179,7 @@ impl Panel {
             color,
             anchor: None,
         };
-        let pad = 0.45 * line;
+        let pad = PADDING * line;
         let mut texts = Vec::new();
         let room = self.size[0] - 2.0 * pad;
         if let Some(title) = legend.title {
@@ -189,11 +193,11 @@ impl Panel {
         }
         for ((name, color), (x, number)) in legend.names.iter().zip(&self.names) {
             let name = cut(name, self.size[0] - pad - x, line);
-            texts.push(text(name, [*x, row - 1.15 * number * line], 0.0, *color));
+            texts.push(text(name, [*x, row - ROW * number * line], 0.0, *color));
         }
         for tick in axes[1].ticks() {
             let y = bottom + tick.at * (top - bottom) - 0.27 * line;
-            texts.push(text(tick.says, [left - 0.4 * line, y], 1.0, ink));
+            texts.push(text(tick.says, [left - BESIDE_AXIS * line, y], 1.0, ink));
         }
         let base = bottom - 1.05 * line;
         let unit = axes[0].unit(legend.units[0]);

@@ -1,6 +1,7 @@
 //! The axis of a plot: it maps values to positions along its length, and chooses the labeled values.
 
 use super::text::digits;
+use crate::decimal::round_above;
 
 /// An axis of a plot, from a smallest to a largest value. For a logarithmic axis, `min` and `max` are powers of ten.
 pub(super) struct Axis {
@@ -62,9 +63,7 @@ impl Axis {
                 .map(|power| (libm::exp10(power), format!("1e{power}")))
                 .collect();
         }
-        let power = libm::exp10(libm::log10(range / MAX_INTERVALS).floor());
-        let every = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-        let every = every.into_iter().find(|every| range / every <= MAX_INTERVALS).unwrap_or(range);
+        let every = round_above(range / MAX_INTERVALS);
         let first = (self.min / every).ceil() * every;
         let rounded = |value: f64| if value.abs() < 1e-9 * every { 0.0 } else { value };
         steps(first, every, self.max).map(rounded).map(|value| (value, digits(value, 6))).collect()

@@ -1,20 +1,9 @@
 //! Draws charts of several curves with logarithmic axes, such as errors over costs.
 
 use super::axis::Axis;
-use super::{Anchor, FAINT_TEXT_COLOR, GRID_COLOR, Picture, Rgb, TEXT_COLOR};
-
-/// The colors of curves. People with red–green color blindness can distinguish them. Source: M. Okabe & K. Ito, *Color Universal Design*
-/// (2008), with a darker yellow.
-const CURVE_COLORS: [Rgb; 8] = [
-    [0, 0, 0],
-    [230, 159, 0],
-    [86, 180, 233],
-    [0, 158, 115],
-    [178, 160, 20],
-    [0, 114, 178],
-    [213, 94, 0],
-    [204, 121, 167],
-];
+use super::{FAINT_TEXT_COLOR, GRID_COLOR, Picture, TEXT_COLOR};
+use crate::scene::Color;
+use crate::svg::Anchor;
 
 /// The width of a plot, pixels.
 const PLOT_WIDTH: f64 = 1100.0;
@@ -68,14 +57,14 @@ impl Picture {
         }
         picture.text([LEFT_MARGIN, 26.0], title.to_owned(), Anchor::Start, TEXT_COLOR, true);
         let [mut x, mut y] = [LEFT_MARGIN, 52.0];
-        for (name, color) in names.iter().zip(CURVE_COLORS.iter().cycle()) {
+        for (name, color) in names.iter().zip(Color::OF_CURVES.into_iter().cycle()) {
             let width = LEGEND_LINE_LENGTH
                 + 22.0
                 + LEGEND_LETTER_WIDTH * f64::from(u8::try_from(name.len()).unwrap_or(u8::MAX));
             if x + width > PLOT_WIDTH {
                 [x, y] = [LEFT_MARGIN, y + 22.0];
             }
-            picture.line(vec![[x, y], [x + LEGEND_LINE_LENGTH, y]], 3.0, *color);
+            picture.line(vec![[x, y], [x + LEGEND_LINE_LENGTH, y]], 3.0, color.bytes());
             picture.text(
                 [x + LEGEND_LINE_LENGTH + 7.0, y],
                 (*name).to_owned(),
@@ -123,7 +112,7 @@ impl Picture {
         );
         for curve in &chart.curves {
             let number = names.iter().position(|name| *name == curve.name).unwrap_or_default();
-            let color = CURVE_COLORS[number % CURVE_COLORS.len()];
+            let color = Color::OF_CURVES[number % Color::OF_CURVES.len()].bytes();
             let points: Vec<[f64; 2]> = curve.points.iter().map(|point| [x(point[0]), y(point[1])]).collect();
             for [x, y] in &points {
                 self.line(vec![[x - 3.0, *y], [x + 3.0, *y]], 6.0, color);

@@ -10,16 +10,13 @@ mod svg;
 
 use super::verdict::{Curves, Verdict};
 use super::{Assessment, Separation, text};
+use crate::svg::{Anchor, Rgb};
 use axis::Axis;
 
 pub use chart::{Chart, Curve};
 #[cfg(feature = "render")]
 pub use png::png;
-pub(crate) use svg::escaped;
 pub use svg::svg;
-
-/// A color: red, green and blue, 0 to 255.
-type Rgb = [u8; 3];
 
 /// The color behind a plot.
 const BACKGROUND_COLOR: Rgb = [255, 255, 255];
@@ -48,14 +45,6 @@ const TOP_MARGIN: f64 = 92.0;
 const PANEL_HEIGHT: f64 = 220.0;
 /// The vertical gap between two panels, pixels.
 const PANEL_GAP: f64 = 66.0;
-
-/// The part of a text that lies at its position: start, middle or end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Anchor {
-    Start,
-    Middle,
-    End,
-}
 
 /// A line or a text of a picture. Positions are in pixels, from the upper left corner of the picture.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
-use super::{Anchor, BACKGROUND_COLOR, Item, Picture, Rgb};
+use super::{BACKGROUND_COLOR, Item, Picture};
+use crate::svg::{Anchor, Rgb};
 
 /// Returns the picture as the bytes of a PNG file.
 ///

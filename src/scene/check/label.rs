@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Context;
-use super::measures::Reader;
+use super::measures::{OwnBody, Reader};
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -85,8 +85,12 @@ pub(super) fn pieces(
     joints: &[Joint],
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
+    let own = match place {
+        LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
+        LabelPlace::Corner(_) => None,
+    };
     let mut reader =
-        Reader { noun: "label", text, span, root, place, bodies, joints, context, missing: Vec::new() };
+        Reader { noun: "label", text, span, root, own, bodies, joints, context, missing: Vec::new() };
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
         reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");

@@ -11,7 +11,16 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{Body, BodyMeasure, Joint, LabelPlace, Measure, MeasureFormula, RunMeasure};
+use crate::scene::{Body, BodyMeasure, Joint, Measure, MeasureFormula, RunMeasure};
+
+/// The body whose measures need no name in a text, since the text stands beside it.
+#[derive(Clone, Copy)]
+pub(super) struct OwnBody {
+    /// The index of the body.
+    pub(super) body: usize,
+    /// Whether the text also stands beside the ghosts of the body, which keep only the body's own state.
+    pub(super) ghosts: bool,
+}
 
 /// Reads a text that contains formulas of measures.
 pub(super) struct Reader<'a, 'b, 'c> {
@@ -20,8 +29,7 @@ pub(super) struct Reader<'a, 'b, 'c> {
     pub(super) text: &'a str,
     pub(super) span: Span,
     pub(super) root: &'a View<'b>,
-    /// The position of the label. In a label beside a body, measures of this body need no name.
-    pub(super) place: LabelPlace,
+    pub(super) own: Option<OwnBody>,
     pub(super) bodies: &'a [Body],
     pub(super) joints: &'a [Joint],
     pub(super) context: &'a mut Context<'c>,
@@ -71,8 +79,7 @@ impl Reader<'_, '_, '_> {
         };
         let mut with_run = true;
         let has_contacts = self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS);
-        let of_body = matches!(self.place, LabelPlace::Body { .. });
-        if let LabelPlace::Body { body, ghosts, .. } = self.place {
+        if let Some(OwnBody { body, ghosts }) = self.own {
             with_run = !ghosts;
             let known = BodyMeasure::ALL.into_iter();
             let known =
@@ -81,7 +88,7 @@ impl Reader<'_, '_, '_> {
         }
         for (name, measure, _) in RunMeasure::ALL {
             // In a label beside a body, a name such as `kinetic` means the measure of that body. A variable of the scene hides a measure.
-            let is_of_body = of_body && BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
+            let is_of_body = self.own.is_some() && BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
             let is_variable = self.variables().any(|(variable, _)| variable == name);
             let is_known = !is_of_body && !is_variable && (measure != RunMeasure::Impacts || has_contacts);
             // A ghost keeps only the state of its own body, so offer the time but no other measure of the run.
@@ -90,7 +97,8 @@ impl Reader<'_, '_, '_> {
             }
         }
         for (name, measure) in dotted {
-            let of_ghost = matches!(self.place, LabelPlace::Body { body, .. } if matches!(measure, Measure::Body(b, _) if b == body));
+            let of_ghost =
+                matches!((self.own, measure), (Some(own), Measure::Body(body, _)) if body == own.body);
             if with_run || of_ghost {
                 add(&name, measure);
             }

@@ -340,7 +340,7 @@ fn build(
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let labels = label::read(&root, &bodies, &joints, context);
-    let plots = plot::read(&root, &bodies, &joints, context);
+    let (plots, places_of_plots) = plot::read(&root, &bodies, &joints, context);
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
@@ -388,6 +388,7 @@ fn build(
             bodies: root.bodies().map(NamedTable::span).collect(),
             contacts: root.table(&scene::SIMULATION).span(&grammar::scene::simulation::CONTACTS),
             camera: root.key_span(&scene::CAMERA),
+            plots: places_of_plots,
             unit: root.table(&scene::POVRAY).span(&grammar::scene::povray::UNIT),
         },
         overrides: options.overrides.iter().map(|set| set.as_str().to_owned()).collect(),

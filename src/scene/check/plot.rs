@@ -10,7 +10,7 @@ use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Any, Key};
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Body, Curve, Joint, LabelPlace, MeasureFormula, Plot, PlotPlace};
+use crate::scene::{Body, Curve, Joint, MeasureFormula, Plot, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -23,21 +23,22 @@ struct Plots<'a, 'b, 'c> {
     context: &'a mut Context<'c>,
 }
 
+/// Returns the plots of a scene, and where they are written.
 pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
     joints: &[Joint],
     context: &mut Context<'_>,
-) -> Vec<Plot> {
+) -> (Vec<Plot>, Vec<PlotSpans>) {
     let mut plots = Plots { root, bodies, joints, context };
     root.named(&scene::PLOT)
         .into_iter()
         .filter_map(|(name, span, view)| plots.plot((name, span), &view))
-        .collect()
+        .unzip()
 }
 
 impl<'b, 'c> Plots<'_, 'b, 'c> {
-    fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<Plot> {
+    fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<(Plot, PlotSpans)> {
         let x_formula = view.get(&plot::X);
         let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
         let written = texts(view, &plot::Y);
@@ -90,7 +91,9 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             Some(Curve { name, y: formula? })
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
-        Some(Plot {
+        let curves_at = written.iter().map(|(_, span)| *span).collect();
+        let spans = PlotSpans { name: span, curves: curves_at, range: view.span(&plot::RANGE) };
+        let plot = Plot {
             name: name.to_owned(),
             title: view.get(&plot::TITLE).map(str::to_owned),
             x: x?,
@@ -100,8 +103,8 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             width,
             range,
             ahead: view.get(&plot::AHEAD),
-        })
-        .filter(|plot| !plot.curves.is_empty())
+        };
+        (!plot.curves.is_empty()).then_some((plot, spans))
     }
 
     /// Reads a formula of measures. Reports its mistakes at their source positions.
@@ -147,7 +150,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             text,
             span,
             root: self.root,
-            place: LabelPlace::Corner(crate::scene::Corner::TopRight),
+            own: None,
             bodies: self.bodies,
             joints: self.joints,
             context: self.context,

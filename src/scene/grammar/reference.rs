@@ -471,7 +471,8 @@ body that its formula names, if it names only one. In runs of more than 600 fram
 frames, so no peak is lost. `output.layout = \"shared\"` writes the curves once for all frames, which saves space in long runs.
 
 A plot in a corner stands in front of the bodies. Several plots at the same place stand below each other and share the height of the picture.
-If words have too little room, the letters get smaller, and the longest words are cut. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
+If words have too little room, the letters get smaller, and the longest words are cut. A plot that leaves the picture or covers another one
+gets a warning, and so does a curve of which no picture shows a point. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
 rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the whole plot for paper.
 ";
 

@@ -1,4 +1,4 @@
-//! Scenes as trees of TOML, in which a test changes one value after another.
+//! Scenes as trees of TOML, in which a test replaces one value at a time.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use crate::scene::source::{self, Entry, Node, Override, Table, Value};
 use crate::scene::{Options, Scene};
 use crate::simulate::Moments;
 
-/// A scene of a file, its tree, and the digest of its run.
+/// A scene file: its tree, and the digest of its run.
 pub(super) struct Document {
     pub(super) path: PathBuf,
     pub(super) root: Table,
@@ -20,7 +20,7 @@ pub(super) struct Document {
     pub(super) bodies: usize,
 }
 
-/// A step on the way from the root of a tree to a value.
+/// A step of the path from the root of a tree to a value.
 #[derive(Clone, PartialEq)]
 pub(super) enum Step {
     Key(Arc<str>),
@@ -30,13 +30,13 @@ pub(super) enum Step {
 /// A key of a table of the grammar: the noun of the table, and the name of the key.
 pub(super) type Id = (&'static str, &'static str);
 
-/// A value that a scene gives to a key.
+/// A key in a scene file, with its value.
 pub(super) struct Place<'a> {
     pub(super) document: &'a Document,
     pub(super) key: &'static KeySpec,
     pub(super) node: &'a Node,
     pub(super) way: Vec<Step>,
-    /// The key, and before it the keys of all tables that contain it.
+    /// The keys of all tables that contain the key, from the root on, then the key itself.
     pub(super) ids: Vec<Id>,
 }
 
@@ -52,7 +52,7 @@ impl Document {
         Document { path: path.to_owned(), root, digest, bodies: scene.bodies.len() }
     }
 
-    /// Returns all values of the scene's file that the grammar has keys for.
+    /// Returns all keys in the scene file that the grammar knows, with their values.
     pub(super) fn places(&self) -> Vec<Place<'_>> {
         let mut places = Vec::new();
         self.add_table(&SCENE, &self.root, &[], &[], &mut places);
@@ -109,7 +109,7 @@ impl Document {
     }
 }
 
-/// A place is shown as its key and its way in the file.
+/// Displays the key and its path in the file.
 impl fmt::Display for Place<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (noun, name) = self.id();
@@ -132,11 +132,12 @@ impl Place<'_> {
         self.node.as_table().is_some()
     }
 
-    /// Returns the digest of the scene with another value, a text in TOML, or without the value. `None` if the scene then has an error.
+    /// Returns the digest of the scene after the value is replaced by `value`, a text in TOML, or removed if `value` is `None`. `None` if the
+    /// scene then has an error.
     pub(super) fn digest_with(&self, value: Option<&str>) -> Option<CacheKey> {
         let Some((Step::Key(first), rest)) = self.way.split_first() else { return None };
         let text = match (rest, value) {
-            // Nothing can be left out at the top, but a table can be empty.
+            // An override cannot remove a key of the scene, so an empty table replaces its value.
             ([], None) => "{}".to_owned(),
             change => written(&self.document.root.get(first)?.node, Some(change)),
         };
@@ -150,19 +151,20 @@ fn options(overrides: Vec<Override>) -> Options {
     Options { overrides, trust: true, ..Options::default() }
 }
 
-/// Writes a value as TOML in one line. `change` is a way to a part of it, and what to write there; `None` leaves the part out.
+/// Writes a value as TOML in one line. `change` is the path to a part of the value, and the text that replaces this part, or `None` to remove
+/// it.
 pub(super) fn written(node: &Node, change: Option<(&[Step], Option<&str>)>) -> String {
     if let Some(([], Some(text))) = change {
         return text.to_owned();
     }
-    // Returns the change within a part, if it is there.
+    // Returns the change, relative to a part, if it concerns this part.
     let within = |part: &Step| match change {
         Some(([first, rest @ ..], text)) if first == part => Some((rest, text)),
         _ => None,
     };
     let kept = |change: &Option<(&[Step], Option<&str>)>| !matches!(change, Some(([], None)));
     match &node.value {
-        // A string of JSON is a string of TOML, too.
+        // Every JSON string is a TOML string.
         Value::String(text) => serde_json::to_string(&**text).unwrap(),
         Value::Integer(number) => number.to_string(),
         Value::Float(number) => format!("{number:?}"),

@@ -1,10 +1,10 @@
-//! The keys that only draw. They must leave the digest as it is, so that a change of a color needs no new simulation.
+//! The keys that only draw. They must not change the digest, so that a change of a color needs no new simulation.
 //!
-//! Some keys that draw are not in these lists. `smooth` of a mesh is part of its shape. Ghosts and shutters add times at which the run is
-//! recorded. A drawn contact force needs recorded contacts.
+//! Some keys that draw are not in these lists, because they also change the shape of a body or the recording. `smooth` of a mesh is part of
+//! its shape. Ghosts and shutters add times at which the run is recorded. A drawn contact force needs recorded contacts.
 
-/// The nouns of the tables all of whose keys only draw. Particles move no body.
-pub(super) const TABLES: &[&str] = &[
+/// The tables whose keys all only draw, by their nouns. Emitters are among them, since particles move no body.
+pub(super) const TABLES_THAT_DRAW: &[&str] = &[
     "a body's axes",
     "a body's look",
     "a box of emission",
@@ -38,8 +38,8 @@ pub(super) const TABLES: &[&str] = &[
     "the shape of a particle",
 ];
 
-/// The keys that only draw, of tables with other keys, by the nouns of the tables.
-pub(super) const KEYS: &[(&str, &[&str])] = &[
+/// The keys that only draw, by the nouns of their tables. These tables also have keys that act on the run.
+pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
     ("a ball joint", &["look", "arrows"]),
     ("a body", &["material", "look", "axes", "trail"]),
     ("a body's arrows", &["velocity", "acceleration", "force", "weight"]),

@@ -1,4 +1,4 @@
-//! Other values of a key, which a scene could have in place of its value.
+//! Other values of a key, to replace its value in a scene.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use super::document::{Document, Place, Step, written};
 use crate::scene::grammar::{Bound, Collection, Kind};
 use crate::scene::source::{Node, Value};
 
-/// Returns values that could stand at a place, as TOML. Not all are valid there. `None` leaves the key out.
+/// Returns other values for a key, as TOML. Some may be invalid. `None` means to remove the key.
 pub(super) fn others(place: &Place<'_>) -> Vec<Option<String>> {
     let own = written(place.node, None);
     let mut others = of_kind(&place.key.kind, place.node, place.document);
@@ -14,6 +14,7 @@ pub(super) fn others(place: &Place<'_>) -> Vec<Option<String>> {
     others.into_iter().map(Some).chain([None]).collect()
 }
 
+/// Returns values of a kind that resemble the value `node`.
 fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
     let text = node.as_str();
     let quoted = |text: &str| serde_json::to_string(text).unwrap();
@@ -53,7 +54,7 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
     }
 }
 
-/// Returns numbers near a number, or a formula with other results than a formula.
+/// Returns numbers near the number of a node. If the node is a formula, returns formulas with other results.
 fn numbers(bound: Bound, node: &Node) -> Vec<String> {
     if let Some(text) = node.as_str() {
         let formula = [format!("({text}) * 1.25"), format!("({text}) * 0.75"), format!("({text}) + 0.1")];
@@ -73,7 +74,7 @@ fn numbers(bound: Bound, node: &Node) -> Vec<String> {
     near.map(|number| format!("{number:?}")).collect()
 }
 
-/// Returns lists with another item, without an item, or in another order.
+/// Returns variants of a list: with one item replaced, with one item removed, and in reverse order.
 fn of_items(node: &Node, document: &Document, of: &Kind) -> Vec<String> {
     let Value::Array(items) = &node.value else { return Vec::new() };
     let others = items.iter().enumerate().flat_map(|(number, item)| {
@@ -85,12 +86,12 @@ fn of_items(node: &Node, document: &Document, of: &Kind) -> Vec<String> {
     others.chain(shorter).chain([format!("[{}]", turned.join(", "))]).collect()
 }
 
-/// Returns a value with each of several texts in the place of one of its parts.
+/// Returns variants of a value, in which each of the given texts replaces one of its parts.
 fn exchanged(node: &Node, part: &Step, texts: Vec<String>) -> Vec<String> {
     texts.into_iter().map(|text| written(node, Some((std::slice::from_ref(part), Some(&text))))).collect()
 }
 
-/// Returns the other files of the folder of a file with the same ending.
+/// Returns the other files with the same extension in the folder of a file.
 fn files(path: &str, document: &Document) -> Vec<String> {
     let path = std::path::Path::new(path);
     let Some(folder) = document.path.parent().zip(path.parent()).map(|(own, folder)| own.join(folder)) else {

@@ -1,0 +1,113 @@
+//! Finds plots and curves that no picture shows, or not as a whole.
+
+use super::super::occupancy::Rectangle;
+use super::{Plots, column};
+use crate::decimal::decimal_step;
+use crate::scene::{Measure, Scene};
+use crate::simulate::{CurvePoint, Survey};
+
+/// A plot without room in the picture, or a curve of which no picture shows a point. The numbers of plots and bodies are their indices in
+/// the scene, those of curves their indices in the plot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum UnseenPlot {
+    /// A plot leaves the picture.
+    Outside {
+        /// The plot.
+        plot: usize,
+    },
+    /// A plot covers another one.
+    Covers {
+        /// The plot.
+        plot: usize,
+        /// The plot that it covers. This one comes before it in the scene.
+        other: usize,
+        /// Whether the two stand side by side, and not above each other.
+        is_beside: bool,
+    },
+    /// All values of a curve are outside of the range of its plot.
+    OutOfRange {
+        /// The plot of the curve.
+        plot: usize,
+        /// The curve.
+        curve: usize,
+        /// The lowest and the highest value of the curve.
+        values: [f64; 2],
+        /// A range that contains these values and the given range.
+        fit: [f64; 2],
+    },
+    /// A body that a curve names is never there.
+    NeverThere {
+        /// The plot of the curve.
+        plot: usize,
+        /// The curve.
+        curve: usize,
+        /// The body.
+        body: usize,
+    },
+    /// A curve has no finite value at any frame.
+    Undefined {
+        /// The plot of the curve.
+        plot: usize,
+        /// The curve.
+        curve: usize,
+    },
+}
+
+/// The largest part of a plot outside of the picture or over another plot that counts as a rounding error, in the image plane.
+const MAX_ROUNDING: f64 = 1e-6;
+
+impl Plots {
+    /// Finds the plots and curves of a run that no picture shows.
+    pub(in super::super) fn unseen(&self, scene: &Scene, survey: &Survey) -> Vec<UnseenPlot> {
+        let areas: Vec<Rectangle> = self.areas().collect();
+        let mut unseen = Vec::new();
+        let mut points = survey.curves.iter();
+        for (plot, planned) in self.planned.iter().enumerate() {
+            unseen.extend(self.without_room(plot, &areas));
+            for (curve, drawn) in planned.curves.iter().enumerate() {
+                let points = points.next().map_or(&[][..], Vec::as_slice);
+                if drawn.points.iter().all(|point| point.at.is_none()) {
+                    unseen.push(self.without_points(scene, [plot, curve], points));
+                }
+            }
+        }
+        unseen
+    }
+
+    /// Returns why a plot has no room. `None` if it has.
+    fn without_room(&self, plot: usize, areas: &[Rectangle]) -> Option<UnseenPlot> {
+        let area = areas[plot];
+        let covered = areas[..plot].iter().position(|other| {
+            let across = area.right.min(other.right) - area.left.max(other.left);
+            let up = area.top.min(other.top) - area.bottom.max(other.bottom);
+            across.min(up) > MAX_ROUNDING
+        });
+        let beyond = [area.right - 1.0, -1.0 - area.left, area.top - self.aspect, -self.aspect - area.bottom];
+        if beyond.into_iter().any(|beyond| beyond > MAX_ROUNDING) {
+            return Some(UnseenPlot::Outside { plot });
+        }
+        let column = |plot: usize| column(self.plots[plot].place);
+        covered.map(|other| UnseenPlot::Covers { plot, other, is_beside: column(plot) != column(other) })
+    }
+
+    /// Returns why no picture shows a point of a curve. `points` are those of the run.
+    fn without_points(&self, scene: &Scene, [plot, curve]: [usize; 2], points: &[CurvePoint]) -> UnseenPlot {
+        let of_plot = &self.plots[plot];
+        if let (Some(values), Some(range)) = (super::span(&[points], 1), of_plot.range) {
+            let (low, high) = (values[0].min(range[0]), values[1].max(range[1]));
+            let step = decimal_step(high - low) / 10.0;
+            let fit = [libm::floor(low / step + 1e-9) * step, libm::ceil(high / step - 1e-9) * step];
+            return UnseenPlot::OutOfRange { plot, curve, values, fit };
+        }
+        let inputs = of_plot.x.inputs.iter().chain(&of_plot.curves[curve].y.inputs);
+        let end = scene.simulation.timeline.end();
+        let never = inputs.into_iter().find_map(|measure| match measure {
+            Measure::Body(body, _) if !scene.bodies[*body].presence.overlaps(0.0, end) => Some(*body),
+            _ => None,
+        });
+        match never {
+            Some(body) => UnseenPlot::NeverThere { plot, curve, body },
+            None => UnseenPlot::Undefined { plot, curve },
+        }
+    }
+}
