@@ -39,6 +39,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         lights: _,
         labels: _,
         plots: _,
+        aggregates: _,
         scale_bar: _,
         grid: _,
         povray: _,

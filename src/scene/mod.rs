@@ -122,7 +122,10 @@ pub use look::{
     Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
-pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};
+pub use measure::{
+    Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure, Measure,
+    MeasureFormula, RunMeasure, Subject,
+};
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::Places;
@@ -173,6 +176,8 @@ pub struct Scene {
     /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. An index equal to the number
     /// of bodies means the ground.
     pub pairs: Vec<[usize; 2]>,
+    /// The sums, means and extremes over several bodies that labels and plots show.
+    pub aggregates: Vec<Aggregate>,
     /// The labels in the picture, in the order of the file.
     pub labels: Vec<Label>,
     /// The plots in the picture, in the order of the file.

@@ -1,8 +1,26 @@
 //! The values of measures, such as `ball.speed` or `kinetic`: for labels, plots, and everything else that shows them.
+//!
+//! What is expensive is computed at most once per moment, and only if a shown measure needs it: sums over many bodies, and the loads of
+//! named forces. A recording has no loads of single forces. They are computed from the bodies of the moment, by the same types of forces
+//! as in the simulation.
 
+use std::cell::{OnceCell, RefCell};
+use std::collections::{BTreeMap, HashMap};
+use std::fmt;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::build::forces;
 use super::{Frame, Ghost, ImpactCounts, shown};
-use crate::physics::{Balance, BodyId, BodySnapshot, Coordinate, Reaction, find};
-use crate::scene::{Body, BodyMeasure, JointState, Measure, MeasureFormula, Quantity, RunMeasure, Scene};
+use crate::physics::{
+    Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World, find,
+};
+use crate::scene::{
+    Aggregate, Body, BodyMeasure, ForceMeasure, JointState, Measure, MeasureFormula, Piece, Quantity, RunMeasure,
+    Scene, Subject,
+};
 
 /// What is known at a moment: at a frame, or at the time of a ghost.
 pub struct MomentState<'a> {
@@ -16,6 +34,18 @@ pub struct MomentState<'a> {
     angles: &'a [f64],
     /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
+    computed: Computed,
+}
+
+/// Values that have already been computed for a moment.
+#[derive(Default)]
+struct Computed {
+    /// The values of aggregates, by their indices in the scene.
+    aggregates: RefCell<HashMap<usize, f64>>,
+    /// The loads of forces, by their indices in the scene.
+    loads: RefCell<HashMap<usize, Rc<Loads>>>,
+    /// The bodies of the moment, for forces.
+    world: OnceCell<World>,
 }
 
 impl<'a> MomentState<'a> {
@@ -29,6 +59,7 @@ impl<'a> MomentState<'a> {
             reactions: &frame.reactions,
             angles: &frame.angles,
             impacts: Some(&frame.impacts),
+            computed: Computed::default(),
         }
     }
 
@@ -42,7 +73,18 @@ impl<'a> MomentState<'a> {
             reactions: &[],
             angles: &[],
             impacts: None,
+            computed: Computed::default(),
         }
+    }
+}
+
+/// The types of a named force, for the forces that measures show.
+#[derive(Clone)]
+struct ShownForce(Vec<Arc<dyn Force>>);
+
+impl fmt::Debug for ShownForce {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ShownForce").field(&self.0.len()).finish()
     }
 }
 
@@ -53,6 +95,9 @@ pub struct Measures {
     bodies: Vec<Body>,
     /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
     joints: Vec<Option<Coordinate>>,
+    aggregates: Vec<Aggregate>,
+    /// The forces that measures show, by their indices in the scene.
+    forces: BTreeMap<usize, ShownForce>,
 }
 
 impl Measures {
@@ -60,7 +105,24 @@ impl Measures {
     pub fn new(scene: &Scene) -> Measures {
         let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
         let shows_none = scene.labels.is_empty() && scene.plots.is_empty();
-        Measures { bodies: if shows_none { Vec::new() } else { scene.bodies.clone() }, joints }
+        let of_labels = scene.labels.iter().flat_map(|label| &label.text).filter_map(|piece| match piece {
+            Piece::Value { formula, .. } => Some(formula),
+            Piece::Words(_) => None,
+        });
+        let of_plots = scene.plots.iter().flat_map(|plot| {
+            std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y))
+        });
+        let formulas = of_labels.chain(of_plots).chain(scene.aggregates.iter().map(|it| &it.formula));
+        let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
+            Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
+            _ => None,
+        });
+        Measures {
+            bodies: if shows_none { Vec::new() } else { scene.bodies.clone() },
+            joints,
+            aggregates: scene.aggregates.clone(),
+            forces: shown.collect(),
+        }
     }
 
     /// Returns a body of a scene that shows measures.
@@ -68,10 +130,12 @@ impl Measures {
         &self.bodies[id]
     }
 
-    /// Returns the value of a formula at a moment. NaN if a measure is unknown then, such as the speed of an absent body.
+    /// Returns the value of a formula at a moment, in the unit that the scene asks for. NaN if a measure is unknown then, such as the speed
+    /// of an absent body.
     pub fn value(&self, formula: &MeasureFormula, moment: &MomentState<'_>) -> f64 {
         let inputs: Vec<f64> = formula.inputs.iter().map(|measure| self.measure(*measure, moment)).collect();
-        formula.program.eval(&inputs)
+        let value = formula.program.eval(&inputs);
+        formula.asked_unit.as_ref().map_or(value, |asked| value / asked.size)
     }
 
     #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
@@ -93,12 +157,16 @@ impl Measures {
             Measure::Run(RunMeasure::Drift) => energy(|balance| balance.drift),
             Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
             Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
-            Measure::Body(number, BodyMeasure::Impacts) => {
+            Measure::Body(Subject::One(number), BodyMeasure::Impacts) => {
                 moment.impacts.map_or(f64::NAN, |impacts| impacts.of_body(number))
             }
-            Measure::Body(number, measure) => {
+            Measure::Body(Subject::One(number), measure) => {
                 let at = find(moment.bodies, number);
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
+            }
+            Measure::Distance(Subject::One(one), other) => {
+                let place = |body| find(moment.bodies, body).map(|at| at.location);
+                place(one).zip(place(other)).map_or(f64::NAN, |(one, other)| one.distance(other))
             }
             Measure::Joint(number, measure) => {
                 let Some(reaction) = moment.reactions.get(number) else { return f64::NAN };
@@ -106,19 +174,111 @@ impl Measures {
                 let total_angle = moment.angles.get(number).copied().unwrap_or(f64::NAN);
                 measure.of(&JointState::of(self.joints[number], (*reaction, total_angle), body))
             }
+            Measure::Force(force, None, _) => {
+                self.loads(force, moment).map_or(f64::NAN, |loads| total_power(&loads, moment.bodies))
+            }
+            Measure::Force(force, Some(Subject::One(body)), measure) => {
+                let loads = self.loads(force, moment).zip(find(moment.bodies, body));
+                loads.map_or(f64::NAN, |(loads, at)| of_force(&loads, at, measure))
+            }
+            Measure::Aggregate(number) => self.aggregate(number, moment),
+            // An aggregate asks for the measures of one body after the other.
+            Measure::Body(Subject::Each, _)
+            | Measure::Distance(Subject::Each, _)
+            | Measure::Force(_, Some(Subject::Each), _) => f64::NAN,
         }
+    }
+
+    /// Returns the value of an aggregate of the scene. Absent bodies are left out.
+    fn aggregate(&self, number: usize, moment: &MomentState<'_>) -> f64 {
+        if let Some(known) = moment.computed.aggregates.borrow().get(&number) {
+            return *known;
+        }
+        let Aggregate { how, bodies, formula } = &self.aggregates[number];
+        // What is the same for all bodies is computed once.
+        let mut inputs: Vec<f64> = formula
+            .inputs
+            .iter()
+            .map(|measure| if measure.is_of_each() { f64::NAN } else { self.measure(*measure, moment) })
+            .collect();
+        let of_each = formula.inputs.iter().enumerate().filter(|(_, measure)| measure.is_of_each());
+        let of_each: Vec<(usize, Measure)> = of_each.map(|(slot, measure)| (slot, *measure)).collect();
+        let present = bodies.iter().filter(|body| find(moment.bodies, **body).is_some());
+        let value = how.of(present.map(|body| {
+            for (slot, measure) in &of_each {
+                inputs[*slot] = self.measure(measure.of_one(*body), moment);
+            }
+            formula.program.eval(&inputs)
+        }));
+        moment.computed.aggregates.borrow_mut().insert(number, value);
+        value
+    }
+
+    /// Returns the loads of a named force on all bodies. `None` if the force is not shown.
+    fn loads(&self, force: usize, moment: &MomentState<'_>) -> Option<Rc<Loads>> {
+        if let Some(known) = moment.computed.loads.borrow().get(&force) {
+            return Some(known.clone());
+        }
+        let ShownForce(parts) = self.forces.get(&force)?;
+        let world = moment.computed.world.get_or_init(|| self.world(moment.bodies));
+        let zero = vec![DVec3::ZERO; self.bodies.len()];
+        let mut loads = Loads { force: zero.clone(), torque: zero, ..Loads::default() };
+        let at = Moment { time: moment.time, state: world.state(), model: world.model() };
+        parts.iter().for_each(|part| part.apply(&at, &mut loads));
+        let loads = Rc::new(loads);
+        moment.computed.loads.borrow_mut().insert(force, loads.clone());
+        Some(loads)
+    }
+
+    /// Returns a world in which the bodies have the poses and the velocities of a moment.
+    fn world(&self, bodies: &[BodySnapshot]) -> World {
+        let mut world = World::new();
+        world.reserve(self.bodies.len());
+        for (id, body) in self.bodies.iter().enumerate() {
+            let Some(at) = find(bodies, id) else {
+                let id = world.add(body.start);
+                world.limit(id, &Presence::during(&[]));
+                continue;
+            };
+            world.add(RigidBody {
+                location: at.location,
+                orientation: at.orientation,
+                velocity: at.velocity,
+                angular_velocity: at.angular_velocity,
+                ..body.start
+            });
+        }
+        world
+    }
+}
+
+/// The power of loads on all bodies, W.
+fn total_power(loads: &Loads, bodies: &[BodySnapshot]) -> f64 {
+    bodies.iter().map(|at| power(loads, at)).sum()
+}
+
+/// The power of loads on a body, W.
+fn power(loads: &Loads, at: &BodySnapshot) -> f64 {
+    loads.force[at.id].dot(at.velocity) + loads.torque[at.id].dot(at.angular_velocity)
+}
+
+fn of_force(loads: &Loads, at: &BodySnapshot, measure: ForceMeasure) -> f64 {
+    match measure {
+        ForceMeasure::Component(axis) => loads.force[at.id][axis],
+        ForceMeasure::Size => loads.force[at.id].length(),
+        ForceMeasure::Power => power(loads, at),
     }
 }
 
 fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
-    let acceleration = shown(Quantity::Acceleration, body, at);
+    let acceleration = || shown(Quantity::Acceleration, body, at);
     let mass = body.start.mass;
     match measure {
         BodyMeasure::Location(axis) => at.location[axis],
         BodyMeasure::Speed => at.velocity.length(),
         BodyMeasure::Velocity(axis) => at.velocity[axis],
-        BodyMeasure::AccelerationMagnitude => acceleration.length(),
-        BodyMeasure::Acceleration(axis) => acceleration[axis],
+        BodyMeasure::AccelerationMagnitude => acceleration().length(),
+        BodyMeasure::Acceleration(axis) => acceleration()[axis],
         BodyMeasure::ForceMagnitude => at.force.length(),
         BodyMeasure::Force(axis) => at.force[axis],
         BodyMeasure::AngularSpeed => at.angular_velocity.length(),

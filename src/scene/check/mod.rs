@@ -48,7 +48,7 @@ use super::grammar::{self, Collection, SCENE, bodies};
 use super::sdl::FileKind;
 use super::source::{self, Table};
 use super::view::{NamedTable, View};
-use super::{Include, Options, Places, PovRay, Scene, read, view};
+use super::{Aggregate, Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::physics::{Presence, Track};
 use sha2::{Digest, Sha256};
@@ -119,6 +119,8 @@ struct Context<'a> {
     files: Vec<[u8; 32]>,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
+    /// The sums, means and extremes over several bodies in the formulas of measures.
+    aggregates: Vec<Aggregate>,
 }
 
 impl Context<'_> {
@@ -152,6 +154,7 @@ impl Context<'_> {
             validated: HashSet::new(),
             files: Vec::new(),
             pairs: Vec::new(),
+            aggregates: Vec::new(),
         }
     }
 
@@ -338,8 +341,9 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
-    let labels = label::read(&root, &bodies, &joints, context);
-    let plots = plot::read(&root, &bodies, &joints, context);
+    let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
+    let labels = label::read(&root, things, context);
+    let plots = plot::read(&root, things, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     if !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some() {
         asset::add_font(&mut povray.assets);
@@ -360,6 +364,7 @@ fn build(
         scale_bar,
         grid,
         pairs: std::mem::take(&mut context.pairs),
+        aggregates: std::mem::take(&mut context.aggregates),
         output,
         digest: digest(input, options, included, &povray, context),
         bodies,

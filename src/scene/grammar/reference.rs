@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
-use crate::scene::{BodyMeasure, JointMeasure, RunMeasure};
+use crate::scene::{ListedMeasure, Measure};
 
 /// Returns the documentation of all keys of the scene language, as Markdown.
 pub fn reference() -> String {
@@ -482,14 +482,8 @@ impl Page {
 
     fn labels(&mut self) {
         self.text.push_str(LABELS);
-        for (name, _, what) in RunMeasure::ALL {
-            let _ = writeln!(self.text, "| `{name}` | {what} |");
-        }
-        for (name, _, what) in BodyMeasure::ALL {
-            let _ = writeln!(self.text, "| `ball.{name}` | {what} |");
-        }
-        for (name, _, what) in JointMeasure::ALL {
-            let _ = writeln!(self.text, "| `{name}` | {what} |");
+        for ListedMeasure { name, unit, meaning } in Measure::listed() {
+            let _ = writeln!(self.text, "| `{name}` | {unit} | {meaning} |");
         }
         self.text.push_str(PLOTS);
     }
