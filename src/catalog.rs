@@ -42,7 +42,11 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
     Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
-    Category { name: "measures", place: "`text` of [label.NAME], `x` and `y` of [plot.NAME]", entries: measures },
+    Category {
+        name: "measures",
+        place: "`text` of [label.NAME], `x` and `y` of [plot.NAME]",
+        entries: measures,
+    },
     Category { name: "scenes", place: "`jabuka new NAME --like SCENE`", entries: scenes },
     Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: colors },
 ];

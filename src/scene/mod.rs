@@ -123,8 +123,8 @@ pub use look::{
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use measure::{
-    Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure, Measure,
-    MeasureFormula, RunMeasure, Subject,
+    Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure,
+    Measure, MeasureFormula, RunMeasure, Subject,
 };
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};

@@ -15,11 +15,12 @@ use glam::DVec3;
 use super::build::forces;
 use super::{Frame, Ghost, ImpactCounts, shown};
 use crate::physics::{
-    Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World, find,
+    Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
+    find,
 };
 use crate::scene::{
-    Aggregate, Body, BodyMeasure, ForceMeasure, JointState, Measure, MeasureFormula, Piece, Quantity, RunMeasure,
-    Scene, Subject,
+    Aggregate, Body, BodyMeasure, ForceMeasure, JointState, Measure, MeasureFormula, Piece, Quantity,
+    RunMeasure, Scene, Subject,
 };
 
 /// What is known at a moment: at a frame, or at the time of a ghost.
@@ -109,9 +110,10 @@ impl Measures {
             Piece::Value { formula, .. } => Some(formula),
             Piece::Words(_) => None,
         });
-        let of_plots = scene.plots.iter().flat_map(|plot| {
-            std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y))
-        });
+        let of_plots = scene
+            .plots
+            .iter()
+            .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
         let formulas = of_labels.chain(of_plots).chain(scene.aggregates.iter().map(|it| &it.formula));
         let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
             Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
@@ -297,78 +299,4 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two bodies, of 2 kg and 3 kg. Momenta and angular momenta are sums of m v and of x × m v; the power of gravity on the first is
-    /// F·v = 2 · (−10) · 4 W.
-    #[test]
-    fn momenta_and_power_are_those_of_mechanics() {
-        let text = "simulation = { duration = 1, gravity = [0, -10, 0] }
-            [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
-            [body.b]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, 2, 0]\nvelocity = [-1, 0, 5]
-            [plot.all]\ny = ['px', 'py', 'pz', 'lx', 'ly', 'lz', 'a.px', 'b.pz']
-            [plot.power]\ny = 'a.power'\n";
-        let scene = Scene::parse(text).unwrap();
-        let (measures, frame) =
-            (Measures::new(&scene), crate::simulate::Frames::new(&scene).next().unwrap().unwrap());
-        let values = |plot: usize| -> Vec<f64> {
-            let curves = scene.plots[plot].curves.iter();
-            curves.map(|curve| measures.value(&curve.y, &MomentState::now(&frame))).collect()
-        };
-        // x × m v: (1, 0, 0) × (6, 8, 0) = (0, 0, 8), and (0, 2, 0) × (−3, 0, 15) = (30, 0, 6).
-        let expected = [3.0, 8.0, 15.0, 30.0, 0.0, 14.0, 6.0, 15.0];
-        for (value, expected) in values(0).iter().zip(expected) {
-            assert!((value - expected).abs() < 1e-12, "{:?}", values(0));
-        }
-        assert!((values(1)[0] + 80.0).abs() < 1e-12, "{:?}", values(1));
-    }
-
-    /// A body on a given circle: ½ m (r ω)² + ½ I ω² with m = 2 kg, r = 3 m, ω = 2 rad/s, and I = 0.4 m 0.1² of a ball that turns at 1 rad/s. A
-    /// free body beside it has its own 9 J.
-    #[test]
-    fn the_kinetic_energy_of_the_scene_counts_bodies_with_a_given_motion() {
-        let text = "simulation.duration = 1
-            [body.a]\nshape.sphere.radius = 0.1\nmass = 2
-            motion.formula.location = ['3*cos(2*t)', '3*sin(2*t)', 0]\nmotion.formula.orientation = [0, 'deg(t)', 0]
-            [body.b]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [9, 0, 0]\nvelocity = [0, 0, 3]\n";
-        let scene = Scene::parse(text).unwrap();
-        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
-            let all: f64 = [0, 1]
-                .map(|body| of_body(&scene.bodies[body], &frame.bodies[body], BodyMeasure::Kinetic))
-                .iter()
-                .sum();
-            let found = frame.balance.kinetic_of_all();
-            assert!((found - (36.0 + 0.5 * 0.4 * 2.0 * 0.01 + 9.0)).abs() < 1e-9, "{found}");
-            assert!((found - all).abs() < 1e-9 && (frame.balance.total_of_all() - all).abs() < 1e-9);
-            assert_eq!(frame.balance.error, 0.0);
-        }
-    }
-
-    /// The kinetic energy of the only moving body equals that of the whole run, even for a tumbling compound.
-    #[test]
-    fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
-        let scene = Scene::parse(
-            "
-            simulation = { duration = 1, integrator = 'rk4' }
-            [body.hammer]
-            mass = 3
-            velocity = [1, 2, 0]
-            angular_velocity = [1, 2, 3]
-            shape.compound.parts = [
-                { box.size = [3, 1, 2] },
-                { sphere.radius = 0.5, location = [1, 2, 0] },
-            ]
-            ",
-        )
-        .unwrap();
-        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
-            let kinetic = of_body(&scene.bodies[0], &frame.bodies[0], BodyMeasure::Kinetic);
-            assert!(
-                (kinetic / frame.balance.kinetic - 1.0).abs() < 1e-9,
-                "{kinetic} {}",
-                frame.balance.kinetic
-            );
-        }
-    }
-}
+mod tests;

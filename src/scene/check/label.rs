@@ -12,18 +12,12 @@ use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
-use crate::scene::{
-    Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side,
-};
+use crate::scene::{Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 
 /// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
 pub(super) const MAX_LENGTH: usize = 160;
 
-pub(super) fn read(
-    root: &View<'_>,
-    things: Things<'_>,
-    context: &mut Context<'_>,
-) -> Vec<Label> {
+pub(super) fn read(root: &View<'_>, things: Things<'_>, context: &mut Context<'_>) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
         let place = place_of(&view, things.bodies, context);
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
@@ -198,7 +192,8 @@ impl Reader<'_, '_, '_> {
 
     fn value(&mut self, range: Range<usize>) -> Option<Piece> {
         let inner = &self.text[range.clone()];
-        let (formula, asked) = inner.rsplit_once(':').map_or((inner, None), |(formula, asked)| (formula, Some(asked)));
+        let (formula, asked) =
+            inner.rsplit_once(':').map_or((inner, None), |(formula, asked)| (formula, Some(asked)));
         let begin = range.start + formula.len() + 1;
         let (format, unit) = match asked.map(|asked| (format_of(asked), asked)) {
             None => (Format::Short, None),
@@ -208,7 +203,8 @@ impl Reader<'_, '_, '_> {
                 (format, (!unit.is_empty()).then_some(unit))
             }
             Some((None, _)) => {
-                let message = format!("`{}` is no format of a number, and no unit", &self.text[begin..range.end]);
+                let message =
+                    format!("`{}` is no format of a number, and no unit", &self.text[begin..range.end]);
                 let label = "`.2` is two decimals, `.2e` has a power of ten, `km/h` is a unit";
                 self.report(Diagnostic::error(Code::LabelSyntax, message), begin..range.end, label);
                 return None;

@@ -22,11 +22,7 @@ struct Plots<'a, 'b, 'c> {
     context: &'a mut Context<'c>,
 }
 
-pub(super) fn read(
-    root: &View<'_>,
-    things: Things<'_>,
-    context: &mut Context<'_>,
-) -> Vec<Plot> {
+pub(super) fn read(root: &View<'_>, things: Things<'_>, context: &mut Context<'_>) -> Vec<Plot> {
     let mut plots = Plots { root, things, context };
     root.named(&scene::PLOT)
         .into_iter()
@@ -89,8 +85,10 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let is_one_unit = units.all(|unit| Some(unit) == first);
         let curve = |(number, formula): (usize, Option<MeasureFormula>)| {
             let own = written.get(number).map(|(text, _)| {
-                let (name, unit) = text.rsplit_once(':').map_or((*text, None), |(name, unit)| (name, Some(unit)));
-                let unit = unit.filter(|_| !is_one_unit).map_or(String::new(), |unit| format!(", {}", unit.trim()));
+                let (name, unit) =
+                    text.rsplit_once(':').map_or((*text, None), |(name, unit)| (name, Some(unit)));
+                let unit =
+                    unit.filter(|_| !is_one_unit).map_or(String::new(), |unit| format!(", {}", unit.trim()));
                 format!("{}{unit}", name.trim())
             });
             let given = names.get(number).map(|(name, _)| (*name).to_owned());

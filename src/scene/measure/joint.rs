@@ -68,11 +68,7 @@ impl JointMeasure {
             JointMeasure::Angle,
             "the angle of a hinge, from -180° to 180°; 0 is at the start",
         ),
-        (
-            "joint.NAME.total_angle",
-            JointMeasure::TotalAngle,
-            "that angle, counted through full turns",
-        ),
+        ("joint.NAME.total_angle", JointMeasure::TotalAngle, "that angle, counted through full turns"),
         (
             "joint.NAME.position",
             JointMeasure::Position,
@@ -180,4 +176,3 @@ impl JointState {
         }
     }
 }
-

@@ -127,7 +127,11 @@ impl Measure {
         };
         list.extend(ForceMeasure::ALL.map(of_force));
         let of_force = |(name, of, _): (&str, ForceMeasure, _)| {
-            line(format!("force.NAME.BODY.{name}"), of.unit(), "the same for one of the bodies that it acts on")
+            line(
+                format!("force.NAME.BODY.{name}"),
+                of.unit(),
+                "the same for one of the bodies that it acts on",
+            )
         };
         list.extend(ForceMeasure::ALL.map(of_force));
         let of_copies = |(name, _, meaning): (&str, _, _)| {

@@ -73,7 +73,11 @@ impl Reader<'_, '_, '_> {
             let message = format!("`{}` has no value at a ghost", how.name());
             let error = Diagnostic::error(Code::LabelSyntax, message);
             let help = "a label without `ghosts` can show it";
-            self.report(error.help(help), start..start + inside.len(), "only the body of the label is known there");
+            self.report(
+                error.help(help),
+                start..start + inside.len(),
+                "only the body of the label is known there",
+            );
             return None;
         }
         let used = inner.iter().filter(|(name, _)| inside.contains(name.as_str())).cloned().collect();
@@ -104,7 +108,11 @@ impl Reader<'_, '_, '_> {
         let message = format!("`{}` is over the copies of one body", each.function);
         let label = format!("`{before}` comes before");
         let help = "write one for each: `sum(a.mass) + sum(b.mass)`";
-        self.report(Diagnostic::error(Code::LabelSyntax, message).help(help), begin..begin + name.len(), &label);
+        self.report(
+            Diagnostic::error(Code::LabelSyntax, message).help(help),
+            begin..begin + name.len(),
+            &label,
+        );
         None
     }
 
@@ -134,7 +142,8 @@ impl Reader<'_, '_, '_> {
             }
         }
         let message = format!("`{}` is over the copies of a body", how.name());
-        let help = format!("`repeat` makes copies of a body; of those of `gas`, it is `{}(gas.speed)`", how.name());
+        let help =
+            format!("`repeat` makes copies of a body; of those of `gas`, it is `{}(gas.speed)`", how.name());
         let error = Diagnostic::error(Code::LabelSyntax, message).help(help);
         self.report(error, function, "names no body with copies");
     }

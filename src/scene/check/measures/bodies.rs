@@ -73,7 +73,8 @@ impl Reader<'_, '_, '_> {
             return Some((Measure::Distance(subject, number), end + 1 + other.len()));
         }
         let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
-            let names: Vec<&str> = BodyMeasure::ALL.iter().map(|(name, ..)| *name).chain([DISTANCE]).collect();
+            let names: Vec<&str> =
+                BodyMeasure::ALL.iter().map(|(name, ..)| *name).chain([DISTANCE]).collect();
             let message = format!("a body has no `{measure}` that a {} could show", self.noun);
             let rest = formula[end..].strip_prefix('.');
             let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
@@ -99,7 +100,8 @@ impl Reader<'_, '_, '_> {
             self.needs_contacts(start + begin..start + end)?;
             if let Some(other) = other {
                 let Subject::One(number) = subject else {
-                    let error = Diagnostic::error(Code::LabelSyntax, "the impacts of two bodies have one value");
+                    let error =
+                        Diagnostic::error(Code::LabelSyntax, "the impacts of two bodies have one value");
                     let range = start + begin..start + end + 1 + other.len();
                     self.report(error, range, "needs a single body before `impacts`");
                     return None;

@@ -42,8 +42,13 @@ impl Reader<'_, '_, '_> {
             return None;
         };
         let bodies = self.things.bodies;
-        let acts_on: Vec<usize> =
-            force.kind.bodies().into_iter().map(BodyId::index).filter(|body| !bodies[*body].start.fixed).collect();
+        let acts_on: Vec<usize> = force
+            .kind
+            .bodies()
+            .into_iter()
+            .map(BodyId::index)
+            .filter(|body| !bodies[*body].start.fixed)
+            .collect();
         let behind = begin + name.len() + 1;
         let body = body_name(rest).filter(|body| rest[body.len()..].starts_with('.'));
         let (subject, skipped) = match body {
@@ -85,7 +90,9 @@ impl Reader<'_, '_, '_> {
             (None, [only]) if measure.needs_body() => Some(Subject::One(*only)),
             (None, acts_on) if measure.needs_body() => {
                 let error = match acts_on.first() {
-                    None => Diagnostic::error(Code::UnknownName, format!("the force `{name}` acts on no body")),
+                    None => {
+                        Diagnostic::error(Code::UnknownName, format!("the force `{name}` acts on no body"))
+                    }
                     Some(first) => {
                         let example = format!("force.{name}.{}.{word}", bodies[*first].name);
                         let message = format!("the force `{name}` acts on {} bodies", acts_on.len());

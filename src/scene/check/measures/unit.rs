@@ -9,8 +9,13 @@ use crate::scene::{AskedUnit, Measure, MeasureFormula, units};
 
 impl Reader<'_, '_, '_> {
     /// Reads a formula with an optional unit behind a colon, such as `ball.speed:km/h`.
-    pub(in crate::scene::check) fn formula_with_unit(&mut self, range: Range<usize>) -> Option<MeasureFormula> {
-        let Some((formula, unit)) = self.text[range.clone()].rsplit_once(':') else { return self.formula(range) };
+    pub(in crate::scene::check) fn formula_with_unit(
+        &mut self,
+        range: Range<usize>,
+    ) -> Option<MeasureFormula> {
+        let Some((formula, unit)) = self.text[range.clone()].rsplit_once(':') else {
+            return self.formula(range);
+        };
         let behind = range.start + formula.len() + 1;
         let mut read = self.formula(range.start..range.start + formula.len())?;
         let unit = behind + unit.len() - unit.trim_start().len()..behind + unit.trim_end().len();
