@@ -235,4 +235,12 @@ mod tests {
             assert_eq!(converted(number, unit, of).as_deref(), expected, "{number} {unit}");
         }
     }
+
+    /// Labels and axes show the units that are asked for.
+    #[test]
+    fn the_font_has_all_letters_of_units() {
+        for letter in UNITS.iter().flat_map(|unit| unit.names).flat_map(|name| name.chars()) {
+            assert!(crate::font::has(letter), "{letter:?}");
+        }
+    }
 }

@@ -261,7 +261,9 @@ fn total_power(loads: &Loads, bodies: &[BodySnapshot]) -> f64 {
 
 /// The power of loads on a body, W.
 fn power(loads: &Loads, at: &BodySnapshot) -> f64 {
-    loads.force[at.id].dot(at.velocity) + loads.torque[at.id].dot(at.angular_velocity)
+    let [force, torque] =
+        [&loads.force, &loads.torque].map(|all| all.get(at.id).copied().unwrap_or_default());
+    force.dot(at.velocity) + torque.dot(at.angular_velocity)
 }
 
 fn of_force(loads: &Loads, at: &BodySnapshot, measure: ForceMeasure) -> f64 {

@@ -217,7 +217,7 @@ fn plots_have_the_units_that_are_asked_for_at_their_axes() {
     let last = run.survey().curves[1].last().unwrap().at.unwrap();
     assert!((last[0] - 1000.0).abs() < 1e-9 && (last[1] - 10.8).abs() < 1e-9, "{last:?}");
     let said = |plot: usize| -> Vec<String> {
-        run.emitter().plan().plots()[plot].texts.iter().map(|text| text.says.to_string()).collect()
+        run.emitter().plan().planned_plots()[plot].texts.iter().map(|text| text.says.to_string()).collect()
     };
     let (speed, mixed) = (said(0), said(1));
     for words in ["km/h", "gas[0].speed", "max(gas.speed)", "1000"] {

@@ -84,7 +84,12 @@ impl Reader<'_, '_, '_> {
         self.each = Some(Each { function: how.name(), name: None });
         let formula = self.plain_formula(inside, start, used);
         let each = self.each.take();
-        let (formula, name) = (formula?, each.and_then(|each| each.name)?);
+        let formula = formula?;
+        let Some(name) = each.and_then(|each| each.name) else {
+            // The name of copies stood where another name is meant, such as that of a force.
+            self.report_single(how, "", start..start + inside.len(), start);
+            return None;
+        };
         let numbers = &self.context.names.bodies;
         let copies = self.context.groups.several(&name)?;
         let mut bodies: Vec<usize> = copies.filter_map(|copy| numbers.get(&**copy).copied()).collect();
@@ -101,8 +106,13 @@ impl Reader<'_, '_, '_> {
             return Some(false);
         }
         let Some(each) = &mut self.each else { return Some(false) };
-        let before = each.name.get_or_insert_with(|| name.to_owned());
-        if before == name {
+        // `gas` and `gas[*]` mean the same.
+        let original = self.context.groups.original(name).filter(|original| {
+            name[original.len()..].bytes().all(|byte| matches!(byte, b'[' | b']' | b'*' | b',' | b' '))
+        });
+        let name_of_all = original.unwrap_or(name);
+        let before = each.name.get_or_insert_with(|| name_of_all.to_owned());
+        if before == name_of_all {
             return Some(true);
         }
         let message = format!("`{}` is over the copies of one body", each.function);
@@ -137,7 +147,11 @@ impl Reader<'_, '_, '_> {
         for (at, _) in inside.match_indices('.') {
             let Some(dotted) = dotted_at(inside, at) else { continue };
             let name = &inside[dotted.body.clone()];
-            if !matches!(name, "joint" | "force") && self.subject(name, start + dotted.body.start).is_none() {
+            let is_first = !inside[..dotted.body.start].ends_with('.');
+            if is_first
+                && !matches!(name, "joint" | "force")
+                && self.subject(name, start + dotted.body.start).is_none()
+            {
                 return;
             }
         }

@@ -22,6 +22,10 @@ impl Reader<'_, '_, '_> {
         if let Some(number) = self.context.names.bodies.get(name).copied() {
             return Some(Subject::One(number));
         }
+        if self.context.groups.may_hold(name) {
+            // The number of copies has an error, which has been reported.
+            return None;
+        }
         let names = self.things.bodies.iter().map(|body| &*body.name);
         let near = nearest(name, names.take(1000).chain(self.context.groups.originals()));
         let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));

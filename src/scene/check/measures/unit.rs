@@ -62,7 +62,6 @@ impl Reader<'_, '_, '_> {
             self.report(error.help(format!("units that fit: {}", quoted(&usual))), range, &label);
             return None;
         };
-        self.note_letters(range);
         formula.asked_unit = Some(AskedUnit { symbol: symbol.into(), size });
         Some(())
     }
