@@ -192,7 +192,7 @@ fn a_unit_that_is_asked_for_stands_behind_the_number() {
     let text = ATOMS.to_owned() + text;
     assert_eq!(
         labels(&text, 25),
-        ["7.2 km/h, 3.6 km/h, 0.014 kJ", "1000 ms, 100 cm, 6.24·10¹⁸ eV, 10900 mm"]
+        ["7.2 km/h, 3.6 km/h, 0.014 kJ", "1000 ms, 100 cm, 6.24·10¹⁸ eV, 10800 mm"]
     );
 }
 
@@ -220,9 +220,8 @@ fn plots_have_the_units_that_are_asked_for_at_their_axes() {
         run.emitter().plan().planned_plots()[plot].texts.iter().map(|text| text.says.to_string()).collect()
     };
     let (speed, mixed) = (said(0), said(1));
-    for words in ["km/h", "gas[0].speed", "max(gas.speed)", "1000"] {
+    for words in ["km/h", "gas[0].speed", "max(gas.speed)", "500", "t (ms)"] {
         assert!(speed.iter().any(|said| said == words), "{words} is not in {speed:?}");
     }
-    assert!(speed.iter().any(|said| said.contains("ms")), "{speed:?}");
     assert!(mixed.iter().any(|said| said == "gas[0].speed, km/h"), "{mixed:?}");
 }

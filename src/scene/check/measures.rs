@@ -86,6 +86,15 @@ impl Reader<'_, '_, '_> {
     ) -> Option<MeasureFormula> {
         let (plain, mut dotted) = self.without_dots(formula, start)?;
         dotted.extend(aggregates);
+        if let LabelPlace::Body { body, ghosts: true, .. } = self.place
+            && !dotted.iter().all(|(_, measure)| is_of(*measure, body))
+        {
+            let message = "a label at ghosts shows only values of its own body";
+            let error = Diagnostic::error(Code::LabelSyntax, message);
+            let help = "a ghost keeps nothing else; a label without `ghosts` can show other values";
+            self.report(error.help(help), start..start + formula.len(), "names something else");
+            return None;
+        }
         let parsed = self.keep(Formula::parse(&plain), start)?;
         let (scope, inputs) = self.scope(dotted);
         let single = inputs.iter().find(|(name, _)| name == plain.trim()).map(|(_, measure)| *measure);
@@ -140,10 +149,7 @@ impl Reader<'_, '_, '_> {
             }
         }
         for (name, measure) in dotted {
-            let of_ghost = matches!(self.place, LabelPlace::Body { body, .. } if matches!(measure, Measure::Body(Subject::One(b), _) if b == body));
-            if with_run || of_ghost {
-                add(&name, measure);
-            }
+            add(&name, measure);
         }
         (scope, inputs)
     }
@@ -179,4 +185,9 @@ impl Reader<'_, '_, '_> {
         }
         None
     }
+}
+
+/// Returns whether a measure belongs to a body alone.
+fn is_of(measure: Measure, body: usize) -> bool {
+    matches!(measure, Measure::Body(Subject::One(one), _) if one == body)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Reader;
 use super::dotted::dotted_at;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Aggregate, Aggregation, LabelPlace, Measure};
+use crate::scene::{Aggregate, Aggregation, Measure};
 
 /// The bodies of the aggregate that is being read.
 pub(super) struct Each {
@@ -69,17 +69,6 @@ impl Reader<'_, '_, '_> {
         start: usize,
         inner: &[(String, Measure)],
     ) -> Option<usize> {
-        if matches!(self.place, LabelPlace::Body { ghosts: true, .. }) {
-            let message = format!("`{}` has no value at a ghost", how.name());
-            let error = Diagnostic::error(Code::LabelSyntax, message);
-            let help = "a label without `ghosts` can show it";
-            self.report(
-                error.help(help),
-                start..start + inside.len(),
-                "only the body of the label is known there",
-            );
-            return None;
-        }
         let used = inner.iter().filter(|(name, _)| inside.contains(name.as_str())).cloned().collect();
         self.each = Some(Each { function: how.name(), name: None });
         let formula = self.plain_formula(inside, start, used);

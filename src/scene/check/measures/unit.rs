@@ -56,7 +56,8 @@ impl Reader<'_, '_, '_> {
                 format!("`{symbol}` is no unit that jabuka knows")
             };
             let usual = units::usual(of);
-            let near = crate::diagnostic::nearest(symbol, usual.iter().copied());
+            // A single letter is near to every other one.
+            let near = crate::diagnostic::nearest(symbol, usual.iter().copied()).filter(|_| symbol.len() > 1);
             let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
             let error = Diagnostic::error(Code::LabelSyntax, message);
             self.report(error.help(format!("units that fit: {}", quoted(&usual))), range, &label);
