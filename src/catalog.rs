@@ -2,12 +2,17 @@
 //!
 //! The names come from the same tables that the check of a scene uses. A new category is one line in [`CATEGORIES`].
 
+use std::borrow::Cow;
+
 use crate::physics::Method;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{BodyMeasure, ContactLaw, Finish, JointMeasure, MATERIALS, Preset, RunMeasure};
+use crate::scene::{ContactLaw, Finish, ListedMeasure, MATERIALS, Measure, Preset};
 use crate::starter::Example;
+
+/// A name, with a one-line description.
+pub type NamedLine = (Cow<'static, str>, String);
 
 /// A category of names, such as the shapes that scenes can use.
 pub struct Category {
@@ -16,7 +21,7 @@ pub struct Category {
     /// The key or table of a scene, or the command, in which these names are used.
     pub place: &'static str,
     /// Returns all names of the category, each with a one-line description.
-    pub entries: fn() -> Vec<(&'static str, String)>,
+    pub entries: fn() -> Vec<NamedLine>,
 }
 
 /// All categories, in the order in which `jabuka list` shows them.
@@ -37,9 +42,13 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
     Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
-    Category { name: "measures", place: "`text` of [label.NAME]", entries: measures },
+    Category {
+        name: "measures",
+        place: "`text` of [label.NAME], `x` and `y` of [plot.NAME]",
+        entries: measures,
+    },
     Category { name: "scenes", place: "`jabuka new NAME --like SCENE`", entries: scenes },
-    Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: color_names },
+    Category { name: "colors", place: "`color` of [material.NAME] and elsewhere", entries: colors },
 ];
 
 impl Category {
@@ -50,55 +59,60 @@ impl Category {
     }
 }
 
-fn integrators() -> Vec<(&'static str, String)> {
-    Method::all().map(|method| (method.name, method.summary.to_owned())).collect()
+fn integrators() -> Vec<NamedLine> {
+    Method::all().map(|method| (method.name.into(), method.summary.to_owned())).collect()
 }
 
-fn contacts() -> Vec<(&'static str, String)> {
-    ContactLaw::ALL.iter().map(|law| (law.name(), law.summary().to_owned())).collect()
+fn contacts() -> Vec<NamedLine> {
+    ContactLaw::ALL.iter().map(|law| (law.name().into(), law.summary().to_owned())).collect()
 }
 
-fn finishes() -> Vec<(&'static str, String)> {
-    Finish::ALL.iter().map(|finish| (finish.name(), finish.summary().to_owned())).collect()
+fn finishes() -> Vec<NamedLine> {
+    Finish::ALL.iter().map(|finish| (finish.name().into(), finish.summary().to_owned())).collect()
 }
 
 /// Returns the example scenes, with their titles.
-fn scenes() -> Vec<(&'static str, String)> {
-    Example::all().map(|example| (example.name, example.title().to_owned())).collect()
+fn scenes() -> Vec<NamedLine> {
+    Example::all().map(|example| (example.name.into(), example.title().to_owned())).collect()
 }
 
-fn materials() -> Vec<(&'static str, String)> {
-    MATERIALS.iter().map(|material| (material.name, material.meaning.to_owned())).collect()
+fn materials() -> Vec<NamedLine> {
+    MATERIALS.iter().map(|material| (material.name.into(), material.meaning.to_owned())).collect()
 }
 
-fn environments() -> Vec<(&'static str, String)> {
-    Preset::ALL.iter().map(|preset| (preset.name(), preset.meaning().to_owned())).collect()
+fn environments() -> Vec<NamedLine> {
+    Preset::ALL.iter().map(|preset| (preset.name().into(), preset.meaning().to_owned())).collect()
 }
 
 /// Returns the functions and constants of formulas, with their descriptions.
-fn functions() -> Vec<(&'static str, String)> {
-    let functions = FUNCTIONS.iter().map(|f| (f.name, format!("`{}`: {}", f.usage(), f.meaning)));
-    let constants = CONSTANTS.iter().map(|(name, _, meaning)| (*name, (*meaning).to_owned()));
+fn functions() -> Vec<NamedLine> {
+    let functions = FUNCTIONS.iter().map(|f| (f.name.into(), format!("`{}`: {}", f.usage(), f.meaning)));
+    let constants = CONSTANTS.iter().map(|(name, _, meaning)| ((*name).into(), (*meaning).to_owned()));
     functions.chain(constants).collect()
 }
 
-fn measures() -> Vec<(&'static str, String)> {
-    let run = RunMeasure::ALL.iter().map(|(name, _, what)| (*name, (*what).to_owned()));
-    let body = BodyMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a body: {what}")));
-    let joint = JointMeasure::ALL.iter().map(|(name, _, what)| (*name, format!("of a joint: {what}")));
-    run.chain(body).chain(joint).collect()
+/// Returns the quantities that labels and plots can show, with their units and meanings.
+fn measures() -> Vec<NamedLine> {
+    let list = Measure::listed();
+    let width = list.iter().map(|line| line.unit.chars().count()).max().unwrap_or_default();
+    let line = |ListedMeasure { name, unit, meaning }| (name.into(), format!("{unit:width$}  {meaning}"));
+    list.into_iter().map(line).collect()
+}
+
+fn colors() -> Vec<NamedLine> {
+    color_names().into_iter().map(|(name, what)| (name.into(), what)).collect()
 }
 
 /// Returns the alternatives of a table that must have exactly one of several keys, such as the shapes of a body. Each alternative has a
 /// name and a line with its meaning and its own keys. `way` is the path of keys that leads to the table.
-fn variants(way: &[&str]) -> Vec<(&'static str, String)> {
+fn variants(way: &[&str]) -> Vec<NamedLine> {
     let Some(TableSpec { keys, rule: Rule::ExactlyOne(names), .. }) = table(way) else { return Vec::new() };
     let variants = keys.iter().copied().filter(|key| names.contains(&key.name));
     let entry = |key: &'static KeySpec| {
         let inner = key.kind.table().map_or_else(Vec::new, |table| table.keys().collect());
         let inner: Vec<_> = inner.iter().map(|key| format!("`{}`", key.name)).collect();
         let keys = if inner.is_empty() { String::new() } else { format!(" ({})", inner.join(", ")) };
-        (key.name, format!("{}{keys}", key.meaning))
+        (key.name.into(), format!("{}{keys}", key.meaning))
     };
     variants.map(entry).collect()
 }
@@ -129,7 +143,7 @@ mod tests {
     #[test]
     fn of_a_table_with_variants_each_is_there_with_its_keys() {
         let shapes = variants(&["body", "shape"]);
-        assert_eq!(shapes[0], ("sphere", "A ball (`radius`)".to_owned()));
+        assert_eq!(shapes[0], ("sphere".into(), "A ball (`radius`)".to_owned()));
         let lights = variants(&["light"]);
         assert!(lights.iter().all(|(name, _)| *name != "color"));
         assert!(variants(&["body"]).is_empty() && variants(&["nothing"]).is_empty());

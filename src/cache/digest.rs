@@ -42,6 +42,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         angles: _,
         distances: _,
         arrow_marks: _,
+        aggregates: _,
         scale_bar: _,
         grid: _,
         povray: _,

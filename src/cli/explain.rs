@@ -58,8 +58,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Explains a name that scenes can use, such as `rk4`, by its entries in the lists of `jabuka list`.
 fn name(word: &str) -> Option<String> {
     let lines = CATEGORIES.iter().flat_map(|category| {
-        let entries = (category.entries)().into_iter().filter(|(name, _)| *name == word);
+        let is_it = |name: &str| name.strip_prefix("BODY.").unwrap_or(name) == word || name == word;
+        let entries = (category.entries)().into_iter().filter(move |(name, _)| is_it(name));
         entries.map(|(name, what)| {
+            // The columns of a list have no meaning in a sentence.
+            let what = what.split_whitespace().collect::<Vec<_>>().join(" ");
             format!("{name}: {what}\nin `jabuka list {}`: {}\n", category.name, category.place)
         })
     });

@@ -25,6 +25,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         failure
     })?;
     let entries = (category.entries)();
-    terminal::rows(&entries.iter().map(|(name, what)| (*name, what.as_str())).collect::<Vec<_>>());
+    terminal::rows(&entries.iter().map(|(name, what)| (&**name, what.as_str())).collect::<Vec<_>>());
     Ok(())
 }

@@ -55,3 +55,30 @@ pub enum ForceKind {
         look: Option<SpringLook>,
     },
 }
+
+impl ForceKind {
+    /// Returns the bodies that the force acts on, each once, in ascending order. Some of them may be fixed.
+    pub fn bodies(&self) -> Vec<BodyId> {
+        let both = |one: &[BodyId], other: &Option<Vec<BodyId>>| {
+            one.iter().chain(other.iter().flatten()).copied().collect()
+        };
+        let mut bodies: Vec<BodyId> = match self {
+            ForceKind::Constant(ConstantForce { bodies, .. })
+            | ForceKind::Drag(Drag { bodies, .. })
+            | ForceKind::Lorentz(Lorentz { bodies, .. })
+            | ForceKind::Formula { bodies, .. } => bodies.clone(),
+            ForceKind::Gravitation(Gravitation { bodies, against, .. })
+            | ForceKind::Coulomb(Coulomb { bodies, against, .. })
+            | ForceKind::LennardJones(LennardJones { bodies, against, .. })
+            | ForceKind::Dipoles(Dipoles { bodies, against, .. }) => both(bodies, against),
+            ForceKind::Buoyancy(buoyancy) => buoyancy.bodies.iter().map(|(body, _)| *body).collect(),
+            ForceKind::J2(J2 { planet, bodies, .. }) => both(bodies, &Some(vec![*planet])),
+            ForceKind::Spring { links, .. } => {
+                links.iter().flat_map(|link| link.between).filter_map(|end| end.body()).collect()
+            }
+        };
+        bodies.sort_by_key(|body| body.index());
+        bodies.dedup();
+        bodies
+    }
+}

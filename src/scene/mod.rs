@@ -124,7 +124,10 @@ pub use look::{
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use mark::{Angle, ArrowMark, ArrowOwner, Components, Distance, Leg};
-pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};
+pub use measure::{
+    Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure,
+    Measure, MeasureFormula, RunMeasure, Subject,
+};
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::{Places, PlotSpans};
@@ -175,6 +178,8 @@ pub struct Scene {
     /// The pairs of bodies whose impacts the labels count, as indices of bodies with the smaller index first. An index equal to the number
     /// of bodies means the ground.
     pub pairs: Vec<[usize; 2]>,
+    /// The sums, means and extremes over several bodies that labels and plots show.
+    pub aggregates: Vec<Aggregate>,
     /// The labels in the picture, in the order of the file.
     pub labels: Vec<Label>,
     /// The plots in the picture, in the order of the file.
@@ -215,6 +220,23 @@ pub struct Options {
 }
 
 impl Scene {
+    /// Returns the texts that show values of the moment, each as its pieces: labels, and the texts of angles, distances and arrows.
+    pub fn texts(&self) -> impl Iterator<Item = &[Piece]> {
+        let labels = self.labels.iter().map(|label| label.text.as_slice());
+        let angles = self.angles.iter().map(|angle| angle.text.as_slice());
+        let distances = self.distances.iter().filter_map(|distance| distance.text.as_deref());
+        let arrows = self.arrow_marks.iter().filter_map(|mark| mark.text.as_deref());
+        let components = self.arrow_marks.iter().filter_map(|mark| mark.components.as_ref()?.texts.as_ref());
+        let components = components.flatten().map(Vec::as_slice);
+        labels.chain(angles).chain(distances).chain(arrows).chain(components)
+    }
+
+    /// Returns whether the pictures have texts with values at bodies: labels, plots, or marks.
+    pub fn shows_measures(&self) -> bool {
+        let has_marks = !self.angles.is_empty() || !self.distances.is_empty() || !self.arrow_marks.is_empty();
+        has_marks || !self.labels.is_empty() || !self.plots.is_empty()
+    }
+
     /// Reads and checks the scene in a file.
     ///
     /// # Errors

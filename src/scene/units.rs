@@ -61,15 +61,49 @@ static UNITS: &[Unit] = &[
     unit(&["Å/fs", "Å/fs"], "m/s", 1e5),
     unit(&["nm/ps"], "m/s", 1e3),
     unit(&["m/s²", "m/s^2", "m/s2", "m/s**2", "m s^-2"], "m/s²", 1.0),
+    unit(&["mm/s²", "mm/s^2", "mm/s2"], "m/s²", 1e-3),
+    unit(&["cm/s²", "cm/s^2", "cm/s2"], "m/s²", 1e-2),
+    unit(&["km/s²", "km/s^2", "km/s2"], "m/s²", 1e3),
     unit(&["rad/s", "1/s", "s^-1"], "rad/s", 1.0),
     unit(&["deg/s", "°/s"], "rad/s", RADIANS_PER_DEGREE),
     unit(&["rpm", "rev/min"], "rad/s", std::f64::consts::TAU / 60.0),
     unit(&["°", "deg", "degree", "degrees"], "degrees", 1.0),
     unit(&["rad", "radian", "radians"], "degrees", 1.0 / RADIANS_PER_DEGREE),
+    unit(&["rev", "turn", "turns"], "degrees", 360.0),
     unit(&["N"], "N", 1.0),
+    unit(&["pN"], "N", 1e-12),
+    unit(&["nN"], "N", 1e-9),
+    unit(&["uN", "µN", "μN"], "N", 1e-6),
     unit(&["mN"], "N", 1e-3),
     unit(&["kN"], "N", 1e3),
+    unit(&["MN"], "N", 1e6),
     unit(&["N·m", "N*m", "Nm", "N m"], "N·m", 1.0),
+    unit(&["mN·m", "mN*m", "mNm"], "N·m", 1e-3),
+    unit(&["kN·m", "kN*m", "kNm"], "N·m", 1e3),
+    unit(&["J"], "J", 1.0),
+    unit(&["nJ"], "J", 1e-9),
+    unit(&["uJ", "µJ", "μJ"], "J", 1e-6),
+    unit(&["mJ"], "J", 1e-3),
+    unit(&["kJ"], "J", 1e3),
+    unit(&["MJ"], "J", 1e6),
+    unit(&["GJ"], "J", 1e9),
+    unit(&["kWh"], "J", 3.6e6),
+    unit(&["cal"], "J", 4.184),
+    unit(&["kcal"], "J", 4184.0),
+    // The electronvolt is exact since the SI of 2019.
+    unit(&["meV"], "J", 1.602_176_634e-22),
+    unit(&["eV"], "J", 1.602_176_634e-19),
+    unit(&["keV"], "J", 1.602_176_634e-16),
+    unit(&["MeV"], "J", 1.602_176_634e-13),
+    unit(&["W"], "W", 1.0),
+    unit(&["uW", "µW", "μW"], "W", 1e-6),
+    unit(&["mW"], "W", 1e-3),
+    unit(&["kW"], "W", 1e3),
+    unit(&["MW"], "W", 1e6),
+    unit(&["kg·m/s", "kg*m/s", "kg m/s", "N·s", "N*s", "Ns"], "kg·m/s", 1.0),
+    unit(&["g·cm/s", "g*cm/s"], "kg·m/s", 1e-5),
+    unit(&["kg·m²/s", "kg*m^2/s", "kg*m²/s", "J·s", "J*s"], "kg·m²/s", 1.0),
+    unit(&["g·cm²/s", "g*cm^2/s", "g*cm²/s"], "kg·m²/s", 1e-7),
     unit(&["C"], "C", 1.0),
     unit(&["mC"], "C", 1e-3),
     unit(&["uC", "µC", "μC"], "C", 1e-6),
@@ -99,7 +133,7 @@ pub(super) fn factor(unit: &str, of: &str) -> Option<f64> {
 
 /// Returns whether a word is probably meant as a unit.
 pub(super) fn is_unit(word: &str) -> bool {
-    UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "J" | "W" | "Pa" | "K" | "V" | "A")
+    UNITS.iter().any(|unit| unit.names.contains(&word)) || matches!(word, "Pa" | "K" | "V" | "A")
 }
 
 /// Returns the factor that converts a unit to the scene language's unit. `None` for unknown units, and for names of one letter, which are
@@ -199,6 +233,14 @@ mod tests {
             (1.0, "kg", "m", None),
         ] {
             assert_eq!(converted(number, unit, of).as_deref(), expected, "{number} {unit}");
+        }
+    }
+
+    /// Labels and axes show the units that are asked for.
+    #[test]
+    fn the_font_has_all_letters_of_units() {
+        for letter in UNITS.iter().flat_map(|unit| unit.names).flat_map(|name| name.chars()) {
+            assert!(crate::font::has(letter), "{letter:?}");
         }
     }
 }

@@ -1,8 +1,27 @@
 //! The values of measures, such as `ball.speed` or `kinetic`: for labels, plots, and everything else that shows them.
+//!
+//! What is expensive is computed at most once per moment, and only if a shown measure needs it: sums over many bodies, and the loads of
+//! named forces. A recording has no loads of single forces. They are computed from the bodies of the moment, by the same types of forces
+//! as in the simulation.
 
+use std::cell::{OnceCell, RefCell};
+use std::collections::{BTreeMap, HashMap};
+use std::fmt;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::build::forces;
 use super::{Frame, Ghost, ImpactCounts, shown};
-use crate::physics::{Balance, BodyId, BodySnapshot, Coordinate, Reaction, find};
-use crate::scene::{Body, BodyMeasure, JointState, Measure, MeasureFormula, Quantity, RunMeasure, Scene};
+use crate::physics::{
+    Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
+    find,
+};
+use crate::scene::{
+    Aggregate, Body, BodyMeasure, ForceMeasure, JointState, Measure, MeasureFormula, Piece, Quantity,
+    RunMeasure, Scene, Subject,
+};
 
 /// What is known at a moment: at a frame, or at the time of a ghost.
 pub struct MomentState<'a> {
@@ -16,6 +35,18 @@ pub struct MomentState<'a> {
     angles: &'a [f64],
     /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
+    computed: Computed,
+}
+
+/// Values that have already been computed for a moment.
+#[derive(Default)]
+struct Computed {
+    /// The values of aggregates, by their indices in the scene.
+    aggregates: RefCell<HashMap<usize, f64>>,
+    /// The loads of forces, by their indices in the scene.
+    loads: RefCell<HashMap<usize, Rc<Loads>>>,
+    /// The bodies of the moment, for forces.
+    world: OnceCell<World>,
 }
 
 impl<'a> MomentState<'a> {
@@ -29,6 +60,7 @@ impl<'a> MomentState<'a> {
             reactions: &frame.reactions,
             angles: &frame.angles,
             impacts: Some(&frame.impacts),
+            computed: Computed::default(),
         }
     }
 
@@ -42,7 +74,18 @@ impl<'a> MomentState<'a> {
             reactions: &[],
             angles: &[],
             impacts: None,
+            computed: Computed::default(),
         }
+    }
+}
+
+/// The types of a named force, for the forces that measures show.
+#[derive(Clone)]
+struct ShownForce(Vec<Arc<dyn Force>>);
+
+impl fmt::Debug for ShownForce {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ShownForce").field(&self.0.len()).finish()
     }
 }
 
@@ -53,16 +96,34 @@ pub struct Measures {
     bodies: Vec<Body>,
     /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
     joints: Vec<Option<Coordinate>>,
+    aggregates: Vec<Aggregate>,
+    /// The forces that measures show, by their indices in the scene.
+    forces: BTreeMap<usize, ShownForce>,
 }
 
 impl Measures {
     /// Prepares the measures of a scene.
     pub fn new(scene: &Scene) -> Measures {
         let joints = scene.joints.iter().map(|joint| joint.kind.coordinate()).collect();
-        let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
-        let has_marks =
-            !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_marks.is_empty();
-        Measures { bodies: if has_labels || has_marks { scene.bodies.clone() } else { Vec::new() }, joints }
+        let of_texts = scene.texts().flatten().filter_map(|piece| match piece {
+            Piece::Value { formula, .. } => Some(formula),
+            Piece::Words(_) => None,
+        });
+        let of_plots = scene
+            .plots
+            .iter()
+            .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
+        let formulas = of_texts.chain(of_plots).chain(scene.aggregates.iter().map(|it| &it.formula));
+        let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
+            Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
+            _ => None,
+        });
+        Measures {
+            bodies: if scene.shows_measures() { scene.bodies.clone() } else { Vec::new() },
+            joints,
+            aggregates: scene.aggregates.clone(),
+            forces: shown.collect(),
+        }
     }
 
     /// Returns a body of a scene that shows measures.
@@ -70,10 +131,12 @@ impl Measures {
         &self.bodies[id]
     }
 
-    /// Returns the value of a formula at a moment. NaN if a measure is unknown then, such as the speed of an absent body.
+    /// Returns the value of a formula at a moment, in the unit that the scene asks for. NaN if a measure is unknown then, such as the speed
+    /// of an absent body.
     pub fn value(&self, formula: &MeasureFormula, moment: &MomentState<'_>) -> f64 {
         let inputs: Vec<f64> = formula.inputs.iter().map(|measure| self.measure(*measure, moment)).collect();
-        formula.program.eval(&inputs)
+        let value = formula.program.eval(&inputs);
+        formula.asked_unit.as_ref().map_or(value, |asked| value / asked.size)
     }
 
     #[allow(clippy::cast_precision_loss, reason = "there are fewer frames than that")]
@@ -95,12 +158,16 @@ impl Measures {
             Measure::Run(RunMeasure::Drift) => energy(|balance| balance.drift),
             Measure::Run(RunMeasure::Impacts) => impacts(ImpactCounts::of_run),
             Measure::Impacts(pair) => moment.impacts.map_or(f64::NAN, |impacts| impacts.of_pair(pair)),
-            Measure::Body(number, BodyMeasure::Impacts) => {
+            Measure::Body(Subject::One(number), BodyMeasure::Impacts) => {
                 moment.impacts.map_or(f64::NAN, |impacts| impacts.of_body(number))
             }
-            Measure::Body(number, measure) => {
+            Measure::Body(Subject::One(number), measure) => {
                 let at = find(moment.bodies, number);
                 at.map_or(f64::NAN, |at| of_body(&self.bodies[number], at, measure))
+            }
+            Measure::Distance(Subject::One(one), other) => {
+                let place = |body| find(moment.bodies, body).map(|at| at.location);
+                place(one).zip(place(other)).map_or(f64::NAN, |(one, other)| one.distance(other))
             }
             Measure::Joint(number, measure) => {
                 let Some(reaction) = moment.reactions.get(number) else { return f64::NAN };
@@ -108,19 +175,113 @@ impl Measures {
                 let total_angle = moment.angles.get(number).copied().unwrap_or(f64::NAN);
                 measure.of(&JointState::of(self.joints[number], (*reaction, total_angle), body))
             }
+            Measure::Force(force, None, _) => {
+                self.loads(force, moment).map_or(f64::NAN, |loads| total_power(&loads, moment.bodies))
+            }
+            Measure::Force(force, Some(Subject::One(body)), measure) => {
+                let loads = self.loads(force, moment).zip(find(moment.bodies, body));
+                loads.map_or(f64::NAN, |(loads, at)| of_force(&loads, at, measure))
+            }
+            Measure::Aggregate(number) => self.aggregate(number, moment),
+            // An aggregate asks for the measures of one body after the other.
+            Measure::Body(Subject::Each, _)
+            | Measure::Distance(Subject::Each, _)
+            | Measure::Force(_, Some(Subject::Each), _) => f64::NAN,
         }
+    }
+
+    /// Returns the value of an aggregate of the scene. Absent bodies are left out.
+    fn aggregate(&self, number: usize, moment: &MomentState<'_>) -> f64 {
+        if let Some(known) = moment.computed.aggregates.borrow().get(&number) {
+            return *known;
+        }
+        let Aggregate { how, bodies, formula } = &self.aggregates[number];
+        // What is the same for all bodies is computed once.
+        let mut inputs: Vec<f64> = formula
+            .inputs
+            .iter()
+            .map(|measure| if measure.is_of_each() { f64::NAN } else { self.measure(*measure, moment) })
+            .collect();
+        let of_each = formula.inputs.iter().enumerate().filter(|(_, measure)| measure.is_of_each());
+        let of_each: Vec<(usize, Measure)> = of_each.map(|(slot, measure)| (slot, *measure)).collect();
+        let present = bodies.iter().filter(|body| find(moment.bodies, **body).is_some());
+        let value = how.of(present.map(|body| {
+            for (slot, measure) in &of_each {
+                inputs[*slot] = self.measure(measure.of_one(*body), moment);
+            }
+            formula.program.eval(&inputs)
+        }));
+        moment.computed.aggregates.borrow_mut().insert(number, value);
+        value
+    }
+
+    /// Returns the loads of a named force on all bodies. `None` if the force is not shown.
+    fn loads(&self, force: usize, moment: &MomentState<'_>) -> Option<Rc<Loads>> {
+        if let Some(known) = moment.computed.loads.borrow().get(&force) {
+            return Some(known.clone());
+        }
+        let ShownForce(parts) = self.forces.get(&force)?;
+        let world = moment.computed.world.get_or_init(|| self.world(moment.bodies));
+        let zero = vec![DVec3::ZERO; self.bodies.len()];
+        let mut loads = Loads { force: zero.clone(), torque: zero, ..Loads::default() };
+        let at = Moment { time: moment.time, state: world.state(), model: world.model() };
+        parts.iter().for_each(|part| part.apply(&at, &mut loads));
+        let loads = Rc::new(loads);
+        moment.computed.loads.borrow_mut().insert(force, loads.clone());
+        Some(loads)
+    }
+
+    /// Returns a world in which the bodies have the poses and the velocities of a moment.
+    fn world(&self, bodies: &[BodySnapshot]) -> World {
+        let mut world = World::new();
+        world.reserve(self.bodies.len());
+        for (id, body) in self.bodies.iter().enumerate() {
+            let Some(at) = find(bodies, id) else {
+                let id = world.add(body.start);
+                world.limit(id, &Presence::during(&[]));
+                continue;
+            };
+            world.add(RigidBody {
+                location: at.location,
+                orientation: at.orientation,
+                velocity: at.velocity,
+                angular_velocity: at.angular_velocity,
+                ..body.start
+            });
+        }
+        world
+    }
+}
+
+/// The power of loads on all bodies, W.
+fn total_power(loads: &Loads, bodies: &[BodySnapshot]) -> f64 {
+    bodies.iter().map(|at| power(loads, at)).sum()
+}
+
+/// The power of loads on a body, W.
+fn power(loads: &Loads, at: &BodySnapshot) -> f64 {
+    let [force, torque] =
+        [&loads.force, &loads.torque].map(|all| all.get(at.id).copied().unwrap_or_default());
+    force.dot(at.velocity) + torque.dot(at.angular_velocity)
+}
+
+fn of_force(loads: &Loads, at: &BodySnapshot, measure: ForceMeasure) -> f64 {
+    match measure {
+        ForceMeasure::Component(axis) => loads.force[at.id][axis],
+        ForceMeasure::Size => loads.force[at.id].length(),
+        ForceMeasure::Power => power(loads, at),
     }
 }
 
 fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
-    let acceleration = shown(Quantity::Acceleration, body, at);
+    let acceleration = || shown(Quantity::Acceleration, body, at);
     let mass = body.start.mass;
     match measure {
         BodyMeasure::Location(axis) => at.location[axis],
         BodyMeasure::Speed => at.velocity.length(),
         BodyMeasure::Velocity(axis) => at.velocity[axis],
-        BodyMeasure::AccelerationMagnitude => acceleration.length(),
-        BodyMeasure::Acceleration(axis) => acceleration[axis],
+        BodyMeasure::AccelerationMagnitude => acceleration().length(),
+        BodyMeasure::Acceleration(axis) => acceleration()[axis],
         BodyMeasure::ForceMagnitude => at.force.length(),
         BodyMeasure::Force(axis) => at.force[axis],
         BodyMeasure::AngularSpeed => at.angular_velocity.length(),
@@ -139,104 +300,4 @@ fn of_body(body: &Body, at: &BodySnapshot, measure: BodyMeasure) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two bodies, of 2 kg and 3 kg. Momenta and angular momenta are sums of m v and of x × m v; the power of gravity on the first is
-    /// F·v = 2 · (−10) · 4 W.
-    #[test]
-    fn momenta_and_power_are_those_of_mechanics() {
-        let text = "simulation = { duration = 1, gravity = [0, -10, 0] }
-            [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
-            [body.b]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, 2, 0]\nvelocity = [-1, 0, 5]
-            [plot.all]\ny = ['px', 'py', 'pz', 'lx', 'ly', 'lz', 'a.px', 'b.pz']
-            [plot.power]\ny = 'a.power'\n";
-        let scene = Scene::parse(text).unwrap();
-        let (measures, frame) =
-            (Measures::new(&scene), crate::simulate::Frames::new(&scene).next().unwrap().unwrap());
-        let values = |plot: usize| -> Vec<f64> {
-            let curves = scene.plots[plot].curves.iter();
-            curves.map(|curve| measures.value(&curve.y, &MomentState::now(&frame))).collect()
-        };
-        // x × m v: (1, 0, 0) × (6, 8, 0) = (0, 0, 8), and (0, 2, 0) × (−3, 0, 15) = (30, 0, 6).
-        let expected = [3.0, 8.0, 15.0, 30.0, 0.0, 14.0, 6.0, 15.0];
-        for (value, expected) in values(0).iter().zip(expected) {
-            assert!((value - expected).abs() < 1e-12, "{:?}", values(0));
-        }
-        assert!((values(1)[0] + 80.0).abs() < 1e-12, "{:?}", values(1));
-    }
-
-    /// The work of the forces on a body is its kinetic energy. So its power equals the rate of its kinetic energy, here for a ball that does not
-    /// turn, on a spring with damping and in the wind. The rate follows from the neighboring frames with an error of (Δt)²/6 times the third
-    /// derivative.
-    #[test]
-    fn the_power_of_a_body_is_the_rate_of_its_kinetic_energy() {
-        let text =
-            "simulation = { duration = 2, frame_rate = 1000, gravity = [0, -10, 0], integrator = 'rk4' }
-            [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
-            [force.s.spring]\nbetween = ['a', [0, 0, 0]]\nstiffness = 30\ndamping = 2
-            [force.d.drag]\nlinear = 0.4\nwind = [0, 0, 3]
-            [plot.p]\ny = ['a.power', 'a.kinetic']\n";
-        let scene = Scene::parse(text).unwrap();
-        let measures = Measures::new(&scene);
-        let values = |frame: Frame| -> [f64; 2] {
-            [0, 1].map(|curve| measures.value(&scene.plots[0].curves[curve].y, &MomentState::now(&frame)))
-        };
-        let values: Vec<[f64; 2]> =
-            crate::simulate::Frames::new(&scene).map(|frame| values(frame.unwrap())).collect();
-        let largest = values.iter().map(|[power, _]| power.abs()).fold(0.0, f64::max);
-        assert!(largest > 50.0, "{largest} W");
-        for near in values.windows(3) {
-            let rate = (near[2][1] - near[0][1]) / 0.002;
-            assert!((near[1][0] - rate).abs() < 1e-4 * largest, "{} W, and {rate} J/s", near[1][0]);
-        }
-    }
-
-    /// A body on a given circle: ½ m (r ω)² + ½ I ω² with m = 2 kg, r = 3 m, ω = 2 rad/s, and I = 0.4 m 0.1² of a ball that turns at 1 rad/s. A
-    /// free body beside it has its own 9 J.
-    #[test]
-    fn the_kinetic_energy_of_the_scene_counts_bodies_with_a_given_motion() {
-        let text = "simulation.duration = 1
-            [body.a]\nshape.sphere.radius = 0.1\nmass = 2
-            motion.formula.location = ['3*cos(2*t)', '3*sin(2*t)', 0]\nmotion.formula.orientation = [0, 'deg(t)', 0]
-            [body.b]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [9, 0, 0]\nvelocity = [0, 0, 3]\n";
-        let scene = Scene::parse(text).unwrap();
-        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
-            let all: f64 = [0, 1]
-                .map(|body| of_body(&scene.bodies[body], &frame.bodies[body], BodyMeasure::Kinetic))
-                .iter()
-                .sum();
-            let found = frame.balance.kinetic_of_all();
-            assert!((found - (36.0 + 0.5 * 0.4 * 2.0 * 0.01 + 9.0)).abs() < 1e-9, "{found}");
-            assert!((found - all).abs() < 1e-9 && (frame.balance.total_of_all() - all).abs() < 1e-9);
-            assert_eq!(frame.balance.error, 0.0);
-        }
-    }
-
-    /// The kinetic energy of the only moving body equals that of the whole run, even for a tumbling compound.
-    #[test]
-    fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
-        let scene = Scene::parse(
-            "
-            simulation = { duration = 1, integrator = 'rk4' }
-            [body.hammer]
-            mass = 3
-            velocity = [1, 2, 0]
-            angular_velocity = [1, 2, 3]
-            shape.compound.parts = [
-                { box.size = [3, 1, 2] },
-                { sphere.radius = 0.5, location = [1, 2, 0] },
-            ]
-            ",
-        )
-        .unwrap();
-        for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
-            let kinetic = of_body(&scene.bodies[0], &frame.bodies[0], BodyMeasure::Kinetic);
-            assert!(
-                (kinetic / frame.balance.kinetic - 1.0).abs() < 1e-9,
-                "{kinetic} {}",
-                frame.balance.kinetic
-            );
-        }
-    }
-}
+mod tests;

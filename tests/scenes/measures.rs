@@ -2,10 +2,11 @@
 
 use jabuka::Run;
 use jabuka::export::{write_csv, write_joints};
-use jabuka::scene::{BodyMeasure, JointMeasure, RunMeasure, Scene};
+use jabuka::scene::{BodyMeasure, JointMeasure, Measure, Scene};
 use jabuka::simulate::Selection;
 
-/// A crate hangs on a hinge, a bead slides on a rod, and a ball falls onto the ground and rebounds.
+/// A crate hangs on a hinge, a bead slides on a rod, a ball falls onto the ground and rebounds, a bob hangs on a spring, and three atoms fly
+/// through air. The last atom appears later.
 const SCENE: &str = "
     [simulation]
     duration = 0.5
@@ -25,6 +26,24 @@ const SCENE: &str = "
     [body.bead]
     shape.sphere.radius = 0.1
     location = [-2, 0, 0]
+    [body.bob]
+    shape.sphere.radius = 0.1
+    location = [-4, 0, 1]
+    velocity = [0.3, 0, 0.2]
+    [body.gas]
+    shape.sphere.radius = 0.1
+    location = ['i', 3, 4]
+    velocity = ['1 + i', 2, 'i']
+    angular_velocity = ['i', 0, 1]
+    start = '0.2*i'
+    repeat.count = 3
+    [force.pull.spring]
+    between = [[-4, 1, 1], 'bob']
+    stiffness = 20
+    rest_length = 0.8
+    [force.air.drag]
+    on = ['gas']
+    linear = 0.7
     [joint.hook.hinge]
     between = [[0, 0, 0], 'crate']
     axis = [0, 0, 1]
@@ -34,14 +53,34 @@ const SCENE: &str = "
     axis = [1, -1, 0]
     ";
 
-/// Returns the names of all measures of the scene.
+/// Returns the names of all measures of the scene: those of the list of all measures, with names of the scene's things in it. So a measure
+/// that is added to the list is tried here.
 fn names(scene: &Scene) -> Vec<String> {
-    let mut names: Vec<String> = RunMeasure::ALL.iter().map(|(name, ..)| (*name).to_owned()).collect();
-    names.extend(BodyMeasure::ALL.iter().map(|(name, ..)| format!("ball.{name}")));
-    for joint in &scene.joints {
-        let its = JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
-        names.extend(its.map(|(name, _)| format!("joint.{}.{name}", joint.name)));
+    let mut names = Vec::new();
+    for line in Measure::listed() {
+        let name = line.name;
+        if let Some(measure) = name.strip_prefix("joint.NAME.") {
+            for joint in &scene.joints {
+                let mut its = JointMeasure::names().filter(|(_, measure)| measure.is_of(&joint.kind));
+                if its.any(|(its, _)| its == measure) {
+                    names.push(format!("joint.{}.{measure}", joint.name));
+                }
+            }
+            continue;
+        }
+        let name = name.replace("force.NAME.BODY", "force.air.gas[1]").replace("force.NAME", "force.pull");
+        let body = if name.contains('(') { "gas" } else { "ball" };
+        names.push(name.replace("BODY", body).replace("OTHER", "crate"));
     }
+    let of_copies = |how: &str| BodyMeasure::ALL.map(|(name, ..)| format!("{how}(gas.{name})"));
+    names.extend(["sum", "mean"].into_iter().flat_map(of_copies));
+    // Formulas of copies, also of other bodies and of other sums.
+    names.extend(
+        ["sum(0.5*gas.mass*gas.speed^2)", "max(force.air.gas.size)", "min(gas[*].distance.ball)"]
+            .map(str::to_owned),
+    );
+    names.push("sqrt(mean((gas.x - mean(gas.x))^2))".to_owned());
+    names.dedup();
     names
 }
 
@@ -72,6 +111,7 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
             said(number)
         );
     }
+    assert!(names.len() > 120, "{}", names.len());
     // The values are no accident: the ball has fallen 0.3 m, has rebounded once, and still turns.
     assert_eq!(value("ball.impacts"), 1.0);
     assert!(value("ball.spin") > 1.0 && value("joint.hook.motor") != 0.0);
@@ -97,4 +137,91 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
         }
         assert!(compared >= 6, "{thing}: {compared}");
     }
+
+    // The sum over the copies is that of their rows in the table.
+    let table = std::str::from_utf8(&bodies).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let time = rows.last().unwrap()[0];
+    let atoms: Vec<&Vec<&str>> =
+        rows.iter().filter(|row| row[0] == time && row[1].starts_with("gas[")).collect();
+    assert_eq!(atoms.len(), 3);
+    let mut compared = 0;
+    for (column, title) in rows[0].iter().enumerate() {
+        let name = format!("sum(gas.{})", title.split(" [").next().unwrap());
+        if names.contains(&name) {
+            let sum: f64 = atoms.iter().map(|row| row[column].parse::<f64>().unwrap()).sum();
+            assert!(
+                (sum - value(&name)).abs() < 2e-9,
+                "{name}: {sum} in the table, {} in the label",
+                value(&name)
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared >= 6, "{compared}");
+}
+
+/// Returns what the labels of a scene show in a frame.
+fn labels(text: &str, frame: usize) -> Vec<String> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    let run = Run::new(&scene).unwrap();
+    let frame = run.frames().nth(frame).unwrap().unwrap();
+    run.emitter().plan().texts(&frame).iter().map(|text| text.says.to_string()).collect()
+}
+
+/// The atom `gas[i]` has the velocity i + 1 m/s, and appears at i/10 s. Only the first is there from the start on.
+const ATOMS: &str = "simulation = { duration = 1, integrator = 'rk4' }
+    [body.gas]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = ['10*i', 0, 0]\nvelocity = ['i + 1', 0, 0]
+    start = '0.1*i'\nrepeat.count = 3
+    [body.late]\nshape.sphere.radius = 0.1\nlocation = [0, 9, 0]\nstart = 0.5\nrepeat.count = 2\n";
+
+#[test]
+fn absent_bodies_are_left_out_and_nothing_has_no_mean() {
+    let text =
+        "[label.a]\ntext = '${sum(gas.speed)} ${mean(gas.speed)} ${max(gas[*].speed)} ${min(gas.kinetic)}'
+        [label.b]\ntext = '${sum(late.speed)} ${mean(late.speed)} ${max(late.y)}'\n";
+    let text = ATOMS.to_owned() + text;
+    assert_eq!(labels(&text, 0), ["1 1 1 1", "0 ? ?"]);
+    assert_eq!(labels(&text, 25), ["6 2 3 1", "0 0 9"]);
+}
+
+#[test]
+fn a_unit_that_is_asked_for_stands_behind_the_number() {
+    let text = "[label.a]\ntext = '${gas[1].speed:km/h}, ${gas[0].speed:.1f km/h}, ${sum(gas.kinetic):.3 kJ}'
+        [label.b]\ntext = '${t:ms}, ${gas[0].x:cm}, ${gas[0].kinetic:.2e eV}, ${gas[0].distance.gas[1]:.0f mm}'\n";
+    let text = ATOMS.to_owned() + text;
+    assert_eq!(
+        labels(&text, 25),
+        ["7.2 km/h, 3.6 km/h, 0.014 kJ", "1000 ms, 100 cm, 6.24·10¹⁸ eV, 10800 mm"]
+    );
+}
+
+/// A hinge turns at 2 rad/s; its angle is in degrees unless a unit is asked for.
+#[test]
+fn the_units_of_a_joint_follow_from_its_kind() {
+    let text = "simulation.duration = 1
+        [body.wheel]\nshape.cylinder = { radius = 1, height = 0.1 }\nangular_velocity = [0, 2, 0]
+        [joint.axle.hinge]\nbetween = [[0, 0, 0], 'wheel']\naxis = [0, 1, 0]
+        [label.a]\ntext = '${joint.axle.angle:.3f rad}, ${joint.axle.angle:.1f °}, ${joint.axle.speed:rpm}'
+        [plot.p]\ny = 'joint.axle.speed'\n";
+    assert_eq!(labels(text, 25)[0], "2.000 rad, 114.6°, 19.1 rpm");
+    assert_eq!(Scene::parse(text).unwrap().plots[0].curves[0].y.unit(), Some("rad/s"));
+}
+
+#[test]
+fn plots_have_the_units_that_are_asked_for_at_their_axes() {
+    let text = "[plot.speed]\nx = 't:ms'\ny = ['gas[0].speed:km/h', 'max(gas.speed):km/h']
+        [plot.mixed]\ny = ['gas[0].speed:km/h', 'gas[0].speed']\n";
+    let scene = Scene::parse(&(ATOMS.to_owned() + text)).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let last = run.survey().curves[1].last().unwrap().at.unwrap();
+    assert!((last[0] - 1000.0).abs() < 1e-9 && (last[1] - 10.8).abs() < 1e-9, "{last:?}");
+    let said = |plot: usize| -> Vec<String> {
+        run.emitter().plan().planned_plots()[plot].texts.iter().map(|text| text.says.to_string()).collect()
+    };
+    let (speed, mixed) = (said(0), said(1));
+    for words in ["km/h", "gas[0].speed", "max(gas.speed)", "500", "t (ms)"] {
+        assert!(speed.iter().any(|said| said == words), "{words} is not in {speed:?}");
+    }
+    assert!(mixed.iter().any(|said| said == "gas[0].speed, km/h"), "{mixed:?}");
 }

@@ -2,7 +2,7 @@
 
 use super::super::number;
 use super::Labels;
-use crate::scene::{Format, Label, Piece};
+use crate::scene::{Format, Label, MeasureFormula, Piece};
 use crate::simulate::MomentState;
 
 impl Labels {
@@ -14,6 +14,7 @@ impl Labels {
                 Piece::Words(words) => said.push_str(words),
                 Piece::Value { formula, format } => {
                     said.push_str(&written(self.measures.value(formula, moment), *format));
+                    said.push_str(&unit(formula));
                 }
             }
         }
@@ -23,13 +24,24 @@ impl Labels {
 
 /// A sample text of the largest expected length, in which numbers have up to four digits before the decimal point.
 pub(super) fn longest(label: &Label) -> String {
+    let number = |format: &Format| match format {
+        Format::Short => "0.0000".to_owned(),
+        Format::Decimals(decimals) => "0".repeat(decimals + 3),
+        Format::Scientific(decimals) => "0".repeat(decimals + 5),
+    };
     let piece = |piece: &Piece| match piece {
         Piece::Words(words) => words.clone(),
-        Piece::Value { format: Format::Short, .. } => "0.0000".to_owned(),
-        Piece::Value { format: Format::Decimals(decimals), .. } => "0".repeat(decimals + 3),
-        Piece::Value { format: Format::Scientific(decimals), .. } => "0".repeat(decimals + 5),
+        Piece::Value { formula, format } => number(format) + &unit(formula),
     };
     label.text.iter().map(piece).collect()
+}
+
+/// The unit behind a number, if the scene asks for one. A sign such as `°` stands at the number, and letters stand apart.
+fn unit(formula: &MeasureFormula) -> String {
+    formula.asked_unit.as_ref().map_or(String::new(), |asked| match &*asked.symbol {
+        "°" => "°".to_owned(),
+        symbol => format!(" {symbol}"),
+    })
 }
 
 /// Formats a number for a label. Non-finite numbers become `?`.

@@ -81,9 +81,7 @@ struct Sizes {
 
 /// True if the pictures of a scene have texts: labels, plots, names of arrows, angles, distances, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
-    let has_marks = !scene.angles.is_empty() || !scene.distances.is_empty() || !scene.arrow_marks.is_empty();
-    let has_labels = !scene.labels.is_empty() || !scene.plots.is_empty();
-    has_labels || has_marks || scene.grid.is_some() || scene.scale_bar.is_some()
+    scene.shows_measures() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
 impl Plan {

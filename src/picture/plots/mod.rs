@@ -183,11 +183,11 @@ fn plan(
         units: [x_unit, unit(plot)],
     };
     let is_time = plot.x.single == Some(Measure::Run(RunMeasure::Time));
-    let is_count = |formula: &MeasureFormula| formula.single.is_some_and(Measure::is_count);
+    let is_count = |formula: &MeasureFormula| formula.is_count;
     let level = Range {
         // The whole run, even if the curves begin later or end earlier.
         span: if is_time {
-            [0.0, scene.simulation.timeline.end()]
+            [0.0, scene.simulation.timeline.end() / plot.x.unit_size()]
         } else {
             span(curves, 0).unwrap_or([0.0, 1.0])
         },
@@ -236,7 +236,7 @@ fn span(curves: &[&[CurvePoint]], measure: usize) -> Option<[f64; 2]> {
 }
 
 /// The unit of all curves. Empty if they differ, or are formulas.
-fn unit(plot: &Plot) -> &'static str {
+fn unit(plot: &Plot) -> &str {
     let mut units = plot.curves.iter().map(|curve| curve.y.unit());
     let first = units.next().flatten();
     first.filter(|first| units.all(|unit| unit == Some(first))).unwrap_or_default()

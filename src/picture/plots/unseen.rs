@@ -3,7 +3,7 @@
 use super::super::occupancy::Rectangle;
 use super::{Plots, column};
 use crate::decimal::decimal_step;
-use crate::scene::{Measure, Scene};
+use crate::scene::{Measure, Scene, Subject};
 use crate::simulate::{CurvePoint, Survey};
 
 /// A plot without room in the picture, or a curve of which no picture shows a point. The numbers of plots and bodies are their indices in
@@ -102,7 +102,9 @@ impl Plots {
         let inputs = of_plot.x.inputs.iter().chain(&of_plot.curves[curve].y.inputs);
         let end = scene.simulation.timeline.end();
         let never = inputs.into_iter().find_map(|measure| match measure {
-            Measure::Body(body, _) if !scene.bodies[*body].presence.overlaps(0.0, end) => Some(*body),
+            Measure::Body(Subject::One(body), _) if !scene.bodies[*body].presence.overlaps(0.0, end) => {
+                Some(*body)
+            }
             _ => None,
         });
         match never {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Context;
-use super::measures::{OwnBody, Reader};
+use super::measures::{OwnBody, Reader, Things};
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -12,23 +12,16 @@ use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
-use crate::scene::{
-    Body, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, ScaleBar, Side,
-};
+use crate::scene::{Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 
 /// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
 pub(super) const MAX_LENGTH: usize = 160;
 
-pub(super) fn read(
-    root: &View<'_>,
-    bodies: &[Body],
-    joints: &[Joint],
-    context: &mut Context<'_>,
-) -> Vec<Label> {
+pub(super) fn read(root: &View<'_>, things: Things<'_>, context: &mut Context<'_>) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
-        let place = place_of(&view, bodies, context);
+        let place = place_of(&view, things.bodies, context);
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
-        let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, joints, context));
+        let text = text.map(|(text, span)| pieces((text, span), root, place, things, context));
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
@@ -77,20 +70,17 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
 
 /// Splits a text with values into words and values. Reports mistakes at their source positions.
 pub(super) fn pieces(
-    text: &str,
-    span: Span,
+    (text, span): (&str, Span),
     root: &View<'_>,
     place: LabelPlace,
-    bodies: &[Body],
-    joints: &[Joint],
+    things: Things<'_>,
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
     let own = match place {
         LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
         LabelPlace::Corner(_) => None,
     };
-    let mut reader =
-        Reader { noun: "label", text, span, root, own, bodies, joints, context, missing: Vec::new() };
+    let mut reader = Reader::new("label", (text, span), root, own, things, context);
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");
         reader.report(Diagnostic::error(Code::LabelSyntax, message), 0..0, "");
@@ -206,37 +196,61 @@ impl Reader<'_, '_, '_> {
 
     fn value(&mut self, range: Range<usize>) -> Option<Piece> {
         let inner = &self.text[range.clone()];
-        let (formula, format) = match inner.rsplit_once(':') {
-            None => (inner, Format::Short),
-            Some((formula, format)) => {
-                let begin = range.start + formula.len() + 1;
-                let Some(format) = format_of(format) else {
-                    let message = format!("`{format}` is no format of a number");
-                    let label = "`.2` is two decimals, `.2e` has a power of ten";
-                    self.report(Diagnostic::error(Code::LabelSyntax, message), begin..range.end, label);
-                    return None;
-                };
-                (formula, format)
+        let (formula, asked) =
+            inner.rsplit_once(':').map_or((inner, None), |(formula, asked)| (formula, Some(asked)));
+        let begin = range.start + formula.len() + 1;
+        let (format, unit) = match asked.map(|asked| (format_of(asked), asked)) {
+            None => (Format::Short, None),
+            Some((Some((format, length)), asked)) => {
+                let rest = asked[length..].trim_start();
+                let unit = begin + asked.len() - rest.len()..begin + asked.trim_end().len();
+                (format, (!unit.is_empty()).then_some(unit))
+            }
+            Some((None, _)) => {
+                let message =
+                    format!("`{}` is no format of a number, and no unit", &self.text[begin..range.end]);
+                let label = "`.2` is two decimals, `.2e` has a power of ten, `km/h` is a unit";
+                self.report(Diagnostic::error(Code::LabelSyntax, message), begin..range.end, label);
+                return None;
             }
         };
-        let formula = self.formula(range.start..range.start + formula.len())?;
+        let mut formula = self.formula(range.start..range.start + formula.len())?;
+        if let Some(unit) = unit {
+            self.ask_unit(&mut formula, unit)?;
+        }
         let format = match format {
-            Format::Short if formula.single.is_some_and(Measure::is_count) => Format::Decimals(0),
+            Format::Short if formula.is_count => Format::Decimals(0),
             format => format,
         };
         Some(Piece::Value { formula, format })
     }
 }
 
-/// Parses a number format, such as `.2` or `.2e`.
-fn format_of(text: &str) -> Option<Format> {
-    let text = text.trim();
-    let (digits, scientific) = match text.strip_suffix(['e', 'E']) {
-        Some(digits) => (digits, true),
-        None => (text.strip_suffix('f').unwrap_or(text), false),
-    };
-    let decimals = digits.strip_prefix('.')?.parse::<usize>().ok().filter(|decimals| *decimals <= 12)?;
-    Some(if scientific { Format::Scientific(decimals) } else { Format::Decimals(decimals) })
+/// Parses a number format at the beginning of a text, such as `.2` or `.2e`. Returns the format and its length. A text that begins with a
+/// letter has no format: it is a unit. `None` for what is neither.
+fn format_of(text: &str) -> Option<(Format, usize)> {
+    let trimmed = text.trim_start();
+    let before = text.len() - trimmed.len();
+    if trimmed.starts_with(|c: char| c.is_alphabetic() || c == '°') {
+        return Some((Format::Short, 0));
+    }
+    let rest = trimmed.strip_prefix('.')?;
+    let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+    let decimals = rest[..digits].parse::<usize>().ok().filter(|decimals| *decimals <= 12)?;
+    let length = before + 1 + digits;
+    let mut letters = rest[digits..].chars();
+    let (first, second) = (letters.next(), letters.next());
+    // In `.2eV`, the letter belongs to the unit.
+    let is_alone = second.is_none_or(char::is_whitespace);
+    match first {
+        Some('e' | 'E') if is_alone => Some((Format::Scientific(decimals), length + 1)),
+        Some('f') if is_alone => Some((Format::Decimals(decimals), length + 1)),
+        None => Some((Format::Decimals(decimals), length)),
+        Some(c) if c.is_whitespace() || c.is_alphabetic() || c == '°' => {
+            Some((Format::Decimals(decimals), length))
+        }
+        Some(_) => None,
+    }
 }
 
 #[cfg(test)]

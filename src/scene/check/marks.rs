@@ -1,6 +1,7 @@
 //! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the texts and components of arrows.
 
 use super::label::pieces;
+use super::measures::Things;
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
@@ -13,8 +14,8 @@ use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowMark, ArrowOwner, Body, Components, Corner, Distance, Joint, LabelPlace, Leg, Piece,
-    Quantity, Side, read,
+    Angle, ArrowMark, ArrowOwner, Body, Components, Corner, Distance, LabelPlace, Leg, Piece, Quantity, Side,
+    read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -24,8 +25,7 @@ const VECTORS: [Quantity; 3] = Quantity::OF_BODIES;
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a, 'b> {
     pub(super) root: &'a View<'b>,
-    pub(super) bodies: &'a [Body],
-    pub(super) joints: &'a [Joint],
+    pub(super) things: Things<'a>,
 }
 
 impl Known<'_, '_> {
@@ -46,7 +46,7 @@ impl Known<'_, '_> {
             Some(body) => LabelPlace::Body { body, side: Side::Above, ghosts: false },
             None => LabelPlace::Corner(Corner::TopLeft),
         };
-        pieces(text, span, self.root, place, self.bodies, self.joints, context)
+        pieces((text, span), self.root, place, self.things, context)
     }
 }
 
@@ -55,7 +55,8 @@ pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Ang
         let text = known.text(&view, &angle::TEXT, None, context);
         let text = text.unwrap_or_else(|| vec![Piece::Words(usual_text((name, span), context))]);
         let vertex = end::anchor(view.node(&angle::AT)?, context)?;
-        let legs = [&angle::FROM, &angle::TO].map(|key| leg_of(&view, key, vertex, known.bodies, context));
+        let legs =
+            [&angle::FROM, &angle::TO].map(|key| leg_of(&view, key, vertex, known.things.bodies, context));
         let [from, to] = legs;
         Some(Angle {
             name: name.to_owned(),
@@ -191,7 +192,7 @@ pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
     };
     for (number, body) in known.root.bodies().enumerate() {
         // Most bodies have no arrows. The table of a copy is rebuilt each time that it is read.
-        if known.bodies.get(number).is_some_and(|body| body.showing.has_arrows()) {
+        if known.things.bodies.get(number).is_some_and(|body| body.showing.has_arrows()) {
             body.look(|view| {
                 let arrows = view.table(&body::ARROWS);
                 for quantity in Quantity::OF_BODIES.into_iter().chain(Quantity::OF_LOADS) {

@@ -1,17 +1,22 @@
 //! Reads formulas of measures, such as `ball.speed` or `2 * kinetic`, in labels and plots.
 
+mod aggregates;
+mod bodies;
 mod dotted;
+mod forces;
+mod unit;
 mod words;
 
 use std::ops::Range;
 
+use self::aggregates::Each;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::expand::place;
 use crate::scene::expression::{ExpressionError, Formula, Scope};
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{Body, BodyMeasure, Joint, Measure, MeasureFormula, RunMeasure};
+use crate::scene::{Body, BodyMeasure, Force, Joint, Measure, MeasureFormula, RunMeasure, Subject};
 
 /// The body whose measures need no name in a text, since the text stands beside it.
 #[derive(Clone, Copy)]
@@ -22,6 +27,14 @@ pub(super) struct OwnBody {
     pub(super) ghosts: bool,
 }
 
+/// The things that a formula can name.
+#[derive(Clone, Copy)]
+pub(super) struct Things<'a> {
+    pub(super) bodies: &'a [Body],
+    pub(super) forces: &'a [Force],
+    pub(super) joints: &'a [Joint],
+}
+
 /// Reads a text that contains formulas of measures.
 pub(super) struct Reader<'a, 'b, 'c> {
     /// What the text belongs to, for messages: `label` or `plot`.
@@ -30,11 +43,26 @@ pub(super) struct Reader<'a, 'b, 'c> {
     pub(super) span: Span,
     pub(super) root: &'a View<'b>,
     pub(super) own: Option<OwnBody>,
-    pub(super) bodies: &'a [Body],
-    pub(super) joints: &'a [Joint],
+    pub(super) things: Things<'a>,
     pub(super) context: &'a mut Context<'c>,
     /// The letters that the font does not have, each once, with its first range in the text.
     pub(super) missing: Vec<(char, Range<usize>)>,
+    /// The aggregate that is being read. `None` outside of aggregates.
+    each: Option<Each>,
+}
+
+impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
+    /// Returns a reader of a text. `noun` is what the text belongs to, for messages.
+    pub(super) fn new(
+        noun: &'static str,
+        (text, span): (&'a str, Span),
+        root: &'a View<'b>,
+        own: Option<OwnBody>,
+        things: Things<'a>,
+        context: &'a mut Context<'c>,
+    ) -> Self {
+        Reader { noun, text, span, root, own, things, context, missing: Vec::new(), each: None }
+    }
 }
 
 impl Reader<'_, '_, '_> {
@@ -51,14 +79,43 @@ impl Reader<'_, '_, '_> {
     /// Reads the formula in a byte range of the text. `None` if it has an error, which is reported.
     pub(super) fn formula(&mut self, range: Range<usize>) -> Option<MeasureFormula> {
         let start = range.start;
-        let (plain, dotted) = self.without_dots(&self.text[range], start)?;
+        let (plain, aggregates) = self.without_aggregates(&self.text[range], start)?;
+        self.plain_formula(&plain, start, aggregates)
+    }
+
+    /// Reads a formula in which names stand for aggregates. It begins at the byte `start` of the text.
+    fn plain_formula(
+        &mut self,
+        formula: &str,
+        start: usize,
+        aggregates: Vec<(String, Measure)>,
+    ) -> Option<MeasureFormula> {
+        let (plain, mut dotted) = self.without_dots(formula, start)?;
+        dotted.extend(aggregates);
+        if let Some(OwnBody { body, ghosts: true }) = self.own
+            && !dotted.iter().all(|(_, measure)| is_of(*measure, body))
+        {
+            let message = "a label at ghosts shows only values of its own body";
+            let error = Diagnostic::error(Code::LabelSyntax, message);
+            let help = "a ghost keeps nothing else; a label without `ghosts` can show other values";
+            self.report(error.help(help), start..start + formula.len(), "names something else");
+            return None;
+        }
         let parsed = self.keep(Formula::parse(&plain), start)?;
         let (scope, inputs) = self.scope(dotted);
         let single = inputs.iter().find(|(name, _)| name == plain.trim()).map(|(_, measure)| *measure);
         let program = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
         let program = self.keep(program, start)?;
         let inputs = inputs.into_iter().map(|(_, measure)| measure).collect();
-        Some(MeasureFormula { program, inputs, single })
+        let unit = single.map(|measure| self.unit_of(measure));
+        Some(MeasureFormula {
+            program,
+            inputs,
+            single,
+            own_unit: unit.map(|(unit, _)| unit),
+            is_count: unit.is_some_and(|(_, is_count)| is_count),
+            asked_unit: None,
+        })
     }
 
     /// Returns the name and the value of each variable of the scene.
@@ -84,7 +141,7 @@ impl Reader<'_, '_, '_> {
             let known = BodyMeasure::ALL.into_iter();
             let known =
                 known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
-            known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
+            known.for_each(|(name, measure, _)| add(name, Measure::Body(Subject::One(body), measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
             // In a label beside a body, a name such as `kinetic` means the measure of that body. A variable of the scene hides a measure.
@@ -97,11 +154,7 @@ impl Reader<'_, '_, '_> {
             }
         }
         for (name, measure) in dotted {
-            let of_ghost =
-                matches!((self.own, measure), (Some(own), Measure::Body(body, _)) if body == own.body);
-            if with_run || of_ghost {
-                add(&name, measure);
-            }
+            add(&name, measure);
         }
         (scope, inputs)
     }
@@ -137,4 +190,9 @@ impl Reader<'_, '_, '_> {
         }
         None
     }
+}
+
+/// Returns whether a measure belongs to a body alone.
+fn is_of(measure: Measure, body: usize) -> bool {
+    matches!(measure, Measure::Body(Subject::One(one), _) if one == body)
 }

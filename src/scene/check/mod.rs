@@ -49,7 +49,7 @@ use super::grammar::{self, Collection, SCENE, bodies};
 use super::sdl::FileKind;
 use super::source::{self, Table};
 use super::view::{NamedTable, View};
-use super::{Include, Options, Places, PovRay, Scene, read, view};
+use super::{Aggregate, Include, Options, Places, PovRay, Scene, read, view};
 use crate::diagnostic::{Code, Diagnostic, Report, Severity, Sources, Span};
 use crate::physics::{Presence, Track};
 use sha2::{Digest, Sha256};
@@ -120,6 +120,8 @@ struct Context<'a> {
     files: Vec<[u8; 32]>,
     /// The pairs of bodies whose impacts are counted, as indices of bodies.
     pairs: Vec<[usize; 2]>,
+    /// The sums, means and extremes over several bodies in the formulas of measures.
+    aggregates: Vec<Aggregate>,
 }
 
 impl Context<'_> {
@@ -153,6 +155,7 @@ impl Context<'_> {
             validated: HashSet::new(),
             files: Vec::new(),
             pairs: Vec::new(),
+            aggregates: Vec::new(),
         }
     }
 
@@ -339,12 +342,13 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
-    let labels = label::read(&root, &bodies, &joints, context);
-    let (plots, places_of_plots) = plot::read(&root, &bodies, &joints, context);
+    let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
+    let labels = label::read(&root, things, context);
+    let (plots, places_of_plots) = plot::read(&root, things, context);
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
-    let known = marks::Known { root: &root, bodies: &bodies, joints: &joints };
+    let known = marks::Known { root: &root, things };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
     let arrow_marks = marks::arrow_marks(known, context);
@@ -370,6 +374,7 @@ fn build(
         scale_bar,
         grid,
         pairs: std::mem::take(&mut context.pairs),
+        aggregates: std::mem::take(&mut context.aggregates),
         output,
         digest: digest(input, options, included, &povray, context),
         bodies,

@@ -2,7 +2,7 @@
 
 use super::Context;
 use super::label::{MAX_LENGTH, corner};
-use super::measures::Reader;
+use super::measures::{Reader, Things};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::labels::plot;
@@ -10,7 +10,7 @@ use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Any, Key};
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Body, Curve, Joint, MeasureFormula, Plot, PlotPlace, PlotSpans};
+use crate::scene::{Curve, MeasureFormula, Plot, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -18,19 +18,17 @@ type Written<'a> = (&'a str, Span);
 /// Reads formulas and texts of plots.
 struct Plots<'a, 'b, 'c> {
     root: &'a View<'b>,
-    bodies: &'a [Body],
-    joints: &'a [Joint],
+    things: Things<'a>,
     context: &'a mut Context<'c>,
 }
 
 /// Returns the plots of a scene, and where they are written.
 pub(super) fn read(
     root: &View<'_>,
-    bodies: &[Body],
-    joints: &[Joint],
+    things: Things<'_>,
     context: &mut Context<'_>,
 ) -> (Vec<Plot>, Vec<PlotSpans>) {
-    let mut plots = Plots { root, bodies, joints, context };
+    let mut plots = Plots { root, things, context };
     root.named(&scene::PLOT)
         .into_iter()
         .filter_map(|(name, span, view)| plots.plot((name, span), &view))
@@ -86,9 +84,20 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             let message = format!("a plot at a side is at most {} wide", Plot::MAX_WIDTH_AT_SIDE);
             self.report(view.span(&plot::WIDTH), message, "the bodies need the rest of the picture");
         }
+        // Curves of one unit share an axis that shows it.
+        let mut units = formulas.iter().flatten().map(MeasureFormula::unit);
+        let first = units.next();
+        let is_one_unit = units.all(|unit| Some(unit) == first);
         let curve = |(number, formula): (usize, Option<MeasureFormula>)| {
-            let name = names.get(number).or(written.get(number))?.0.to_owned();
-            Some(Curve { name, y: formula? })
+            let own = written.get(number).map(|(text, _)| {
+                let (name, unit) =
+                    text.rsplit_once(':').map_or((*text, None), |(name, unit)| (name, Some(unit)));
+                let unit =
+                    unit.filter(|_| !is_one_unit).map_or(String::new(), |unit| format!(", {}", unit.trim()));
+                format!("{}{unit}", name.trim())
+            });
+            let given = names.get(number).map(|(name, _)| (*name).to_owned());
+            Some(Curve { name: given.or(own)?, y: formula? })
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
         let curves_at = written.iter().map(|(_, span)| *span).collect();
@@ -97,7 +106,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             name: name.to_owned(),
             title: view.get(&plot::TITLE).map(str::to_owned),
             x: x?,
-            x_name: view.get(&plot::X_NAME).unwrap_or(x_formula).trim().to_owned(),
+            x_name: view.get(&plot::X_NAME).unwrap_or(without_unit(x_formula)).trim().to_owned(),
             curves,
             place,
             width,
@@ -117,7 +126,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         if self.is_too_long((text, span)) {
             return None;
         }
-        self.reader((text, span)).formula(0..text.len())
+        self.reader((text, span)).formula_with_unit(0..text.len())
     }
 
     /// Returns true and reports an error if a text of a plot is too long.
@@ -145,23 +154,18 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     }
 
     fn reader<'t>(&'t mut self, (text, span): Written<'t>) -> Reader<'t, 'b, 'c> {
-        Reader {
-            noun: "plot",
-            text,
-            span,
-            root: self.root,
-            own: None,
-            bodies: self.bodies,
-            joints: self.joints,
-            context: self.context,
-            missing: Vec::new(),
-        }
+        Reader::new("plot", (text, span), self.root, None, self.things, self.context)
     }
 
     fn report(&mut self, span: Option<Span>, message: String, label: &str) {
         let error = Diagnostic::error(Code::BadPlot, message);
         self.context.diagnostics.extend(span.map(|span| error.at(span, label)));
     }
+}
+
+/// Returns the formula of a text such as `ball.speed:km/h`.
+fn without_unit(text: &str) -> &str {
+    text.rsplit_once(':').map_or(text, |(formula, _)| formula)
 }
 
 /// Returns the texts of a key that takes one text or a list of them.

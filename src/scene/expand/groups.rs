@@ -83,13 +83,24 @@ impl Groups {
         Some([copy_name(original, &vec![0; counts.len()]), copy_name(original, &last)])
     }
 
+    /// Returns the names of the repeated bodies, in alphabetical order.
+    pub(in crate::scene) fn originals(&self) -> impl Iterator<Item = &str> {
+        let mut names: Vec<&str> = self.bodies.keys().map(String::as_str).collect();
+        // The order of the hash map differs from run to run.
+        names.sort_unstable();
+        names.into_iter()
+    }
+
     /// Returns true if a list item names several bodies, such as `brick` or `brick[*,0]`.
     pub(super) fn means_several(&self, item: &Node) -> bool {
         body_of(item).is_some_and(|name| self.several(name).is_some())
     }
 
     /// Returns the names of the copies that `name` means, such as `brick` or `brick[*,0]`. `None` if it means a single body.
-    fn several<'a>(&'a self, name: &str) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
+    pub(in crate::scene) fn several<'a>(
+        &'a self,
+        name: &str,
+    ) -> Option<Box<dyn Iterator<Item = &'a Arc<str>> + 'a>> {
         if let Some(Group { names, is_known: true, .. }) = self.bodies.get(name) {
             return Some(Box::new(names.iter()));
         }

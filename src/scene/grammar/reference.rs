@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{KeySpec, Kind, Rule, SCENE, TableSpec, quoted};
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
-use crate::scene::{BodyMeasure, JointMeasure, RunMeasure};
+use crate::scene::{ListedMeasure, Measure};
 
 /// Returns the documentation of all keys of the scene language, as Markdown.
 pub fn reference() -> String {
@@ -396,9 +396,21 @@ body = \"ball\"
 Between `${` and `}` stands a [formula](#formulas) of the current values and `[variables]`. After a colon, `.2` means two
 decimals and `.2e` two decimals with a power of ten. The default is three significant digits, and all digits for a number of impacts. In a label at
 a body, the names of that body's values need no prefix, and take precedence over variables of the same name; with `ghosts`, only these and `t` are
-available.
+available. A value that is undefined, such as the speed of an absent body, is shown as `?`.
 
-Elsewhere, a variable of the scene hides a measure of the run with the same name.
+**Units**: after the colon, a unit can stand, alone or behind the format: `${ball.speed:km/h}` and `${ball.speed:.1f km/h}`. The value is
+converted, and the unit stands behind the number. It must fit the measure; a formula of measures has no unit that jabuka knows. Plots take
+units, too: `y = \"ball.speed:km/h\"`.
+
+**Copies**: `ball[0].x` belongs to one copy of a body with [`repeat`](#bodyname-repeat). `sum(…)`, `mean(…)`, `max(…)` and `min(…)` make one
+value of many copies: `sum(gas.kinetic)`, `mean(gas[*].x)`, `max(brick[*,0].y)`. A formula can stand inside, also with other measures:
+`sqrt(mean((gas.x - mean(gas.x))^2))`. Absent copies are left out. If all are absent, the sum is 0, and the others are undefined.
+
+**Forces**: `force.air.x` is the force that `[force.air]` alone exerts on its body. If it acts on several bodies, name one:
+`force.air.ball.x`. Fixed bodies feel no forces. `force.air.power` is its power on all its bodies together, the sum of F·v + τ·ω.
+
+Elsewhere, a variable of the scene hides a measure of the run with the same name. In the table, words in capitals stand for names: `BODY` and
+`OTHER` for bodies, `NAME` for a joint or a force. `jabuka list measures` prints it.
 
 A label at a body is left out of pictures without the body. If it would cover an arrow or another
 label, it moves to another side, or farther away. It hides the grid numbers that it would cover.
@@ -466,7 +478,7 @@ x_name = \"way\"
 
 A plot draws [measures](#labels), or formulas of them, as curves: in each frame up to its time, with a dot at the present values. The axes
 show the whole run from the first frame on. Where a value is undefined, as that of an absent body or the root of a negative number, the curve has a
-gap. A unit stands at an axis if all of its curves are single measures of one unit. A curve has the color of the
+gap. A unit stands at an axis if all of its curves are single measures of one unit; another one can be asked for, as in `y = \"ball.speed:km/h\"`. A curve has the color of the
 body that its formula names, if it names only one. In runs of more than 600 frames, a curve is drawn through the lowest and highest values of neighboring
 frames, so no peak is lost. `output.layout = \"shared\"` writes the curves once for all frames, which saves space in long runs.
 
@@ -520,14 +532,8 @@ impl Page {
 
     fn labels(&mut self) {
         self.text.push_str(LABELS);
-        for (name, _, what) in RunMeasure::ALL {
-            let _ = writeln!(self.text, "| `{name}` | {what} |");
-        }
-        for (name, _, what) in BodyMeasure::ALL {
-            let _ = writeln!(self.text, "| `ball.{name}` | {what} |");
-        }
-        for (name, _, what) in JointMeasure::ALL {
-            let _ = writeln!(self.text, "| `{name}` | {what} |");
+        for ListedMeasure { name, unit, meaning } in Measure::listed() {
+            let _ = writeln!(self.text, "| `{name}` | {unit} | {meaning} |");
         }
         self.text.push_str(PLOTS);
         self.text.push_str(MARKS);

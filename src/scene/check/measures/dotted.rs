@@ -4,9 +4,8 @@ use std::ops::Range;
 
 use super::{Reader, words};
 use crate::diagnostic::{Code, Diagnostic, Span};
-use crate::scene::grammar::Collection;
 use crate::scene::grammar::scene::{scene, simulation};
-use crate::scene::{BodyMeasure, ContactLaw, JointMeasure, Measure};
+use crate::scene::{ContactLaw, JointMeasure, Measure};
 
 impl Reader<'_, '_, '_> {
     /// Replaces each dot in names such as `ball.speed` by a letter or an underscore, because names in formulas have no dots. The
@@ -26,8 +25,8 @@ impl Reader<'_, '_, '_> {
         let mut plain = formula.to_owned();
         let mut dotted = Vec::new();
         let mut taken = 0;
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
         for (at, _) in formula.match_indices('.') {
-            let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
             if at < taken {
                 continue;
             }
@@ -45,62 +44,21 @@ impl Reader<'_, '_, '_> {
                 self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
                 continue;
             }
-            // The name of a copy ends with its indices, such as `ball[0]` or `brick[3,1]`.
-            let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
-            let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
-            let rest = &formula[at + 1..];
-            let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
-            let (body, measure) = (&formula[begin..at], &formula[at + 1..end]);
-            let letter = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-            if !letter(body) || !letter(measure) {
+            if let Some((name, rest)) = self.force_name(&formula[..at], &formula[at + 1..]) {
+                let begin = at - "force".len();
+                let behind = at + 1 + name.len() + 1;
+                let (measure, end) = self.of_force(name, start + at + 1, rest)?;
+                taken = behind + end;
+                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
+                plain.replace_range(begin..taken, &joined);
+                self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
                 continue;
             }
-            let Some(number) = self.context.names.bodies.get(body).copied() else {
-                let names = self.bodies.iter().map(|body| &*body.name);
-                let label = crate::diagnostic::nearest(body, names.take(1000));
-                let label = label.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-                let label = match self.context.groups.ends(Collection::Body, body) {
-                    Some([first, last]) => format!("its copies are `{first}` to `{last}`"),
-                    None => label,
-                };
-                let message = format!("there is no body `{body}`");
-                self.report(Diagnostic::error(Code::UnknownName, message), start + begin..start + at, &label);
-                return None;
-            };
-            let Some((_, known, _)) = BodyMeasure::ALL.into_iter().find(|(name, ..)| *name == measure) else {
-                let names = BodyMeasure::ALL.map(|(name, ..)| name);
-                let message = format!("a body has no `{measure}` that a {} could show", self.noun);
-                let rest = formula[end..].strip_prefix('.');
-                let axis = rest.map(|rest| &rest[..rest.find(|c| !is_part(c)).unwrap_or(rest.len())]);
-                let other = words::of_body(measure, axis);
-                let end = match (&other, axis) {
-                    (Some(_), Some(axis @ ("x" | "y" | "z"))) => end + 1 + axis.len(),
-                    _ => end,
-                };
-                let here = self.at(&(start + at + 1..start + end));
-                let error = Diagnostic::error(Code::UnknownName, message);
-                let known = format!("there are {}", crate::scene::grammar::quoted(&names));
-                let near = || crate::diagnostic::nearest(measure, names).map(str::to_owned);
-                self.context.diagnostics.push(match other.or_else(near) {
-                    Some(near) => {
-                        let error = error.at(here, format!("did you mean `{near}`?")).help(known);
-                        self.corrected(error, here, &near, end - at - 1)
-                    }
-                    None => error.at(here, "").help(known),
-                });
-                return None;
-            };
-            let mut measure = Measure::Body(number, known);
-            let mut end = end;
-            if known == BodyMeasure::Impacts {
-                self.needs_contacts(start + begin..start + end)?;
-                if let Some(other) = formula[end..].strip_prefix('.').and_then(body_name) {
-                    let begin_of_other = end + 1;
-                    end = begin_of_other + other.len();
-                    measure = self.of_pair(number, other, start + begin_of_other)?;
-                    taken = end;
-                }
-            }
+            let Some(Dotted { body, word }) = dotted_at(formula, at) else { continue };
+            let (begin, end) = (body.start, word.end);
+            let subject = self.subject(&formula[body.clone()], start + body.start)?;
+            let (measure, end) = self.of_body(subject, formula, start, (begin, at + 1..end))?;
+            taken = end;
             let joined = formula[begin..end].replace(|c| !is_part(c), &joint);
             plain.replace_range(begin..end, &joined);
             self.note(&mut dotted, joined, measure, &formula[begin..end], start + begin)?;
@@ -128,48 +86,16 @@ impl Reader<'_, '_, '_> {
         Some(())
     }
 
-    /// Reports the use of `impacts` in a scene without contacts, in which no impacts are detected.
-    pub(super) fn needs_contacts(&mut self, range: Range<usize>) -> Option<()> {
-        if self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS) {
-            return Some(());
-        }
-        let error = Diagnostic::error(Code::NoContacts, "`impacts` needs `simulation.contacts`")
-            .help("write `contacts = \"event-driven\"` in [simulation]");
-        self.report(error, range, "without it, bodies pass through each other");
-        None
-    }
-
-    /// Returns the measure that counts the impacts of two bodies. The name `other` begins at the byte `begin` of the label. The name
-    /// `ground` means the ground, unless a body has this name.
-    fn of_pair(&mut self, body: usize, other: &str, begin: usize) -> Option<Measure> {
-        let named = self.context.names.bodies.get(other).copied();
-        let Some(other) = named.or_else(|| (other == "ground").then_some(self.bodies.len())) else {
-            let names = self.bodies.iter().map(|body| &*body.name);
-            let near = crate::diagnostic::nearest(other, names.take(1000));
-            let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            let error = Diagnostic::error(Code::UnknownName, format!("there is no body `{other}`"));
-            self.report(error, begin..begin + other.len(), &label);
-            return None;
-        };
-        let pair = [body.min(other), body.max(other)];
-        let pairs = &mut self.context.pairs;
-        let known = pairs.iter().position(|known| *known == pair);
-        Some(Measure::Impacts(known.unwrap_or_else(|| {
-            pairs.push(pair);
-            pairs.len() - 1
-        })))
-    }
-
     /// Returns a measure of the joint `name`, which begins at the byte `begin` of the label. `None` if the joint or the measure is
     /// unknown; then an error is reported.
     fn of_joint(&mut self, name: &str, begin: usize, measure: &str) -> Option<Measure> {
-        let found = self.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
+        let found = self.things.joints.iter().enumerate().find(|(_, joint)| joint.name == name);
         let Some((number, joint)) = found else {
             if self.context.names.joints.contains_key(name) {
                 // The joint has an error, which has been reported.
                 return None;
             }
-            let names = self.joints.iter().map(|joint| joint.name.as_str());
+            let names = self.things.joints.iter().map(|joint| joint.name.as_str());
             let near = crate::diagnostic::nearest(name, names.take(1000));
             let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
             let error = Diagnostic::error(Code::UnknownName, format!("there is no joint `{name}`"));
@@ -221,7 +147,7 @@ impl Reader<'_, '_, '_> {
 
 /// Returns the name of a joint at the beginning of a text such as `knee.force` or `string[3].force`. `None` if no measure follows the
 /// name.
-fn joint_name(text: &str) -> Option<&str> {
+pub(super) fn joint_name(text: &str) -> Option<&str> {
     let letters = text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_')?;
     let indices = match text[letters..].strip_prefix('[') {
         Some(rest) => rest.find(']')? + 2,
@@ -233,8 +159,27 @@ fn joint_name(text: &str) -> Option<&str> {
     is_name.then_some(name)
 }
 
+/// The byte ranges of the two parts of a name such as `ball.speed` or `brick[3,1].x`.
+pub(super) struct Dotted {
+    pub(super) body: Range<usize>,
+    pub(super) word: Range<usize>,
+}
+
+/// Returns the parts of the name whose dot is at the byte `at` of a formula. `None` for other dots, such as that of a number.
+pub(super) fn dotted_at(formula: &str, at: usize) -> Option<Dotted> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    // The name of a copy ends with its indices, such as `ball[0]` or `brick[3,1]`.
+    let indices = formula[..at].ends_with(']').then(|| formula[..at].rfind('[')).flatten();
+    let begin = formula[..indices.unwrap_or(at)].trim_end_matches(is_part).len();
+    let rest = &formula[at + 1..];
+    let end = at + 1 + rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+    let letter = |word: &str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let is_name = letter(&formula[begin..at]) && letter(&formula[at + 1..end]);
+    is_name.then_some(Dotted { body: begin..at, word: at + 1..end })
+}
+
 /// Returns the name of a body at the beginning of a text, with the indices of a copy.
-fn body_name(text: &str) -> Option<&str> {
+pub(super) fn body_name(text: &str) -> Option<&str> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
     let indices = match text[end..].strip_prefix('[') {

@@ -60,3 +60,15 @@ pub(super) fn of_joint(word: &str) -> Option<&'static str> {
         _ => return None,
     })
 }
+
+/// Returns the measure of a force that corresponds to a word from another program.
+pub(super) fn of_force(word: &str) -> Option<&'static str> {
+    Some(match word.to_lowercase().as_str() {
+        "fx" | "force_x" => "x",
+        "fy" | "force_y" => "y",
+        "fz" | "force_z" => "z",
+        "force" | "f" | "magnitude" | "length" | "norm" | "abs" => "size",
+        "work" | "p" => "power",
+        _ => return None,
+    })
+}

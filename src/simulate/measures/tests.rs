@@ -1,0 +1,190 @@
+//! Tests measures against closed forms.
+
+use super::*;
+
+/// Two bodies, of 2 kg and 3 kg. Momenta and angular momenta are sums of m v and of x × m v; the power of gravity on the first is
+/// F·v = 2 · (−10) · 4 W.
+#[test]
+fn momenta_and_power_are_those_of_mechanics() {
+    let text = "simulation = { duration = 1, gravity = [0, -10, 0] }
+        [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
+        [body.b]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [0, 2, 0]\nvelocity = [-1, 0, 5]
+        [plot.all]\ny = ['px', 'py', 'pz', 'lx', 'ly', 'lz', 'a.px', 'b.pz']
+        [plot.power]\ny = 'a.power'\n";
+    let scene = Scene::parse(text).unwrap();
+    let (measures, frame) =
+        (Measures::new(&scene), crate::simulate::Frames::new(&scene).next().unwrap().unwrap());
+    let values = |plot: usize| -> Vec<f64> {
+        let curves = scene.plots[plot].curves.iter();
+        curves.map(|curve| measures.value(&curve.y, &MomentState::now(&frame))).collect()
+    };
+    // x × m v: (1, 0, 0) × (6, 8, 0) = (0, 0, 8), and (0, 2, 0) × (−3, 0, 15) = (30, 0, 6).
+    let expected = [3.0, 8.0, 15.0, 30.0, 0.0, 14.0, 6.0, 15.0];
+    for (value, expected) in values(0).iter().zip(expected) {
+        assert!((value - expected).abs() < 1e-12, "{:?}", values(0));
+    }
+    assert!((values(1)[0] + 80.0).abs() < 1e-12, "{:?}", values(1));
+}
+
+/// Returns the values of the curves of the first plot in each frame of a scene, with the frames.
+fn curves(text: &str) -> Vec<(Frame, Vec<f64>)> {
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    let measures = Measures::new(&scene);
+    let frames = crate::simulate::Frames::new(&scene).map(Result::unwrap);
+    let values = |frame: Frame| {
+        let moment = MomentState::now(&frame);
+        let curves = scene.plots[0].curves.iter();
+        let values = curves.map(|curve| measures.value(&curve.y, &moment)).collect();
+        (frame, values)
+    };
+    frames.map(values).collect()
+}
+
+fn assert_near(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+    }
+}
+
+/// Drag with a wind: F = −(c₁ + c₂ |u|) u, where u is the velocity in the air. A spring at a fixed body: F = −k (ℓ − ℓ₀) along its line.
+/// A formula of location and time. Each in every frame, beside gravity, and while other bodies come and go.
+#[test]
+fn the_force_of_each_name_is_that_of_its_law() {
+    let text = "simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.guest]\nshape.sphere.radius = 0.1\nlocation = [0, 9, 0]\nstart = 0.3\nend = 0.6
+        [body.ball]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 2, 3]\nvelocity = [3, 4, 0]
+        [body.wall]\nshape.sphere.radius = 0.1\nlocation = [-1, 0, 0]\nfixed = true
+        [force.air.drag]\nlinear = 0.5\nquadratic = 0.2\nwind = [1, 0, -1]
+        [force.rope.spring]\nbetween = ['ball', 'wall']\nstiffness = 7\nrest_length = 0.5
+        [force.law.formula]\non = ['ball']\nforce = ['-x*t', '2*vy', 0]
+        [plot.p]\ny = ['force.air.ball.x', 'force.air.ball.size', 'force.air.ball.power', 'force.rope.x', 'force.rope.y',
+            'force.law.x', 'force.law.y', 'force.air.guest.y']\n";
+    let mut seen = [false; 2];
+    for (frame, values) in curves(text) {
+        let ball = frame.body(1).unwrap();
+        let relative = ball.velocity - DVec3::new(1.0, 0.0, -1.0);
+        let drag = -(0.5 + 0.2 * relative.length()) * relative;
+        let span = ball.location - DVec3::NEG_X;
+        let pull = -7.0 * (span.length() - 0.5) * span.normalize();
+        let law = [-ball.location.x * frame.time, 2.0 * ball.velocity.y];
+        assert_near(
+            &values[..7],
+            &[drag.x, drag.length(), drag.dot(ball.velocity), pull.x, pull.y, law[0], law[1]],
+        );
+        let guest = frame.body(0);
+        seen[usize::from(guest.is_some())] = true;
+        assert_eq!(values[7].is_nan(), guest.is_none(), "{}", frame.time);
+    }
+    assert_eq!(seen, [true; 2]);
+}
+
+/// The force of a pair on its two bodies is opposite, and its total power is that at which the kinetic energy changes, dK/dt. The power of
+/// a torque counts as well: 2 N·m at ω = t · 2 N·m / I.
+#[test]
+fn the_power_of_a_force_is_that_on_all_its_bodies() {
+    let text = "simulation = { duration = 0.5, frame_rate = 1000, integrator = 'rk4' }
+        [body.a]\nshape.sphere.radius = 0.1\nmass = 2
+        [body.b]\nshape.sphere.radius = 0.1\nmass = 3\nlocation = [2, 0, 0]\nvelocity = [0, 1, 0]
+        [force.g.gravitation]\nconstant = 5
+        [plot.p]\ny = ['force.g.power', 'force.g.a.x', 'force.g.b.x', 'force.g.a.power + force.g.b.power', 'kinetic']\n";
+    let frames = curves(text);
+    for around in frames.windows(3) {
+        let [before, now, after] = around else { unreachable!() };
+        let rate = (after.1[4] - before.1[4]) / (after.0.time - before.0.time);
+        assert!((now.1[0] - rate).abs() < 1e-4 * rate.abs().max(1.0), "{} {rate}", now.1[0]);
+        assert_near(&[now.1[1], now.1[3]], &[-now.1[2], now.1[0]]);
+    }
+    assert_near(&[frames[0].1[1]], &[5.0 * 2.0 * 3.0 / 4.0]);
+    let text = "simulation = { duration = 1, integrator = 'rk4' }
+        [body.top]\nshape.sphere.radius = 0.5\nmass = 10
+        [force.turn.constant]\ntorque = [0, 2, 0]
+        [plot.p]\ny = 'force.turn.power'\n";
+    for (frame, values) in curves(text) {
+        assert!((values[0] - 2.0 * 2.0 * frame.time).abs() < 1e-9, "{values:?}");
+    }
+}
+
+#[test]
+fn a_distance_is_that_of_the_centers() {
+    let text = "simulation = { duration = 1 }
+        [body.a]\nshape.sphere.radius = 0.1\nvelocity = [3, 4, 0]
+        [body.wall]\nshape.sphere.radius = 0.1\nlocation = [0, 0, 12]\nfixed = true
+        [body.guest]\nshape.sphere.radius = 0.1\nlocation = [0, 9, 0]\nstart = 0.5
+        [plot.p]\ny = ['a.distance.wall', 'wall.distance.a', 'a.distance.guest']\n";
+    let frames = curves(text);
+    for (frame, values) in &frames {
+        let expected = (25.0 * frame.time * frame.time + 144.0).sqrt();
+        assert_near(&values[..2], &[expected; 2]);
+        assert_eq!(values[2].is_nan(), frame.body(2).is_none());
+    }
+}
+
+/// A body on a given circle: ½ m (r ω)² + ½ I ω² with m = 2 kg, r = 3 m, ω = 2 rad/s, and I = 0.4 m 0.1² of a ball that turns at 1 rad/s. A
+/// free body beside it has its own 9 J.
+#[test]
+fn the_kinetic_energy_of_the_scene_counts_bodies_with_a_given_motion() {
+    let text = "simulation.duration = 1
+        [body.a]\nshape.sphere.radius = 0.1\nmass = 2
+        motion.formula.location = ['3*cos(2*t)', '3*sin(2*t)', 0]\nmotion.formula.orientation = [0, 'deg(t)', 0]
+        [body.b]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [9, 0, 0]\nvelocity = [0, 0, 3]\n";
+    let scene = Scene::parse(text).unwrap();
+    for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
+        let all: f64 = [0, 1]
+            .map(|body| of_body(&scene.bodies[body], &frame.bodies[body], BodyMeasure::Kinetic))
+            .iter()
+            .sum();
+        let found = frame.balance.kinetic_of_all();
+        assert!((found - (36.0 + 0.5 * 0.4 * 2.0 * 0.01 + 9.0)).abs() < 1e-9, "{found}");
+        assert!((found - all).abs() < 1e-9 && (frame.balance.total_of_all() - all).abs() < 1e-9);
+        assert_eq!(frame.balance.error, 0.0);
+    }
+}
+
+/// The kinetic energy of the only moving body equals that of the whole run, even for a tumbling compound.
+#[test]
+fn the_kinetic_energy_of_a_body_is_that_of_translation_and_rotation() {
+    let scene = Scene::parse(
+        "
+        simulation = { duration = 1, integrator = 'rk4' }
+        [body.hammer]
+        mass = 3
+        velocity = [1, 2, 0]
+        angular_velocity = [1, 2, 3]
+        shape.compound.parts = [
+            { box.size = [3, 1, 2] },
+            { sphere.radius = 0.5, location = [1, 2, 0] },
+        ]
+        ",
+    )
+    .unwrap();
+    for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
+        let kinetic = of_body(&scene.bodies[0], &frame.bodies[0], BodyMeasure::Kinetic);
+        assert!((kinetic / frame.balance.kinetic - 1.0).abs() < 1e-9, "{kinetic} {}", frame.balance.kinetic);
+    }
+}
+
+/// The work of the forces on a body is its kinetic energy. So its power equals the rate of its kinetic energy, here for a ball that does not
+/// turn, on a spring with damping and in the wind. The rate follows from the neighboring frames with an error of (Δt)²/6 times the third
+/// derivative.
+#[test]
+fn the_power_of_a_body_is_the_rate_of_its_kinetic_energy() {
+    let text = "simulation = { duration = 2, frame_rate = 1000, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 0]
+        [force.s.spring]\nbetween = ['a', [0, 0, 0]]\nstiffness = 30\ndamping = 2
+        [force.d.drag]\nlinear = 0.4\nwind = [0, 0, 3]
+        [plot.p]\ny = ['a.power', 'a.kinetic']\n";
+    let scene = Scene::parse(text).unwrap();
+    let measures = Measures::new(&scene);
+    let values = |frame: Frame| -> [f64; 2] {
+        [0, 1].map(|curve| measures.value(&scene.plots[0].curves[curve].y, &MomentState::now(&frame)))
+    };
+    let values: Vec<[f64; 2]> =
+        crate::simulate::Frames::new(&scene).map(|frame| values(frame.unwrap())).collect();
+    let largest = values.iter().map(|[power, _]| power.abs()).fold(0.0, f64::max);
+    assert!(largest > 50.0, "{largest} W");
+    for near in values.windows(3) {
+        let rate = (near[2][1] - near[0][1]) / 0.002;
+        assert!((near[1][0] - rate).abs() < 1e-4 * largest, "{} W, and {rate} J/s", near[1][0]);
+    }
+}
