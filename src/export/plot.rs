@@ -5,6 +5,7 @@ use std::io::Write;
 
 use super::ExportError;
 use super::format::{Contents, DRAWING, FileKind, Format};
+use crate::lettering::{self, Level};
 use crate::picture::{PlannedPlot, plot_alone};
 use crate::report::plot::escaped;
 use crate::scene::Color;
@@ -74,13 +75,34 @@ fn svg(plot: &PlannedPlot) -> String {
             1.0 => "end",
             _ => "middle",
         };
-        let (size, color, words) = (text.height * scale, hex(text.color), escaped(&text.says));
+        let (size, color, words) = (text.height * scale, hex(text.color), words(&text.says, text.height * scale));
         let _ = writeln!(
             out,
             "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size:.2}\" text-anchor=\"{anchor}\" fill=\"{color}\">{words}</text>"
         );
     }
     out.push_str("</svg>\n");
+    out
+}
+
+/// Returns the words of a text as the contents of an SVG element, with smaller letters for subscripts and superscripts.
+fn words(text: &str, size: f64) -> String {
+    let mut out = String::new();
+    let mut risen = 0.0;
+    for run in lettering::runs(text) {
+        let (letters, rise) = (escaped(run.letters), run.level.rise() * size);
+        let down = risen - rise;
+        risen = rise;
+        // Writing to a string cannot fail.
+        let _ = match (run.level, down == 0.0) {
+            (Level::Line, true) => write!(out, "{letters}"),
+            (Level::Line, false) => write!(out, "<tspan dy=\"{down:.2}\">{letters}</tspan>"),
+            (level, _) => {
+                let small = level.size() * size;
+                write!(out, "<tspan dy=\"{down:.2}\" font-size=\"{small:.2}\">{letters}</tspan>")
+            }
+        };
+    }
     out
 }
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::framing::Free;
 use super::occupancy::Rectangle;
-use crate::font;
+use crate::lettering;
 use crate::scene::{Color, Corner, Output};
 
 /// The distance of texts from the edges of the picture, which has a width of 2.
@@ -19,7 +19,7 @@ const BELOW: f64 = 0.25;
 pub struct Text<'a> {
     /// The source of the text: the name of a label, `grid`, or `scale bar`.
     pub name: &'a str,
-    /// The words of the text.
+    /// The words of the text, with the marks of [`lettering`] around subscripts and superscripts.
     pub says: Cow<'a, str>,
     /// The horizontal position of the text's reference point, which `align` selects.
     pub x: f64,
@@ -86,7 +86,7 @@ pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
 
 /// Returns the width of a text for a line height.
 pub(super) fn width(says: &str, height: f64) -> f64 {
-    height * font::width(says)
+    height * lettering::width(says)
 }
 
 /// The horizontal position of a text in a corner, and its alignment.

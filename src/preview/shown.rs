@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::run::PreviewRun;
+use crate::lettering;
 use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Vertical};
 use crate::scene::{LabelPlace, Scene, Side};
 use crate::simulate::Frame;
@@ -97,7 +98,8 @@ enum LinkShape {
 #[derive(Serialize)]
 struct Text {
     name: String,
-    says: String,
+    /// The letters of the text, in parts: their size and their height above the line, both relative to the size of the text.
+    says: Vec<(String, f64, f64)>,
     /// The position of the text in the image plane: x goes from −1 to 1, and y has the same scale, with 0 in the middle.
     x: f64,
     y: f64,
@@ -253,7 +255,9 @@ fn aspect(scene: &Scene) -> f64 {
 fn text(scene: &Scene, text: &picture::Text<'_>) -> Text {
     Text {
         name: text.name.to_owned(),
-        says: text.says.to_string(),
+        says: lettering::runs(&text.says)
+            .map(|run| (run.letters.to_owned(), run.level.size(), run.level.rise()))
+            .collect(),
         x: text.x,
         y: text.y.above_middle(aspect(scene)),
         height: text.height,

@@ -7,13 +7,14 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 24] = [
+const STAGES: [&str; 25] = [
     "physics",
     "threads",
     "system",
     "diagnostic",
     "explain",
     "font",
+    "lettering",
     "scene",
     "surface",
     "starter",

@@ -2,6 +2,8 @@
 
 use super::super::{sdl::Style, text};
 use super::color;
+use crate::font;
+use crate::lettering;
 use crate::picture::{Bar, Screen, Text, Vertical, number};
 
 /// Returns the SDL transform from coordinates in the image plane to world coordinates.
@@ -28,12 +30,12 @@ pub(super) fn write(out: &mut String, text: &Text<'_>, style: Style) {
         number::write(&mut out, inset, 4);
         out
     };
-    label(out, ("Label", text), &height(text.y, digits), style);
+    label(out, ("Label", text), |rise| height(text.y.raised(rise), digits), style);
 }
 
 /// Appends a text on the panel of a plot.
 pub(super) fn write_on_panel(out: &mut String, text: &Text<'_>, style: Style) {
-    label(out, ("Word", text), &height(text.y, short), style);
+    label(out, ("Word", text), |rise| height(text.y.raised(rise), short), style);
 }
 
 /// Appends the scale bar and its number.
@@ -42,16 +44,60 @@ pub(super) fn write_bar(out: &mut String, bar: &Bar, number: &Text<'_>, style: S
     let (from, to, thickness) = (short(bar.from), short(bar.to), length(bar.thickness));
     let ink = color(bar.color, style);
     out.push_str(&format!("Bar(<{from}, {y}, 0>, {to}, {thickness}, {ink}) // scale bar\n"));
-    label(out, ("Label", number), &format!("{y} + {}", length(bar.above)), style);
+    label(out, ("Label", number), |rise| format!("{y} + {}", length(bar.above + rise)), style);
 }
 
-fn label(out: &mut String, (of, text): (&str, &Text<'_>), y: &str, style: Style) {
-    // POV-Ray refuses an empty text, so a dash replaces it.
-    let said = if text.says.trim().is_empty() { "-" } else { &text.says };
-    let said = text::string(said);
-    let (x, height, align) = (short(text.x), length(text.height), short(text.align));
+/// Appends a text. `y` gives the vertical position of letters at a distance above the base line.
+fn label(out: &mut String, (of, text): (&str, &Text<'_>), y: impl Fn(f64) -> String, style: Style) {
     let (ink, name) = (color(text.color, style), text::comment(text.name));
-    out.push_str(&format!("{of}(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
+    for part in parts(text) {
+        // POV-Ray refuses an empty text, so a dash replaces it.
+        let said = if part.letters.trim().is_empty() { "-" } else { part.letters };
+        let said = text::string(said);
+        let (x, y, height, align) =
+            (short(part.x), y(part.rise), length(part.height), short(part.align));
+        out.push_str(&format!("{of}(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
+    }
+}
+
+/// A part of a text with letters of one size, in units of the image plane.
+struct Part<'a> {
+    letters: &'a str,
+    x: f64,
+    /// The distance of the part's base line above that of the text.
+    rise: f64,
+    height: f64,
+    align: f64,
+}
+
+/// Divides a text into parts with letters of one size.
+fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
+    let runs: Vec<lettering::Run<'a>> = lettering::runs(&text.says).collect();
+    let part = |letters, x, (rise, size): (f64, f64), align| Part {
+        letters,
+        x,
+        rise: rise * text.height,
+        height: size * text.height,
+        align,
+    };
+    let [_, _, ..] = runs.as_slice() else {
+        let letters = runs.first().map_or("", |run| run.letters);
+        return vec![part(letters, text.x, (0.0, 1.0), text.align)];
+    };
+    // POV-Ray places a text by its ink, as does the scene's `align`. So the ink of each part is placed.
+    let (mut at, mut inks) = (0.0, Vec::new());
+    for run in runs {
+        let size = run.level.size();
+        // Spaces alone have no ink.
+        inks.extend(font::ink(run.letters).map(|ink| (run, ink.map(|x| at + size * x))));
+        at += size * font::width(run.letters);
+    }
+    let ends = inks.first().zip(inks.last()).map_or([0.0; 2], |((_, [begin, _]), (_, [_, end]))| [*begin, *end]);
+    let begin = text.x - text.height * (ends[0] + text.align * (ends[1] - ends[0]));
+    let placed = |(run, [left, _]): (lettering::Run<'a>, [f64; 2])| {
+        part(run.letters, begin + text.height * left, (run.level.rise(), run.level.size()), 0.0)
+    };
+    inks.into_iter().map(placed).collect()
 }
 
 /// Returns a vertical position in the image plane as an SDL expression. It is an expression because the upper and lower edge of the image

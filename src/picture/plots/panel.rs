@@ -4,6 +4,7 @@ use super::super::occupancy::Rectangle;
 use super::super::text::{MARGIN, Text, Vertical, across_free, is_top, width};
 use super::axis::{Axis, Range, Tick};
 use super::{Axes, PlotLine, Surroundings};
+use crate::lettering::closed;
 use crate::scene::{Color, Plot, PlotPlace};
 
 /// The distance between two plots.
@@ -235,10 +236,11 @@ fn cut(words: &str, room: f64, line: f64) -> String {
         return words.to_owned();
     }
     let mut cut: String = words.to_owned();
-    while !cut.is_empty() && width(&format!("{cut}…"), line) > room {
+    let with_ellipsis = |cut: &str| format!("{}…", closed(cut.trim_end().to_owned()));
+    while !cut.is_empty() && width(&with_ellipsis(&cut), line) > room {
         cut.pop();
     }
-    format!("{}…", cut.trim_end())
+    with_ellipsis(&cut)
 }
 
 #[cfg(test)]

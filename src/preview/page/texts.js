@@ -40,8 +40,8 @@ export class Texts {
 
   span(text, x, y, height) {
     const span = document.createElement("span");
-    span.textContent = text.says;
     const size = Math.max(9, height);
+    span.append(...text.says.map(([letters, part, rise]) => small(letters, part, rise, size)));
     const halo = text.color[0] + text.color[1] + text.color[2] > 1.5 ? "#111" : "#fff";
     span.style.fontSize = `${size}px`;
     span.style.color = css(text.color);
@@ -58,7 +58,7 @@ export class Texts {
       const size = (0.25 * arm * view.focal) / space.size / spot.w;
       if (!(spot.w > 0) || size < 7) return [];
       const [x, y] = [((spot.x + 1) / 2) * view.width, ((1 - spot.y) / 2) * view.height];
-      const span = this.span({ says: "xyz"[axis], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
+      const span = this.span({ says: [["xyz"[axis], 1, 0]], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
       span.className = "axis";
       span.style.textShadow = "none";
       return [span];
@@ -74,6 +74,16 @@ export class Texts {
     span.style.transform = `translate(${x}px, ${y}px)`;
     return span;
   }
+}
+
+/** Returns letters of a text: a text node, or an element with smaller letters that stand `rise` times `size` above the line. */
+function small(letters, part, rise, size) {
+  if (part === 1) return letters;
+  const element = document.createElement("small");
+  element.textContent = letters;
+  element.style.fontSize = `${part * size}px`;
+  element.style.bottom = `${rise * size}px`;
+  return element;
 }
 
 /** Returns the position of a label beside its body, for a camera other than the scene's. */

@@ -8,6 +8,7 @@ use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::font;
+use crate::lettering::{self, BadScript};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
@@ -126,6 +127,9 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
         let rest = &words[begin..];
         at = begin + 1;
         let (length, message, meant) = if rest.starts_with('{') {
+            if lettering::is_script(words, begin) {
+                continue;
+            }
             let Some(length) = rest.find('}').map(|end| end + 1) else { continue };
             (length, "text in braces is shown unchanged", format!("${}", &rest[..length]))
         } else if let Some(name) = rest.strip_prefix('$') {
@@ -171,7 +175,26 @@ impl Reader<'_, '_, '_> {
                 warning
             });
         }
-        (!words.is_empty()).then(|| Piece::Words(words.to_owned()))
+        let set = self.set(range)?;
+        (!set.is_empty()).then_some(Piece::Words(set))
+    }
+
+    /// Sets the subscripts and superscripts in a byte range of the text. Reports those without an end.
+    pub(super) fn set(&mut self, range: Range<usize>) -> Option<String> {
+        let wrong = match lettering::set(&self.text[range.clone()], range.start > 0) {
+            Ok(set) => return Some(set),
+            Err(wrong) => wrong,
+        };
+        for BadScript { range: inner, is_open } in wrong {
+            let sign = &self.text[range.start + inner.start..][..1];
+            let (message, label) = match is_open {
+                true => ("this script has no end", format!("needs a `}}`; `\\{sign}` is the sign itself")),
+                false => ("this script is empty", "needs letters in the braces".to_owned()),
+            };
+            let error = Diagnostic::error(Code::LabelSyntax, message);
+            self.report(error, range.start + inner.start..range.start + inner.end, &label);
+        }
+        None
     }
 
     /// Notes the letters of a byte range that the font does not have, for [`report_missing`](Self::report_missing).
