@@ -70,9 +70,23 @@ pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
     })
 }
 
-/// Returns the width of a set text on one line, relative to the size of the font.
+/// Returns the width of a set text, relative to the size of the font: that of its longest line.
 pub fn width(text: &str) -> f64 {
-    runs(text).map(|run| run.level.size() * font::width(run.letters)).sum()
+    let line = |line: &str| runs(line).map(|run| run.level.size() * font::width(run.letters)).sum();
+    text.split('\n').map(line).fold(0.0, f64::max)
+}
+
+/// Returns the bytes of the spaces and line breaks in a set text, except of those in subscripts and superscripts.
+pub fn spaces(text: &str) -> impl Iterator<Item = usize> {
+    let mut is_on_line = true;
+    text.char_indices().filter_map(move |(at, letter)| {
+        match letter {
+            LOWER | RAISE => is_on_line = false,
+            END => is_on_line = true,
+            _ => {}
+        }
+        (is_on_line && matches!(letter, ' ' | '\n')).then_some(at)
+    })
 }
 
 /// Returns a part of a set text that was cut at its end, with the mark that then misses.

@@ -63,5 +63,5 @@ pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotLine};
 pub use scope::Part;
 pub use screen::{Screen, ScreenPoint};
 pub use stage::{Scenery, Stage, StageGround};
-pub use text::{Text, Vertical};
+pub use text::{LINE, Text, Vertical};
 pub use trails::{Stretch, Trail};

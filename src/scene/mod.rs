@@ -119,7 +119,7 @@ pub use joint::{Joint, JointKind, JointLook, PrescribedCoordinate};
 pub use label::{Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
 pub use library::{LibraryMaterial, MATERIALS, Pattern, PlainLook};
 pub use look::{
-    Blur, Camera, CameraMotion, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
+    Blur, Camera, CameraMotion, DecimalSign, Environment, Finish, Follow, Ground, Include, Layout, Light, LightKind, Look,
     Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
 pub use measure::{BodyMeasure, JointMeasure, JointState, Measure, MeasureFormula, RunMeasure};

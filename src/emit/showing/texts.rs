@@ -4,7 +4,7 @@ use super::super::{sdl::Style, text};
 use super::color;
 use crate::font;
 use crate::lettering;
-use crate::picture::{Bar, Screen, Text, Vertical, number};
+use crate::picture::{Bar, LINE, Screen, Text, Vertical, number};
 
 /// Returns the SDL transform from coordinates in the image plane to world coordinates.
 pub(super) fn transform(screen: &Screen, style: Style) -> String {
@@ -70,9 +70,26 @@ struct Part<'a> {
     align: f64,
 }
 
-/// Divides a text into parts with letters of one size.
+/// Divides a text into parts with letters of one size, each on one line. An empty line has no parts, if there are others.
 fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
-    let runs: Vec<lettering::Run<'a>> = lettering::runs(&text.says).collect();
+    if text.says.trim().is_empty() {
+        return parts_of_line(text, "");
+    }
+    let mut parts = Vec::new();
+    let mut below = 0.0;
+    for line in text.says.split('\n') {
+        if !line.trim().is_empty() {
+            let moved = parts_of_line(text, line).into_iter();
+            parts.extend(moved.map(|part| Part { rise: part.rise - below, ..part }));
+        }
+        below += LINE * text.height;
+    }
+    parts
+}
+
+/// Divides a line of a text into parts with letters of one size.
+fn parts_of_line<'a>(text: &Text<'_>, line: &'a str) -> Vec<Part<'a>> {
+    let runs: Vec<lettering::Run<'a>> = lettering::runs(line).collect();
     let part = |letters, x, (rise, size): (f64, f64), align| Part {
         letters,
         x,
@@ -88,9 +105,12 @@ fn parts<'a>(text: &'a Text<'_>) -> Vec<Part<'a>> {
     let (mut at, mut inks) = (0.0, Vec::new());
     for run in runs {
         let size = run.level.size();
-        // Spaces alone have no ink.
+        // POV-Ray counts spaces at the ends as ink, so they are left out. Spaces alone are no part.
+        let letters = run.letters.trim_start();
+        at += size * font::width(&run.letters[..run.letters.len() - letters.len()]);
+        let run = lettering::Run { letters: letters.trim_end(), ..run };
         inks.extend(font::ink(run.letters).map(|ink| (run, ink.map(|x| at + size * x))));
-        at += size * font::width(run.letters);
+        at += size * font::width(letters);
     }
     let ends = inks.first().zip(inks.last()).map_or([0.0; 2], |((_, [begin, _]), (_, [_, end]))| [*begin, *end]);
     let begin = text.x - text.height * (ends[0] + text.align * (ends[1] - ends[0]));

@@ -13,7 +13,8 @@ impl Labels {
             match piece {
                 Piece::Words(words) => said.push_str(words),
                 Piece::Value { formula, format } => {
-                    said.push_str(&written(self.measures.value(formula, moment), *format));
+                    let number = written(self.measures.value(formula, moment), *format);
+                    said.push_str(&number::with_sign(number, self.sign));
                 }
             }
         }
@@ -21,15 +22,14 @@ impl Labels {
     }
 }
 
-/// A sample text of the largest expected length, in which numbers have up to four digits before the decimal point.
-pub(super) fn longest(label: &Label) -> String {
-    let piece = |piece: &Piece| match piece {
+/// A sample of a piece of a label with the largest expected length, in which numbers have up to four digits before the decimal point.
+pub(super) fn sample(piece: &Piece) -> String {
+    match piece {
         Piece::Words(words) => words.clone(),
         Piece::Value { format: Format::Short, .. } => "0.0000".to_owned(),
         Piece::Value { format: Format::Decimals(decimals), .. } => "0".repeat(decimals + 3),
         Piece::Value { format: Format::Scientific(decimals), .. } => "0".repeat(decimals + 5),
-    };
-    label.text.iter().map(piece).collect()
+    }
 }
 
 /// Formats a number for a label. Non-finite numbers become `?`.
@@ -43,12 +43,12 @@ fn written(value: f64, format: Format) -> String {
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };
+    let text = number::typeset(&text);
     // A result that is rounded to zero gets no minus sign.
-    let text = match text.strip_prefix('-') {
+    match text.strip_prefix('−') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,
-    };
-    number::typeset(&text)
+    }
 }
 
 fn short_of(value: f64) -> String {
@@ -71,6 +71,9 @@ mod tests {
             (12345.678, Format::Short, "12300"),
             (-0.012345, Format::Short, "−0.0123"),
             (1.5e-9, Format::Scientific(1), "1.5·10⁻⁹"),
+            (3.917, Format::Scientific(2), "3.92"),
+            (9.999, Format::Scientific(2), "1.00·10¹"),
+            (-0.0, Format::Scientific(1), "0.0"),
             (1e300, Format::Decimals(1), "1.0·10³⁰⁰"),
             (f64::NAN, Format::Short, "?"),
         ] {

@@ -53,7 +53,7 @@ impl Plan {
         let ruled = self.ruled(frame).map(|ruled| ruled.written(&screen, &room, &links));
         let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
-        if labels.len() < self.labels.count() {
+        if self.labels.are_beside_bodies(frame.time) {
             let before = labels.len();
             self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
             labels.extend(self.labels.beside_bodies(frame, &screen, &mut room));

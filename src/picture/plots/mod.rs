@@ -17,7 +17,7 @@ use super::labels;
 use super::occupancy::Rectangle;
 use super::text::{MARGIN, Text, Vertical, least_height};
 use crate::scene::{
-    Color, Corner, Label, LabelPlace, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene,
+    Color, Corner, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene,
 };
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
@@ -288,6 +288,7 @@ fn plan(
         names: &names,
         x_name: &plot.x_name,
         units: [x_unit, unit(plot)],
+        sign: scene.output.decimal,
     };
     let is_time = plot.x.single == Some(Measure::Run(RunMeasure::Time));
     let is_count = |formula: &MeasureFormula| formula.single.is_some_and(Measure::is_count);
@@ -347,11 +348,7 @@ fn others(scene: &Scene, place: PlotPlace, aspect: f64) -> f64 {
     }
     let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
     let bar = scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 4.0 * aspect * grid::SIZE);
-    let height = |label: &Label| match label.place {
-        LabelPlace::Corner(corner) if is_here(corner) => labels::least_room(label, scene.output),
-        _ => 0.0,
-    };
-    bar + scene.labels.iter().map(height).sum::<f64>()
+    bar + labels::least_room(scene, is_here)
 }
 
 /// The position in a panel of a point in its plot, which is given from 0 to 1.

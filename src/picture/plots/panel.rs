@@ -1,11 +1,12 @@
 //! Lays out the panel of a plot: where its axes, its numbers and its legend stand.
 
+use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{MARGIN, Text, Vertical, across_free, is_top, width};
 use super::axis::{Axis, Range, Tick};
 use super::{Axes, PlotLine, Surroundings};
 use crate::lettering::closed;
-use crate::scene::{Color, Plot, PlotPlace};
+use crate::scene::{Color, DecimalSign, Plot, PlotPlace};
 
 /// The distance between two plots.
 pub(super) const GAP: f64 = 0.02;
@@ -24,6 +25,8 @@ pub(super) struct Legend<'a> {
     pub(super) x_name: &'a str,
     /// The units of both axes.
     pub(super) units: [&'a str; 2],
+    /// The sign before the decimals of numbers. It has the same width as a point.
+    pub(super) sign: DecimalSign,
 }
 
 /// The layout of a plot.
@@ -193,7 +196,7 @@ impl Panel {
         }
         for tick in axes[1].ticks() {
             let y = bottom + tick.at * (top - bottom) - 0.27 * line;
-            texts.push(text(tick.says, [left - 0.4 * line, y], 1.0, ink));
+            texts.push(text(with_sign(tick.says, legend.sign), [left - 0.4 * line, y], 1.0, ink));
         }
         let base = bottom - 1.05 * line;
         let unit = axes[0].unit(legend.units[0]);
@@ -205,7 +208,7 @@ impl Panel {
         for tick in axes[0].ticks() {
             let x = left + tick.at * (right - left);
             if x + width(&tick.says, line) / 2.0 < begin_of_name {
-                texts.push(text(tick.says, [x, base], 0.5, ink));
+                texts.push(text(with_sign(tick.says, legend.sign), [x, base], 0.5, ink));
             }
         }
         texts.push(text(cut(&name, room, line), [end, base - self.name_row], 1.0, ink));
@@ -257,7 +260,7 @@ mod tests {
     #[test]
     fn names_stand_in_rows_within_the_panel() {
         let names = [("first", Color::WHITE), ("second", Color::WHITE), ("a much longer name", Color::WHITE)];
-        let legend = Legend { title: None, names: &names, x_name: "t", units: ["s", "J"] };
+        let legend = Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
         let (places, rows) = placed(&legend, (1.0, 0.4, 10.0), 1.0);
         assert_eq!(rows, 2.0);
         assert!(places[0] == (1.0, 0.0) && places[1].1 == 0.0 && places[2] == (0.4, 1.0), "{places:?}");

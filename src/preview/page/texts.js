@@ -44,9 +44,11 @@ export class Texts {
     span.append(...text.says.map(([letters, part, rise]) => small(letters, part, rise, size)));
     const halo = text.color[0] + text.color[1] + text.color[2] > 1.5 ? "#111" : "#fff";
     span.style.fontSize = `${size}px`;
+    span.style.lineHeight = text.line ?? 1;
+    span.style.textAlign = ["left", "center", "right"][2 * text.align];
     span.style.color = css(text.color);
     span.style.textShadow = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([a, b]) => `${a}px ${b}px 1px ${halo}`).join(",");
-    span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, -85%)`;
+    span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, ${-(0.35 + (text.line ?? 1) / 2) * size}px)`;
     return span;
   }
 

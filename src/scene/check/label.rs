@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Context;
 use super::measures::Reader;
+use super::read::figure;
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
@@ -14,7 +15,7 @@ use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
 use crate::scene::{
-    Body, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, ScaleBar, Side,
+    Body, Corner, Format, Grid, GridPlane, Joint, Label, LabelPlace, Measure, Piece, ScaleBar, Side, Timeline,
 };
 
 /// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
@@ -24,9 +25,11 @@ pub(super) fn read(
     root: &View<'_>,
     bodies: &[Body],
     joints: &[Joint],
+    timeline: &Timeline,
     context: &mut Context<'_>,
 ) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
+        let visible = visible(name, &view, timeline, context);
         let place = place_of(&view, bodies, context);
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
         let text = text.map(|(text, span)| pieces(text, span, root, place, bodies, joints, context));
@@ -34,11 +37,41 @@ pub(super) fn read(
             name: name.to_owned(),
             text: text.unwrap_or_default(),
             place,
+            visible,
             size: view.get(&label::SIZE),
             color: view.get(&label::COLOR),
         }
     };
     root.named(&scene::LABEL).into_iter().map(read).collect()
+}
+
+/// Reads the times at which a label is visible.
+fn visible(name: &str, view: &View<'_>, timeline: &Timeline, context: &mut Context<'_>) -> [f64; 2] {
+    let (from, until) = (view.get(&label::FROM), view.get(&label::UNTIL));
+    let spans = [(&label::UNTIL.spec, "this must be later"), (&label::FROM.spec, "than this")];
+    if let (Some(from), Some(until)) = (from, until)
+        && until <= from
+    {
+        let message = format!("the label `{name}` appears at {} s and disappears at {} s", figure(from), figure(until));
+        let error = Diagnostic::error(Code::EndBeforeStart, message);
+        let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
+        context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
+        return Label::ALWAYS;
+    }
+    let at = |time: f64| timeline.nearest_frame(time);
+    let visible = [from.map_or(f64::NEG_INFINITY, at), until.map_or(f64::INFINITY, at)];
+    let is_seen = timeline.first_frame_from(visible[0]).is_some_and(|first| timeline.time(first) < visible[1]);
+    if let Some(span) = view.span(&label::FROM).or(view.span(&label::UNTIL)).filter(|_| !is_seen) {
+        let warning = Diagnostic::warning(Code::NeverThere, format!("no frame shows the label `{name}`"));
+        let between = match (from, until) {
+            (Some(_), Some(_)) if visible[1] > 0.0 && visible[0] <= timeline.end() => {
+                format!("the frames are {} s apart", figure(timeline.interval()))
+            }
+            _ => format!("the scene goes from 0 to {} s", figure(timeline.end())),
+        };
+        context.diagnostics.push(warning.at(span, between));
+    }
+    visible
 }
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
@@ -67,7 +100,10 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
             useless(&label::SIDE.spec, "without `body`");
             useless(&label::GHOSTS.spec, "without `body`");
         }
-        return LabelPlace::Corner(corner(view, &label::CORNER));
+        return match view.get(&label::CORNER) {
+            Label::CENTER => LabelPlace::Center,
+            _ => LabelPlace::Corner(corner(view, &label::CORNER)),
+        };
     };
     let ghosts = view.get(&label::GHOSTS);
     if ghosts && bodies[body].showing.ghosts.is_none() {
@@ -161,7 +197,11 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
 impl Reader<'_, '_, '_> {
     fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
-        self.note_letters(range.clone());
+        let mut begin = range.start;
+        for line in words.split('\n') {
+            self.note_letters(begin..begin + line.len());
+            begin += line.len() + 1;
+        }
         for Other { range: inner, message, meant } in values_of_other_languages(words) {
             let here = range.start + inner.start..range.start + inner.end;
             let at = self.at(&here);

@@ -338,7 +338,7 @@ fn build(
     }
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
-    let labels = label::read(&root, &bodies, &joints, context);
+    let labels = label::read(&root, &bodies, &joints, &simulation.timeline, context);
     let plots = plot::read(&root, &bodies, &joints, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     if !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some() {
