@@ -165,7 +165,9 @@ fn script(text: &str, at: usize, after_script: bool) -> Option<Result<(&str, usi
     }
     let before = &text[..at];
     let has_base = match is_raised {
-        true => after_script || before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '°')),
+        true => {
+            after_script || before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '°'))
+        }
         false => after_script && at > 0 || ends_with_single_letter(before),
     };
     let length = if is_raised { raised_length(rest) } else { word_length(rest) };
@@ -279,9 +281,10 @@ mod tests {
 
     #[test]
     fn names_and_signs_alone_stay_as_they_are() {
-        for text in
-            ["my_ball", "a_b_c", "x_", "_0", "x _0", "a ^ b", "^_^", "1_000", "2^", "{t}", "k2v_0", "a\\b", "é_"]
-        {
+        for text in [
+            "my_ball", "a_b_c", "x_", "_0", "x _0", "a ^ b", "^_^", "1_000", "2^", "{t}", "k2v_0", "a\\b",
+            "é_",
+        ] {
             assert_eq!(shown(text), text);
         }
         assert_eq!(shown(r"v\_0 x\^2 v_0"), "v_0 x^2 v₀");

@@ -75,7 +75,8 @@ fn svg(plot: &PlannedPlot) -> String {
             1.0 => "end",
             _ => "middle",
         };
-        let (size, color, words) = (text.height * scale, hex(text.color), words(&text.says, text.height * scale));
+        let (size, color, words) =
+            (text.height * scale, hex(text.color), words(&text.says, text.height * scale));
         let _ = writeln!(
             out,
             "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size:.2}\" text-anchor=\"{anchor}\" fill=\"{color}\">{words}</text>"

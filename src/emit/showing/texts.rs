@@ -54,8 +54,7 @@ fn label(out: &mut String, (of, text): (&str, &Text<'_>), y: impl Fn(f64) -> Str
         // POV-Ray refuses an empty text, so a dash replaces it.
         let said = if part.letters.trim().is_empty() { "-" } else { part.letters };
         let said = text::string(said);
-        let (x, y, height, align) =
-            (short(part.x), y(part.rise), length(part.height), short(part.align));
+        let (x, y, height, align) = (short(part.x), y(part.rise), length(part.height), short(part.align));
         out.push_str(&format!("{of}(\"{said}\", <{x}, {y}, 0>, {height}, {align}, {ink}) // {name}\n"));
     }
 }
@@ -112,7 +111,8 @@ fn parts_of_line<'a>(text: &Text<'_>, line: &'a str) -> Vec<Part<'a>> {
         inks.extend(font::ink(run.letters).map(|ink| (run, ink.map(|x| at + size * x))));
         at += size * font::width(letters);
     }
-    let ends = inks.first().zip(inks.last()).map_or([0.0; 2], |((_, [begin, _]), (_, [_, end]))| [*begin, *end]);
+    let ends =
+        inks.first().zip(inks.last()).map_or([0.0; 2], |((_, [begin, _]), (_, [_, end]))| [*begin, *end]);
     let begin = text.x - text.height * (ends[0] + text.align * (ends[1] - ends[0]));
     let placed = |(run, [left, _]): (lettering::Run<'a>, [f64; 2])| {
         part(run.letters, begin + text.height * left, (run.level.rise(), run.level.size()), 0.0)
@@ -145,4 +145,48 @@ pub(super) fn length(length: f64) -> String {
     let mut out = String::new();
     number::write(&mut out, length, 4);
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Color;
+
+    /// The parts of a text at the middle of the picture, with a height of 1.
+    fn parts_of(says: &str, align: f64) -> Vec<(String, f64, f64, f64)> {
+        let says = says.split('\n').map(|line| lettering::set(line, false).unwrap());
+        let says = says.collect::<Vec<_>>().join("\n").into();
+        let (y, color) = (Vertical::Middle(0.0), Color::WHITE);
+        let text = Text { name: "t", says, x: 0.0, y, height: 1.0, align, color };
+        parts(&text)
+            .into_iter()
+            .map(|part| (part.letters.to_owned(), part.x, part.rise, part.height))
+            .collect()
+    }
+
+    #[test]
+    fn a_subscript_begins_where_the_letter_before_it_ends() {
+        let parts = parts_of("x_{max} = 2", 0.0);
+        let letters: Vec<&str> = parts.iter().map(|(letters, ..)| letters.as_str()).collect();
+        assert_eq!(letters, ["x", "max", "= 2"]);
+        assert_eq!(parts[0], ("x".to_owned(), 0.0, 0.0, 1.0));
+        let (_, x, rise, height) = parts[1];
+        assert!((0.5..0.7).contains(&x) && rise < -0.1 && height == lettering::SMALL, "{parts:?}");
+        // The space before the sign is about a third of the height.
+        let end = x + lettering::SMALL * font::width("max");
+        assert!((0.25..0.45).contains(&(parts[2].1 - end)), "{parts:?}");
+        let left = parts_of("x_{max} = 2", 1.0);
+        let shift = parts[0].1 - left[0].1;
+        let ink_end = parts[2].1 + font::width("= 2");
+        assert!((shift - ink_end).abs() < 0.2, "it ends at its place: {left:?}");
+    }
+
+    #[test]
+    fn lines_stand_below_each_other_and_empty_ones_take_room() {
+        let parts = parts_of("a\n\nx_{max}", 0.5);
+        let rises: Vec<f64> = parts.iter().map(|(_, _, rise, _)| *rise).collect();
+        assert_eq!(parts.len(), 3);
+        assert!(rises[0] == 0.0 && (rises[1] + 2.0 * LINE).abs() < 1e-9 && rises[2] < rises[1], "{parts:?}");
+        assert_eq!(parts_of(" ", 0.0).len(), 1, "a text without letters is drawn as a dash");
+    }
 }

@@ -26,39 +26,60 @@ pub(super) struct Place {
 
 impl Layout {
     /// Lays out the labels that are visible at a time, around what is taken of the picture.
-    pub(super) fn new(labels: &[Planned], from: f64, mut taken: Vec<Taken>, (free, aspect): (Free, f64)) -> Layout {
-        let visible = || {
-            let labels = labels.iter().map(|planned| &planned.block).enumerate();
-            labels.filter(move |(_, block)| block.label.is_visible(from))
-        };
-        let is_in_center = |block: &Block| block.label.place == LabelPlace::Center;
-        let in_center = visible().filter(|(_, block)| is_in_center(block));
-        // The labels in the center are one block around the middle of the picture.
-        let mut top = in_center.map(|(_, block)| block.high()).sum::<f64>() / 2.0;
-        let mut place = |(number, block): (usize, &Block)| {
-            let Block { height, rows, .. } = *block;
-            let place = match block.label.place {
-                LabelPlace::Body { .. } => return None,
-                LabelPlace::Corner(corner) => {
-                    let size = [block.wide, height, block.high()];
-                    let inset = inset_without_overlap(&mut taken, corner, size, (free, 2.0 * aspect));
-                    let (x, align) = across_free(corner, free);
-                    let y = match is_top(corner) {
-                        true => Vertical::Top(inset + 0.3 * height),
-                        false => Vertical::Bottom(inset - 0.3 * height + below(rows, height)),
-                    };
-                    Place { x, y, align }
-                }
-                LabelPlace::Center => {
-                    let y = Vertical::Middle(top - (0.5 * LINE + 0.3) * height);
-                    top -= block.high();
-                    Place { x: free.center, y, align: 0.5 }
-                }
+    pub(super) fn new(
+        labels: &[Planned],
+        from: f64,
+        mut taken: Vec<Taken>,
+        (free, aspect): (Free, f64),
+    ) -> Layout {
+        let labels = labels.iter().map(|planned| &planned.block).enumerate();
+        let visible: Vec<(usize, &Block)> =
+            labels.filter(|(_, block)| block.label.is_visible(from)).collect();
+        let mut places = Vec::new();
+        for (number, block) in &visible {
+            let LabelPlace::Corner(corner) = block.label.place else { continue };
+            let Block { height, rows, .. } = **block;
+            let size = [block.wide, height, block.high()];
+            let inset = inset_without_overlap(&mut taken, corner, size, (free, 2.0 * aspect));
+            let (x, align) = across_free(corner, free);
+            let y = match is_top(corner) {
+                true => Vertical::Top(inset + 0.3 * height),
+                false => Vertical::Bottom(inset - 0.3 * height + below(rows, height)),
             };
-            Some((number, place))
-        };
-        Layout { from, places: visible().filter_map(&mut place).collect() }
+            places.push((*number, Place { x, y, align }));
+        }
+        let in_center = || visible.iter().filter(|(_, block)| block.label.place == LabelPlace::Center);
+        let size = [
+            in_center().map(|(_, block)| block.wide).fold(0.0, f64::max),
+            in_center().map(|(_, block)| block.high()).sum(),
+        ];
+        let mut top = size[1] / 2.0 + middle(&taken, size, (free, aspect));
+        for (number, block) in in_center() {
+            let y = Vertical::Middle(top - (0.5 * LINE + 0.3) * block.height);
+            places.push((*number, Place { x: free.center, y, align: 0.5 }));
+            top -= block.high();
+        }
+        Layout { from, places }
     }
+}
+
+/// The height of the middle of the labels in the center above the middle of the picture: 0, or a little more or less if labels at the
+/// edges would be covered. `size` is the width and the height of the labels in the center.
+fn middle(taken: &[Taken], [wide, high]: [f64; 2], (free, aspect): (Free, f64)) -> f64 {
+    let [mut floor, mut ceiling] = [-aspect, aspect];
+    for Taken { is_top, across, inset } in taken {
+        let is_beside = across[1] < free.center - wide / 2.0 || across[0] > free.center + wide / 2.0;
+        // A panel of a plot is known from both edges, and what crosses the middle has no side.
+        if is_beside || inset[1] > aspect {
+            continue;
+        }
+        match is_top {
+            true => ceiling = ceiling.min(aspect - inset[1]),
+            false => floor = floor.max(inset[1] - aspect),
+        }
+    }
+    let [low, most] = [floor + high / 2.0, ceiling - high / 2.0];
+    if low <= most { 0.0_f64.clamp(low, most) } else { 0.0 }
 }
 
 /// A rectangle that a text takes at the upper or lower edge of the picture.

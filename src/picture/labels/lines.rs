@@ -2,8 +2,8 @@
 
 use super::super::framing::Free;
 use super::super::text::{LINE, MARGIN};
-use super::said::sample;
 use super::height;
+use super::said::sample;
 use crate::lettering;
 use crate::scene::{Label, LabelPlace, Output, Piece};
 
@@ -80,8 +80,8 @@ struct Words {
 impl Words {
     fn of(label: &Label) -> Words {
         let mut lines = vec![vec![0.0]];
-        for piece in &label.text {
-            for (separator, letters) in parts(&sample(piece)) {
+        for (piece, follows) in with_preceding(&label.text) {
+            for (separator, letters) in parts(&sample(piece), follows) {
                 let wide = lettering::width(letters);
                 // There is always a last line with a last word.
                 let Some(line) = lines.last_mut() else { continue };
@@ -128,11 +128,28 @@ impl Words {
     }
 }
 
-/// Splits a set text at its spaces and line breaks. Returns each part with the space or line break before it, if any. A subscript or
-/// superscript is not split.
-fn parts(text: &str) -> Vec<(Option<char>, &str)> {
+/// Returns each piece of a label, with whether a value stands right before it.
+fn with_preceding(pieces: &[Piece]) -> impl Iterator<Item = (&Piece, bool)> {
+    let before =
+        std::iter::once(false).chain(pieces.iter().map(|piece| matches!(piece, Piece::Value { .. })));
+    pieces.iter().zip(before)
+}
+
+/// Returns the bytes of a set text at which it can be split: its line breaks, and its spaces except of those between a number and a unit.
+/// `follows` tells whether a value stands right before the text.
+fn splits(text: &str, follows: bool) -> impl Iterator<Item = usize> {
+    lettering::spaces(text).filter(move |at| {
+        let is_after_number =
+            if *at == 0 { follows } else { text[..*at].ends_with(|c: char| c.is_numeric()) };
+        let is_before_word = text[at + 1..].starts_with(char::is_alphabetic);
+        text[*at..].starts_with('\n') || !(is_after_number && is_before_word)
+    })
+}
+
+/// Splits a set text where it can be. Returns each part with the space or line break before it, if any.
+fn parts(text: &str, follows: bool) -> Vec<(Option<char>, &str)> {
     let (mut parts, mut begin, mut separator) = (Vec::new(), 0, None);
-    for at in lettering::spaces(text) {
+    for at in splits(text, follows) {
         parts.push((separator, &text[begin..at]));
         // Both are one byte long.
         (begin, separator) = (at + 1, text[at..].chars().next());
@@ -148,9 +165,11 @@ fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
     if breaks.is_empty() {
         return broken;
     }
+    let mut follows = false;
     for piece in &mut broken.text {
+        let follows = std::mem::replace(&mut follows, matches!(piece, Piece::Value { .. }));
         let Piece::Words(words) = piece else { continue };
-        let spaces: Vec<usize> = lettering::spaces(words).filter(|at| words[*at..].starts_with(' ')).collect();
+        let spaces: Vec<usize> = splits(words, follows).filter(|at| words[*at..].starts_with(' ')).collect();
         for at in spaces {
             if breaks.contains(&number) {
                 words.replace_range(at..=at, "\n");
@@ -199,9 +218,19 @@ mod tests {
     }
 
     #[test]
+    fn a_number_and_its_unit_stay_in_one_line() {
+        for width in (200..400).step_by(10) {
+            let text = "text = 'It has 18 m/s, and then ${ball.speed:.1} m/s, and at the end 2 m/s'";
+            let said = lines(&block(text, [width, 180]));
+            assert!(said.iter().all(|line| !line.starts_with("m/s")), "{said:?}");
+        }
+    }
+
+    #[test]
     fn a_line_break_of_the_scene_stays() {
         assert_eq!(lines(&block(r#"text = "one\ntwo words""#, [320, 180])), ["one", "two words"]);
-        let both = block("text = \"Head\\nA ball falls from a height of 10 m, and it loses energy\"", [320, 180]);
+        let both =
+            block("text = \"Head\\nA ball falls from a height of 10 m, and it loses energy\"", [320, 180]);
         let said = lines(&both);
         assert!(said.len() == 3 && said[0] == "Head", "{said:?}");
     }

@@ -63,7 +63,8 @@ impl Labels {
 
     /// True if labels stand beside bodies at a time, s.
     pub(super) fn are_beside_bodies(&self, time: f64) -> bool {
-        let is_beside = |label: &Label| matches!(label.place, LabelPlace::Body { .. }) && label.is_visible(time);
+        let is_beside =
+            |label: &Label| matches!(label.place, LabelPlace::Body { .. }) && label.is_visible(time);
         self.labels.iter().any(|planned| is_beside(&planned.block.label))
     }
 

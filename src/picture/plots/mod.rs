@@ -16,9 +16,7 @@ use super::grid;
 use super::labels;
 use super::occupancy::Rectangle;
 use super::text::{MARGIN, Text, Vertical, least_height};
-use crate::scene::{
-    Color, Corner, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene,
-};
+use crate::scene::{Color, Corner, Measure, MeasureFormula, Output, Plot, PlotPlace, RunMeasure, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
 /// The height of a line of text, relative to the height of the picture.

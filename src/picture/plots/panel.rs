@@ -260,7 +260,8 @@ mod tests {
     #[test]
     fn names_stand_in_rows_within_the_panel() {
         let names = [("first", Color::WHITE), ("second", Color::WHITE), ("a much longer name", Color::WHITE)];
-        let legend = Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
+        let legend =
+            Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
         let (places, rows) = placed(&legend, (1.0, 0.4, 10.0), 1.0);
         assert_eq!(rows, 2.0);
         assert!(places[0] == (1.0, 0.0) && places[1].1 == 0.0 && places[2] == (0.4, 1.0), "{places:?}");

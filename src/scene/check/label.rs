@@ -52,15 +52,19 @@ fn visible(name: &str, view: &View<'_>, timeline: &Timeline, context: &mut Conte
     if let (Some(from), Some(until)) = (from, until)
         && until <= from
     {
-        let message = format!("the label `{name}` appears at {} s and disappears at {} s", figure(from), figure(until));
+        let message =
+            format!("the label `{name}` appears at {} s and disappears at {} s", figure(from), figure(until));
         let error = Diagnostic::error(Code::EndBeforeStart, message);
         let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
         context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
         return Label::ALWAYS;
     }
     let at = |time: f64| timeline.nearest_frame(time);
-    let visible = [from.map_or(f64::NEG_INFINITY, at), until.map_or(f64::INFINITY, at)];
-    let is_seen = timeline.first_frame_from(visible[0]).is_some_and(|first| timeline.time(first) < visible[1]);
+    // The last frame keeps a label that stays as long as the scene.
+    let until_end = until.map(at).filter(|until| *until < timeline.end());
+    let visible = [from.map_or(f64::NEG_INFINITY, at), until_end.unwrap_or(f64::INFINITY)];
+    let is_seen =
+        timeline.first_frame_from(visible[0]).is_some_and(|first| timeline.time(first) < visible[1]);
     if let Some(span) = view.span(&label::FROM).or(view.span(&label::UNTIL)).filter(|_| !is_seen) {
         let warning = Diagnostic::warning(Code::NeverThere, format!("no frame shows the label `{name}`"));
         let between = match (from, until) {

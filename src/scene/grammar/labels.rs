@@ -90,7 +90,7 @@ table! {
         .unit("s")
         .default("the start of the run")
         .also(&["start", "begin", "appears", "since", "t0"]),
-    UNTIL: Option<f64> = KeySpec::new("until", ANY, "When it disappears; the frame of this time no longer shows it")
+    UNTIL: Option<f64> = KeySpec::new("until", ANY, "When it disappears; the frame of this time does not show it, unless it is the last")
         .unit("s")
         .default("it stays")
         .also(&["end", "to", "vanishes", "disappears", "t1"]),
