@@ -31,6 +31,24 @@ pub fn width(text: &str) -> f64 {
     advances.sum::<f64>() / f64::from(face.units_per_em())
 }
 
+/// Returns where the ink of a text begins and ends, relative to the size of the font, measured from where its first letter begins.
+/// `None` for a text without ink.
+pub fn ink(text: &str) -> Option<[f64; 2]> {
+    let face = FACE.as_ref()?;
+    let em = f64::from(face.units_per_em());
+    let bounds = |letter: char| face.glyph_bounding_box(face.glyph_index(letter)?);
+    let mut at = 0.0;
+    let mut ink: Option<[f64; 2]> = None;
+    for letter in text.chars() {
+        if let Some(bounds) = bounds(letter) {
+            let [left, right] = [bounds.x_min, bounds.x_max].map(|x| at + f64::from(x) / em);
+            ink = Some(ink.map_or([left, right], |[begin, end]| [begin.min(left), end.max(right)]));
+        }
+        at += width(letter.encode_utf8(&mut [0; 4]));
+    }
+    ink
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -74,6 +74,7 @@ pub mod emit;
 pub mod explain;
 pub mod export;
 pub mod font;
+pub mod lettering;
 pub mod motion_warnings;
 mod not_drawn;
 #[cfg(feature = "render")]

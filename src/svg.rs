@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::lettering::{self, Level};
+
 /// A color: red, green and blue, 0 to 255.
 pub(crate) type Rgb = [u8; 3];
 
@@ -60,7 +62,7 @@ impl Svg {
             "<text x=\"{x:.2}\" y=\"{y:.2}\" dy=\"{HALF_OF_LETTERS}em\" font-size=\"{}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
             hundredths(size),
             hex(color),
-            escaped(text)
+            words(text, size)
         );
     }
 
@@ -80,6 +82,27 @@ fn hundredths(length: f64) -> f64 {
 
 fn hex([red, green, blue]: Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// Returns the words of a text as the contents of an element, with smaller letters for subscripts and superscripts.
+fn words(text: &str, size: f64) -> String {
+    let mut out = String::new();
+    let mut risen = 0.0;
+    for run in lettering::runs(text) {
+        let (letters, rise) = (escaped(run.letters), run.level.rise() * size);
+        let down = risen - rise;
+        risen = rise;
+        // Writing to a string cannot fail.
+        let _ = match (run.level, down == 0.0) {
+            (Level::Line, true) => write!(out, "{letters}"),
+            (Level::Line, false) => write!(out, "<tspan dy=\"{down:.2}\">{letters}</tspan>"),
+            (level, _) => {
+                let small = level.size() * size;
+                write!(out, "<tspan dy=\"{down:.2}\" font-size=\"{small:.2}\">{letters}</tspan>")
+            }
+        };
+    }
+    out
 }
 
 /// Escapes a text for use between XML tags. Control characters are removed.

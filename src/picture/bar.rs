@@ -11,7 +11,7 @@ use super::screen::Screen;
 use super::stage::Scenery;
 use super::text::{MARGIN, Text, Vertical, across_free, is_top, least_height};
 use crate::decimal::round_below;
-use crate::scene::{Color, ScaleBar, Scene};
+use crate::scene::{Color, DecimalSign, ScaleBar, Scene};
 
 /// A scale bar in the image plane, where the picture has a width of 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +50,7 @@ pub(super) struct ScaleBars {
     ink: Color,
     /// The part of the picture that plots at its sides leave free.
     free: Free,
+    sign: DecimalSign,
 }
 
 impl ScaleBars {
@@ -57,7 +58,7 @@ impl ScaleBars {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let middle = (scenery.bounds.min + scenery.bounds.max) / 2.0;
         let height = (SIZE * 2.0 * aspect).max(least_height(LEAST_PIXELS, scene.output));
-        ScaleBars { bar, middle, height, ink, free: plots::free(scene) }
+        ScaleBars { bar, middle, height, ink, free: plots::free(scene), sign: scene.output.decimal }
     }
 
     /// The length that the bar represents, m, and its width in the image plane of a camera. `None` if the center of the framed bounds is
@@ -83,7 +84,7 @@ impl ScaleBars {
         let (unit, symbol) = prefixed(length);
         let number = Text {
             name: "scale bar",
-            says: format!("{} {symbol}", value(length / unit)).into(),
+            says: format!("{} {symbol}", value(length / unit, self.sign)).into(),
             x: left + width / 2.0,
             y: y.raised(above),
             height: self.height,

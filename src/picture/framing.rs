@@ -215,6 +215,7 @@ mod tests {
     use super::*;
 
     const WIDE: Output = Output {
+        decimal: crate::scene::DecimalSign::Point,
         width: 1280,
         height: 720,
         layout: crate::scene::Layout::SelfContained,

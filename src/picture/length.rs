@@ -1,6 +1,7 @@
 //! Formats lengths with suitable units.
 
 use super::number;
+use crate::scene::DecimalSign;
 
 /// Chooses the unit for a length in meters. Returns the length of the unit, m, and its symbol.
 pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
@@ -21,10 +22,10 @@ pub(super) fn prefixed(length: f64) -> (f64, &'static str) {
 }
 
 /// Formats a length for a text in the picture, with at most six significant digits.
-pub(super) fn value(length: f64) -> String {
+pub(super) fn value(length: f64, sign: DecimalSign) -> String {
     let mut out = String::new();
     number::write(&mut out, length, 6);
-    number::typeset(&out)
+    number::with_sign(number::typeset(&out), sign)
 }
 
 #[cfg(test)]
@@ -43,7 +44,8 @@ mod tests {
             (1e11, "100 million km"),
         ] {
             let (unit, symbol) = prefixed(length);
-            assert_eq!(format!("{} {symbol}", value(length / unit)), said);
+            assert_eq!(format!("{} {symbol}", value(length / unit, DecimalSign::Point)), said);
         }
+        assert_eq!(value(0.5, DecimalSign::Comma), "0,5");
     }
 }

@@ -62,6 +62,6 @@ pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotLine, UnseenPlot};
 pub use scope::Part;
 pub use screen::{Screen, ScreenPoint};
 pub use stage::{Scenery, Stage, StageGround};
-pub use text::{Text, Vertical};
+pub use text::{LINE, Text, Vertical};
 pub use thing::{Form, FormKind, Line, PlannedThing, Thing};
 pub use trails::{Stretch, Trail};

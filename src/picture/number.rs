@@ -1,5 +1,7 @@
 //! Writes numbers as short decimal texts.
 
+use crate::scene::DecimalSign;
+
 /// The powers of ten that are exact as `f64`.
 const POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
@@ -21,10 +23,14 @@ pub(crate) fn write(out: &mut String, number: f64, digits: usize) {
     layout(out, decimals, exponent, digits);
 }
 
-/// Rewrites a number for texts in the picture: `-7.5e-6` becomes `−7.5·10⁻⁶`, with the minus sign `−` in place of the hyphen.
+/// Rewrites a number for texts in the picture: `-7.5e-6` becomes `−7.5·10⁻⁶`, with the minus sign `−` in place of the hyphen. A power of
+/// ten that is 1 is left out.
 pub(super) fn typeset(number: &str) -> String {
     let with_minus = |text: &str| text.replace('-', "−");
-    let Some((digits, exponent)) = number.split_once('e') else { return with_minus(number) };
+    let (digits, exponent) = number.split_once('e').unwrap_or((number, "0"));
+    if exponent == "0" {
+        return with_minus(digits);
+    }
     let raised = |c: char| match c {
         '-' => '⁻',
         '0' => '⁰',
@@ -40,6 +46,14 @@ pub(super) fn typeset(number: &str) -> String {
         other => other,
     };
     format!("{}·10{}", with_minus(digits), exponent.chars().map(raised).collect::<String>())
+}
+
+/// Replaces the decimal point of a number in the picture by the sign that a scene wants.
+pub(super) fn with_sign(number: String, sign: DecimalSign) -> String {
+    match sign {
+        DecimalSign::Point => number,
+        DecimalSign::Comma => number.replace('.', ","),
+    }
 }
 
 /// Returns a number as text, rounded to three significant digits, as messages show it.

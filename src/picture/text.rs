@@ -6,30 +6,33 @@ use glam::DVec3;
 
 use super::framing::Free;
 use super::occupancy::Rectangle;
-use crate::font;
+use crate::lettering;
 use crate::scene::{Color, Corner, Output};
 
 /// The distance of texts from the edges of the picture, which has a width of 2.
 pub(super) const MARGIN: f64 = 0.035;
 
+/// The distance between the base lines of two successive lines of text, relative to the height of a line.
+pub const LINE: f64 = 1.15;
+
 /// The extents of letters above and below their base line, relative to the height of a line.
 const ABOVE: f64 = 0.75;
 const BELOW: f64 = 0.25;
 
-/// A line of text in the image plane. x goes from -1 at the left edge of the picture to 1 at the right edge; y has the same scale.
+/// A text in the image plane, on one or several lines. x goes from -1 at the left edge of the picture to 1 at the right edge; y has the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text<'a> {
     /// The source of the text: the name of a label, `grid`, or `scale bar`.
     pub name: &'a str,
-    /// The words of the text.
+    /// The words of the text, with a line break between two lines, and with the marks of [`lettering`] around subscripts and superscripts.
     pub says: Cow<'a, str>,
     /// The horizontal position of the text's reference point, which `align` selects.
     pub x: f64,
-    /// The vertical position of the base line.
+    /// The vertical position of the base line of the first line.
     pub y: Vertical,
     /// The height of a line of text.
     pub height: f64,
-    /// The part of the text that is at `x`: 0 for its start, 0.5 for its middle, 1 for its end.
+    /// The part of each line that is at `x`: 0 for its start, 0.5 for its middle, 1 for its end.
     pub align: f64,
     /// The color of the text.
     pub color: Color,
@@ -38,6 +41,11 @@ pub struct Text<'a> {
 }
 
 impl Text<'_> {
+    /// The distance from the base line of the first line down to that of the last.
+    pub(super) fn below(&self) -> f64 {
+        below(self.says.matches('\n').count() + 1, self.height)
+    }
+
     /// The rectangle that the text covers, in a picture with the given ratio of height to width.
     pub(super) fn area(&self, aspect: f64) -> Rectangle {
         let wide = width(&self.says, self.height);
@@ -45,7 +53,7 @@ impl Text<'_> {
         Rectangle {
             left,
             right: left + wide,
-            bottom: base - BELOW * self.height,
+            bottom: base - self.below() - BELOW * self.height,
             top: base + ABOVE * self.height,
         }
     }
@@ -83,6 +91,12 @@ impl Vertical {
     }
 }
 
+/// The distance from the base line of the first of some lines down to that of the last.
+#[allow(clippy::cast_precision_loss, reason = "there are few lines")]
+pub(super) fn below(rows: usize, height: f64) -> f64 {
+    rows.saturating_sub(1) as f64 * LINE * height
+}
+
 /// Converts the height of a line of text from pixels to units of the image plane, in which the picture has a width of 2.
 pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
     2.0 * pixels / f64::from(output.width)
@@ -90,7 +104,7 @@ pub(super) fn least_height(pixels: f64, output: Output) -> f64 {
 
 /// Returns the width of a text for a line height.
 pub(super) fn width(says: &str, height: f64) -> f64 {
-    height * font::width(says)
+    height * lettering::width(says)
 }
 
 /// The horizontal position of a text in a corner, and its alignment.

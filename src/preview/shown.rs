@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::run::PreviewRun;
+use crate::lettering;
 use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Vertical};
 use crate::scene::{LabelPlace, Scene, Side};
 use crate::simulate::Frame;
@@ -83,7 +84,10 @@ struct Line {
 #[derive(Serialize)]
 struct Text {
     name: String,
-    says: String,
+    /// The letters of the text, in parts: their size and their height above the line, both relative to the size of the text.
+    says: Vec<(String, f64, f64)>,
+    /// The distance between two lines, relative to the size of the text.
+    line: f64,
     /// The position of the text in the image plane: x goes from −1 to 1, and y has the same scale, with 0 in the middle.
     x: f64,
     y: f64,
@@ -234,7 +238,10 @@ fn text(scene: &Scene, screen: Option<&picture::Screen>, text: &picture::Text<'_
     };
     Text {
         name: text.name.to_owned(),
-        says: text.says.to_string(),
+        says: lettering::runs(&text.says)
+            .map(|run| (run.letters.to_owned(), run.level.size(), run.level.rise()))
+            .collect(),
+        line: picture::LINE,
         x: text.x,
         y: text.y.above_middle(aspect(scene)),
         height: text.height,
@@ -302,7 +309,7 @@ fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
     let label = scene.labels.iter().find(|label| label.name == name)?;
     match label.place {
         LabelPlace::Body { body, side, .. } => Some((body, Side::name(side))),
-        LabelPlace::Corner(_) => None,
+        LabelPlace::Corner(_) | LabelPlace::Center => None,
     }
 }
 

@@ -11,10 +11,25 @@ pub struct Label {
     pub text: Vec<Piece>,
     /// The position of the label in the picture.
     pub place: LabelPlace,
+    /// The times at which the label is visible, s: from the first until before the second.
+    pub visible: [f64; 2],
     /// The line height as a fraction of the picture's height. `None` for a size that is easy to read.
     pub size: Option<f64>,
     /// The color of the text. `None` for the default color: dark on a light background, and light on a dark one.
     pub color: Option<Color>,
+}
+
+impl Label {
+    /// The name of the middle of the picture among the names of corners.
+    pub const CENTER: &str = "center";
+
+    /// The times of a label that is always visible.
+    pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+    /// Returns whether the label is visible at a time, s.
+    pub fn is_visible(&self, time: f64) -> bool {
+        self.visible[0] <= time && time < self.visible[1]
+    }
 }
 
 /// A piece of a label's text.
@@ -47,6 +62,8 @@ pub enum Format {
 pub enum LabelPlace {
     /// The label stands in a corner of the picture, or at the middle of an edge.
     Corner(Corner),
+    /// The label stands in the middle of the picture.
+    Center,
     /// The label stands beside a body and moves with it.
     Body {
         /// The index of the body beside which the label stands.

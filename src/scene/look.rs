@@ -379,6 +379,31 @@ pub struct Output {
     /// The frame rate of the video, frames per second. `None` for the frame rate of the simulation, or for 25 if that rate is not from 1
     /// to 120.
     pub video_rate: Option<f64>,
+    /// The sign before the decimals of numbers in pictures.
+    pub decimal: DecimalSign,
+}
+
+/// The sign before the decimals of a number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DecimalSign {
+    /// A point, as in English.
+    #[default]
+    Point,
+    /// A comma, as in most languages of Europe.
+    Comma,
+}
+
+impl DecimalSign {
+    /// All signs.
+    pub const ALL: [DecimalSign; 2] = [DecimalSign::Point, DecimalSign::Comma];
+
+    /// Returns the sign as scenes write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            DecimalSign::Point => ".",
+            DecimalSign::Comma => ",",
+        }
+    }
 }
 
 /// Where the code that all scripts share is written.

@@ -44,6 +44,13 @@ impl Timeline {
         self.time(self.frames() - 1)
     }
 
+    /// Returns the index of the first frame at or after a time, s. `None` if there is none.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+    pub fn first_frame_from(&self, time: f64) -> Option<usize> {
+        let about = (time * self.frame_rate).floor() as usize;
+        (about..=about.saturating_add(1)).find(|frame| *frame < self.frames() && self.time(*frame) >= time)
+    }
+
     /// Returns the latest time of the simulation, s: the duration, or the time of the last frame if that is later.
     pub fn latest(&self) -> f64 {
         self.duration.max(self.end())

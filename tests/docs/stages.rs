@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 26] = [
+const STAGES: [&str; 27] = [
     "physics",
     "threads",
     "system",
@@ -15,6 +15,7 @@ const STAGES: [&str; 26] = [
     "explain",
     "font",
     "decimal",
+    "lettering",
     "svg",
     "scene",
     "surface",

@@ -269,6 +269,34 @@ fn a_label_stands_beside_its_body_and_is_not_hidden() {
     }
 }
 
+/// Checks the places of subscripts, superscripts and lines: each part is where the metrics of the font say.
+#[test]
+fn subscripts_and_lines_of_a_label_are_in_their_places() {
+    let label = "[label.l]\ntext = \"H_{HH}^{HH} H\\nH\"\nsize = 0.2\ncolor = 'white'\n[body.ball]\nshape.sphere.radius = 0.01\n";
+    let image = render(&script(&format!("{label}{DARK}")), [640, 360]);
+    let spot = image.spot(is_white).0;
+    let high = 0.2 * 360.0;
+    // The columns of the letters in the first line: an H, the subscript, the superscript, and an H after a space.
+    let width = |text: &str| jabuka::font::width(text) * high;
+    let small = jabuka::lettering::SMALL;
+    let mut begin = 0.035 / 2.0 * 640.0;
+    let mut bottoms = Vec::new();
+    for wide in [width("H"), small * width("HH"), small * width("HH"), width(" H")] {
+        let column =
+            spot.iter().filter(|pixel| (begin..begin + wide).contains(&pixel.x) && pixel.y < 1.2 * high);
+        bottoms.push(column.map(|pixel| pixel.y).fold(0.0, f64::max));
+        begin += wide;
+    }
+    let [line, lower, upper, last] = bottoms[..] else { panic!("{bottoms:?}") };
+    assert!((last - line).abs() <= 1.5, "{bottoms:?}");
+    assert!(
+        (lower - line - 0.14 * high).abs() <= 1.5 && (line - upper - 0.33 * high).abs() <= 1.5,
+        "{bottoms:?}"
+    );
+    let below = spot.iter().filter(|pixel| pixel.x < 60.0).map(|pixel| pixel.y).fold(0.0, f64::max);
+    assert!((below - line - 1.15 * high).abs() <= 1.5, "the second line: {below}, {bottoms:?}");
+}
+
 #[test]
 fn a_scale_bar_is_as_long_as_it_says() {
     let scene = |camera: &str| {

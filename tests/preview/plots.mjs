@@ -50,4 +50,22 @@ await tests({
       assert.ok(Math.abs(left - 0.245) < 1e-3);
     }
   },
+
+  async labels_have_subscripts_lines_and_times({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    const labels = () => page.evaluate(() => [...document.querySelectorAll("#texts span")].map((span) => span.textContent));
+    await seek(page, 0);
+    assert.deepEqual(await labels(), ["xmax = 0,0\nm/s²", "at the start"]);
+    const [whole, small, size] = await page.evaluate(() => {
+      const span = document.querySelector("#texts span");
+      const box = (element) => element.getBoundingClientRect().toJSON();
+      return [box(span), box(span.querySelector("small")), parseFloat(span.style.fontSize)];
+    });
+    assert.ok(Math.abs(whole.height - 2.3 * size) < 1, `two lines: ${whole.height}, letters of ${size}`);
+    assert.ok(small.left > whole.left + 0.5 * size && small.right < whole.left + 2.5 * size, "the subscript stands behind the x");
+    assert.ok(small.height < 0.9 * size && small.bottom < whole.bottom, "it has smaller letters, in the first line");
+    await seek(page, 20);
+    assert.deepEqual(await labels(), ["xmax = 0,8\nm/s²"]);
+  },
 });

@@ -11,7 +11,7 @@ use super::stage::Scenery;
 use super::text::least_height;
 use super::thing::{Form, Line, Thing};
 use crate::decimal::round_above;
-use crate::scene::{self, Color, GridPlane, Preset, Scene};
+use crate::scene::{self, Color, DecimalSign, GridPlane, Preset, Scene};
 use crate::simulate::{Bounds, anchors};
 
 pub(super) use self::numbers::GridLayout;
@@ -51,6 +51,7 @@ pub(super) struct GridPlan {
     aspect: f64,
     color: Color,
     ink: Color,
+    sign: DecimalSign,
 }
 
 impl GridPlan {
@@ -90,6 +91,7 @@ impl GridPlan {
             aspect: height / width,
             color: line_color(scene),
             ink,
+            sign: scene.output.decimal,
         }
     }
 
@@ -170,7 +172,8 @@ impl GridPlan {
         let lines = lines.map(|(number, [from, to])| Line { from: *from, to: *to, radius: width(*number) });
         let (unit, symbol) = prefixed(spacing);
         let numbers = |lines: &[(f64, [DVec3; 2])]| {
-            let number = |&(line, ends): &(f64, _)| Number { line, says: value(line * spacing / unit), ends };
+            let says = |line: f64| value(line * spacing / unit, self.sign);
+            let number = |&(line, ends): &(f64, _)| Number { line, says: says(line), ends };
             lines.iter().map(number).collect::<Vec<_>>()
         };
         // The axis name is written at the last number, so lines on the ground are listed from near to far.

@@ -2,8 +2,8 @@
 
 use super::super::occupancy::{Occupancy, Rectangle};
 use super::super::screen::{Screen, ScreenPoint};
-use super::super::text::{MARGIN, Text, Vertical};
-use super::{LINE, Labels, Planned};
+use super::super::text::{LINE, MARGIN, Text, Vertical, below};
+use super::{Labels, Planned};
 use crate::physics::BodySnapshot;
 use crate::scene::Side;
 use crate::simulate::MomentState;
@@ -39,14 +39,16 @@ impl Labels {
         if area.right < -1.0 || area.left > 1.0 || area.top < -self.aspect || area.bottom > self.aspect {
             return None;
         }
-        let height = planned.height;
+        let height = planned.block.height;
+        let below = below(planned.block.rows, height);
+        let middle = point.y - 0.3 * height + below / 2.0;
         let at_side = |side: Side, farther: f64| match side {
-            Side::Above => (point.x, area.top + 0.3 * height + farther, 0.5),
+            Side::Above => (point.x, area.top + 0.3 * height + below + farther, 0.5),
             Side::Below => (point.x, area.bottom - 0.9 * height - farther, 0.5),
-            Side::Left => (area.left - 0.35 * height - farther, point.y - 0.3 * height, 1.0),
-            Side::Right => (area.right + 0.35 * height + farther, point.y - 0.3 * height, 0.0),
+            Side::Left => (area.left - 0.35 * height - farther, middle, 1.0),
+            Side::Right => (area.right + 0.35 * height + farther, middle, 0.0),
         };
-        let said = self.said(&planned.label.text, moment);
+        let said = self.said(&planned.block.label.text, moment);
         let candidate = |side: Side, lines: f64| {
             let (x, y, align) = at_side(side, lines * LINE * height);
             self.kept_inside(planned.text(said.as_str().into(), (x, Vertical::Middle(y)), align))

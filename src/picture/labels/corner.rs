@@ -1,27 +1,89 @@
-//! Places labels in the corners of a picture, one below another.
+//! Places labels in the corners and in the center of a picture, one below another.
 
 use super::super::framing::Free;
 use super::super::grid;
 use super::super::occupancy::Rectangle;
-use super::super::text::{MARGIN, Text, Vertical, across_free, is_top};
-use super::{LINE, Labels, Planned};
+use super::super::text::{LINE, MARGIN, Vertical, across_free, below, is_top};
+use super::Planned;
+use super::lines::Block;
 use crate::scene::{Corner, LabelPlace};
-use crate::simulate::MomentState;
 
-impl Labels {
-    /// Places a label in its corner. `None` for a label beside a body.
-    pub(super) fn in_corner<'a>(&'a self, planned: &'a Planned, now: &MomentState<'_>) -> Option<Text<'a>> {
-        let LabelPlace::Corner(corner) = planned.label.place else { return None };
-        let (x, align) = across_free(corner, self.free);
-        let y = match is_top(corner) {
-            true => Vertical::Top(planned.inset + 0.3 * planned.height),
-            false => Vertical::Bottom(planned.inset - 0.3 * planned.height),
-        };
-        Some(planned.text(self.said(&planned.label.text, now).into(), (x, y), align))
+/// The places of the labels that are visible from a time on, until the next layout.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    pub(super) from: f64,
+    /// The places of the visible labels, each with the index of its label.
+    pub(super) places: Vec<(usize, Place)>,
+}
+
+/// The position of a label: that of the first base line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) x: f64,
+    pub(super) y: Vertical,
+    pub(super) align: f64,
+}
+
+impl Layout {
+    /// Lays out the labels that are visible at a time, around what is taken of the picture.
+    pub(super) fn new(
+        labels: &[Planned],
+        from: f64,
+        mut taken: Vec<Taken>,
+        (free, aspect): (Free, f64),
+    ) -> Layout {
+        let labels = labels.iter().map(|planned| &planned.block).enumerate();
+        let visible: Vec<(usize, &Block)> =
+            labels.filter(|(_, block)| block.label.is_visible(from)).collect();
+        let mut places = Vec::new();
+        for (number, block) in &visible {
+            let LabelPlace::Corner(corner) = block.label.place else { continue };
+            let Block { height, rows, .. } = **block;
+            let size = [block.wide, height, block.high()];
+            let inset = inset_without_overlap(&mut taken, corner, size, (free, 2.0 * aspect));
+            let (x, align) = across_free(corner, free);
+            let y = match is_top(corner) {
+                true => Vertical::Top(inset + 0.3 * height),
+                false => Vertical::Bottom(inset - 0.3 * height + below(rows, height)),
+            };
+            places.push((*number, Place { x, y, align }));
+        }
+        let in_center = || visible.iter().filter(|(_, block)| block.label.place == LabelPlace::Center);
+        let size = [
+            in_center().map(|(_, block)| block.wide).fold(0.0, f64::max),
+            in_center().map(|(_, block)| block.high()).sum(),
+        ];
+        let mut top = size[1] / 2.0 + middle(&taken, size, (free, aspect));
+        for (number, block) in in_center() {
+            let y = Vertical::Middle(top - (0.5 * LINE + 0.3) * block.height);
+            places.push((*number, Place { x: free.center, y, align: 0.5 }));
+            top -= block.high();
+        }
+        Layout { from, places }
     }
 }
 
+/// The height of the middle of the labels in the center above the middle of the picture: 0, or a little more or less if labels at the
+/// edges would be covered. `size` is the width and the height of the labels in the center.
+fn middle(taken: &[Taken], [wide, high]: [f64; 2], (free, aspect): (Free, f64)) -> f64 {
+    let [mut floor, mut ceiling] = [-aspect, aspect];
+    for Taken { is_top, across, inset } in taken {
+        let is_beside = across[1] < free.center - wide / 2.0 || across[0] > free.center + wide / 2.0;
+        // A panel of a plot is known from both edges, and what crosses the middle has no side.
+        if is_beside || inset[1] > aspect {
+            continue;
+        }
+        match is_top {
+            true => ceiling = ceiling.min(aspect - inset[1]),
+            false => floor = floor.max(inset[1] - aspect),
+        }
+    }
+    let [low, most] = [floor + high / 2.0, ceiling - high / 2.0];
+    if low <= most { 0.0_f64.clamp(low, most) } else { 0.0 }
+}
+
 /// A rectangle that a text takes at the upper or lower edge of the picture.
+#[derive(Clone, Debug)]
 pub(super) struct Taken {
     is_top: bool,
     /// The left and right ends of the rectangle, from -1 to 1.
@@ -48,13 +110,13 @@ pub(super) fn under_plot(area: Rectangle, aspect: f64) -> [Taken; 2] {
     [Taken { is_top: true, across, inset: inset[0] }, Taken { is_top: false, across, inset: inset[1] }]
 }
 
-/// Finds room for a line of text in a corner: the smallest distance from the edge at which the line overlaps no other. Returns the
-/// distance from the edge to the middle of the line. Beyond the opposite edge, at the distance `most`, no room is reserved, since nothing
+/// Finds room for lines of text in a corner: the smallest distance from the edge at which they overlap no others. `size` is the width of
+/// the longest line, the height of letters and that of all lines. Returns the distance from the edge to the middle of the nearest line. Beyond the opposite edge, at the distance `most`, no room is reserved, since nothing
 /// is visible.
-pub(super) fn inset_without_overlap(
+fn inset_without_overlap(
     taken: &mut Vec<Taken>,
     corner: Corner,
-    [wide, height]: [f64; 2],
+    [wide, height, high]: [f64; 3],
     (free, most): (Free, f64),
 ) -> f64 {
     let (x, align) = across_free(corner, free);
@@ -62,7 +124,7 @@ pub(super) fn inset_without_overlap(
     let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] - 1e-9 && b[0] < a[1] - 1e-9;
     let mut begin = MARGIN;
     loop {
-        let down = [begin, begin + LINE * height];
+        let down = [begin, begin + high];
         let hidden = taken.iter().filter(|line| {
             let [left, right] = line.across;
             line.is_top == is_top(corner)

@@ -2,50 +2,48 @@
 
 mod beside;
 mod corner;
+mod lines;
 mod said;
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use self::corner::{Taken, inset_without_overlap, under_bar, under_plot};
-use self::said::longest;
-use super::framing::Free;
+use self::corner::{Layout, Taken, under_bar, under_plot};
+use self::lines::Block;
 use super::occupancy::{Occupancy, Rectangle};
 use super::plots;
 use super::screen::Screen;
-use super::text::{MARGIN, Text, Vertical, least_height, width};
-use crate::scene::{Color, Label, LabelPlace, Output, Scene};
+use super::text::{Text, Vertical, least_height};
+use crate::scene::{Color, Corner, DecimalSign, Label, LabelPlace, Output, Scene};
 use crate::simulate::{Frame, Ghost, Measures, MomentState};
 
 /// The default height of a line of text, relative to the height of the picture.
 const SIZE: f64 = 0.055;
+/// The default height of a line of text in the center of the picture, relative to the height of the picture.
+const SIZE_IN_CENTER: f64 = 0.1;
 /// The smallest default height of a line of text, pixels.
 const LEAST_PIXELS: f64 = 13.0;
-/// The distance between the base lines of two successive lines of text, relative to the height of a line.
-const LINE: f64 = 1.15;
 
 /// The labels of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     labels: Vec<Planned>,
+    /// The places of the labels that stand at no body, in order of time.
+    layouts: Vec<Layout>,
     measures: Arc<Measures>,
-    /// The part of the picture that plots at its sides leave free.
-    free: Free,
     /// The height of the picture, relative to its width.
     aspect: f64,
     /// The height of a note's line of text in the image plane.
     note_height: f64,
+    /// The sign before the decimals of values.
+    sign: DecimalSign,
 }
 
 #[derive(Clone, Debug)]
 struct Planned {
-    label: Label,
-    /// The height of a line of text in the image plane.
-    height: f64,
+    block: Block,
     color: Color,
-    /// The distance from the edge of the picture to the middle of the line. 0 for a label beside a body.
-    inset: f64,
 }
 
 impl Labels {
@@ -62,25 +60,22 @@ impl Labels {
         let mut taken: Vec<Taken> =
             scene.scale_bar.map(|bar| under_bar(bar.corner, aspect, free)).into_iter().collect();
         taken.extend(panels.flat_map(|area| under_plot(area, aspect)));
-        let plan = |label: &Label| {
-            let mut height = height(label, scene.output);
-            let mut inset = 0.0;
-            if let LabelPlace::Corner(corner) = label.place {
-                // A line wider than the picture gets smaller letters.
-                let wide = width(&longest(label), 1.0);
-                height = height.min(2.0 * (free.half - MARGIN) / wide.max(1e-9));
-                inset =
-                    inset_without_overlap(&mut taken, corner, [wide * height, height], (free, 2.0 * aspect));
-            }
-            Planned { label: label.clone(), height, color: label.color.unwrap_or(ink), inset }
+        let plan = |label: &Label| Planned {
+            block: Block::new(label, free, scene.output),
+            color: label.color.unwrap_or(ink),
         };
         let labels: Vec<Planned> = scene.labels.iter().map(plan).collect();
-        Labels { labels, measures, free, aspect, note_height: usual_height(scene.output) }
+        let layout = |time| Layout::new(&labels, time, taken.clone(), (free, aspect));
+        let layouts = times(&scene.labels).into_iter().map(layout).collect();
+        let (note_height, sign) = (usual_height(SIZE, scene.output), scene.output.decimal);
+        Labels { labels, layouts, measures, aspect, note_height, sign }
     }
 
-    /// The number of labels in the scene.
-    pub(super) fn count(&self) -> usize {
-        self.labels.len()
+    /// True if labels stand beside bodies at a time, s.
+    pub(super) fn are_beside_bodies(&self, time: f64) -> bool {
+        let is_beside =
+            |label: &Label| matches!(label.place, LabelPlace::Body { .. }) && label.is_visible(time);
+        self.labels.iter().any(|planned| is_beside(&planned.block.label))
     }
 
     /// The height of a note's line of text in the image plane.
@@ -93,12 +88,19 @@ impl Labels {
         Occupancy::new(self.aspect)
     }
 
-    /// Returns the labels in the corners of a frame, each with its index in the scene.
+    /// Returns the labels in the corners and in the center of a frame, each with its index in the scene.
     pub(super) fn in_corners(&self, frame: &Frame) -> Vec<(usize, Text<'_>)> {
         let now = MomentState::now(frame);
-        let labels = self.labels.iter().enumerate();
-        let text = |(number, planned)| Some((number, self.in_corner(planned, &now)?));
-        labels.filter_map(text).collect()
+        let next = self.layouts.partition_point(|layout| layout.from <= frame.time);
+        let Some(layout) = next.checked_sub(1).and_then(|number| self.layouts.get(number)) else {
+            return Vec::new();
+        };
+        let text = |(number, place): &(usize, corner::Place)| {
+            let planned = &self.labels[*number];
+            let said = self.said(&planned.block.label.text, &now);
+            (*number, planned.text(said.into(), (place.x, place.y), place.align))
+        };
+        layout.places.iter().map(text).collect()
     }
 
     /// Places the labels beside bodies in a frame, in free parts of `room`, and marks the places of these labels as taken. Returns each
@@ -114,7 +116,10 @@ impl Labels {
         let crowd = self.crowd(frame, screen);
         let mut texts = Vec::new();
         for (number, planned) in self.labels.iter().enumerate() {
-            let LabelPlace::Body { body, side, ghosts } = planned.label.place else { continue };
+            let LabelPlace::Body { body, side, ghosts } = planned.block.label.place else { continue };
+            if !planned.block.label.is_visible(frame.time) {
+                continue;
+            }
             let here = frame.body(body);
             let text = here.and_then(|here| self.beside(planned, (here, side), &now, screen, (room, &crowd)));
             texts.extend(text.map(|text| (number, text)));
@@ -142,7 +147,7 @@ impl Labels {
     fn ghosts_by_body<'a>(&self, frame: &'a Frame) -> HashMap<usize, Vec<&'a Ghost>> {
         let mut by_body: HashMap<usize, Vec<&Ghost>> = HashMap::new();
         let at_ghosts =
-            |planned: &Planned| matches!(planned.label.place, LabelPlace::Body { ghosts: true, .. });
+            |planned: &Planned| matches!(planned.block.label.place, LabelPlace::Body { ghosts: true, .. });
         if self.labels.iter().any(at_ghosts) {
             frame.past.ghosts.iter().for_each(|ghost| by_body.entry(ghost.body.id).or_default().push(ghost));
         }
@@ -153,32 +158,43 @@ impl Labels {
 /// The height of a label's line of text in the image plane.
 fn height(label: &Label, output: Output) -> f64 {
     let aspect = f64::from(output.height) / f64::from(output.width);
-    label.size.map_or_else(|| usual_height(output), |size| 2.0 * aspect * size)
+    let size = if label.place == LabelPlace::Center { SIZE_IN_CENTER } else { SIZE };
+    label.size.map_or_else(|| usual_height(size, output), |size| 2.0 * aspect * size)
 }
 
-/// The default height of a line of text in the image plane.
-fn usual_height(output: Output) -> f64 {
+/// The default height of a line of text in the image plane. `size` is relative to the height of the picture.
+fn usual_height(size: f64, output: Output) -> f64 {
     let aspect = f64::from(output.height) / f64::from(output.width);
-    (2.0 * aspect * SIZE).max(least_height(LEAST_PIXELS, output))
+    (2.0 * aspect * size).max(least_height(LEAST_PIXELS, output))
 }
 
-/// The height that a label takes in a corner of the picture.
-pub(super) fn least_room(label: &Label, output: Output) -> f64 {
-    LINE * height(label, output)
+/// The times from which other labels are visible than before, s, in order. The first is −∞.
+fn times(labels: &[Label]) -> Vec<f64> {
+    let changes = labels.iter().filter(|label| !matches!(label.place, LabelPlace::Body { .. }));
+    let changes = changes.flat_map(|label| label.visible).filter(|time| time.is_finite());
+    let mut times: Vec<f64> = changes.chain([f64::NEG_INFINITY]).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// The largest height that labels take in corners of the picture.
+pub(super) fn least_room(scene: &Scene, is_here: impl Fn(Corner) -> bool) -> f64 {
+    let free = plots::free(scene);
+    let is_in = |label: &&Label| matches!(label.place, LabelPlace::Corner(corner) if is_here(corner));
+    let labels: Vec<&Label> = scene.labels.iter().filter(is_in).collect();
+    let heights: Vec<f64> = labels.iter().map(|label| Block::new(label, free, scene.output).high()).collect();
+    let at = |time: f64| {
+        let visible = labels.iter().zip(&heights).filter(|(label, _)| label.is_visible(time));
+        visible.map(|(_, height)| height).sum::<f64>()
+    };
+    times(&scene.labels).into_iter().map(at).fold(0.0, f64::max)
 }
 
 impl Planned {
     /// Creates the text of the label at a position in the image plane.
     fn text<'a>(&'a self, says: Cow<'a, str>, (x, y): (f64, Vertical), align: f64) -> Text<'a> {
-        Text {
-            name: &self.label.name,
-            says,
-            x,
-            y,
-            height: self.height,
-            align,
-            color: self.color,
-            anchor: None,
-        }
+        let Block { label, height, .. } = &self.block;
+        Text { name: &label.name, says, x, y, height: *height, align, color: self.color, anchor: None }
     }
 }

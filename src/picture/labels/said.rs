@@ -2,10 +2,15 @@
 
 use super::super::number;
 use super::Labels;
-use crate::scene::{Format, Label, MeasureFormula, Piece};
+use crate::scene::{Format, MeasureFormula, Piece};
 use crate::simulate::MomentState;
 
 impl Labels {
+    /// Writes a number of a text with the decimal sign of the scene.
+    pub(in crate::picture) fn with_sign(&self, number: String) -> String {
+        number::with_sign(number, self.sign)
+    }
+
     /// A text with its values at a moment.
     pub(in crate::picture) fn said(&self, text: &[Piece], moment: &MomentState<'_>) -> String {
         let mut said = String::new();
@@ -13,7 +18,8 @@ impl Labels {
             match piece {
                 Piece::Words(words) => said.push_str(words),
                 Piece::Value { formula, format } => {
-                    said.push_str(&written(self.measures.value(formula, moment), *format));
+                    let number = written(self.measures.value(formula, moment), *format);
+                    said.push_str(&number::with_sign(number, self.sign));
                     said.push_str(&unit(formula));
                 }
             }
@@ -22,18 +28,17 @@ impl Labels {
     }
 }
 
-/// A sample text of the largest expected length, in which numbers have up to four digits before the decimal point.
-pub(super) fn longest(label: &Label) -> String {
+/// A sample of a piece of a label with the largest expected length, in which numbers have up to four digits before the decimal point.
+pub(super) fn sample(piece: &Piece) -> String {
     let number = |format: &Format| match format {
         Format::Short => "0.0000".to_owned(),
         Format::Decimals(decimals) => "0".repeat(decimals + 3),
         Format::Scientific(decimals) => "0".repeat(decimals + 5),
     };
-    let piece = |piece: &Piece| match piece {
+    match piece {
         Piece::Words(words) => words.clone(),
         Piece::Value { formula, format } => number(format) + &unit(formula),
-    };
-    label.text.iter().map(piece).collect()
+    }
 }
 
 /// The unit behind a number, if the scene asks for one. A sign such as `°` stands at the number, and letters stand apart.
@@ -55,12 +60,12 @@ fn written(value: f64, format: Format) -> String {
         Format::Decimals(decimals) if value.abs() < 1e15 => format!("{value:.decimals$}"),
         Format::Decimals(decimals) | Format::Scientific(decimals) => format!("{value:.decimals$e}"),
     };
+    let text = number::typeset(&text);
     // A result that is rounded to zero gets no minus sign.
-    let text = match text.strip_prefix('-') {
+    match text.strip_prefix('−') {
         Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
         _ => text,
-    };
-    number::typeset(&text)
+    }
 }
 
 fn short_of(value: f64) -> String {
@@ -83,6 +88,9 @@ mod tests {
             (12345.678, Format::Short, "12300"),
             (-0.012345, Format::Short, "−0.0123"),
             (1.5e-9, Format::Scientific(1), "1.5·10⁻⁹"),
+            (3.917, Format::Scientific(2), "3.92"),
+            (9.999, Format::Scientific(2), "1.00·10¹"),
+            (-0.0, Format::Scientific(1), "0.0"),
             (1e300, Format::Decimals(1), "1.0·10³⁰⁰"),
             (f64::NAN, Format::Short, "?"),
         ] {

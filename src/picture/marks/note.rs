@@ -53,7 +53,7 @@ pub(in crate::picture) fn place<'a>(
         }
         let says = match note.says {
             Says::Text(pieces) => labels.said(pieces, moment),
-            Says::Words(words) => words,
+            Says::Words(words) => labels.with_sign(words),
         };
         let height = labels.note_height();
         let half = [width(&says, height) / 2.0, height / 2.0];

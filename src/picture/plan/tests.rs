@@ -87,6 +87,72 @@ fn texts_say_of_what_they_are_and_the_bar_is_below_its_number() {
     assert!((number.x - (bar.from + bar.to) / 2.0).abs() < 1e-12);
 }
 
+/// The plan and the frames of a scene with a ball and labels.
+fn labelled(keys: &str) -> (Plan, Vec<Frame>) {
+    let text = format!(
+        "simulation = {{ duration = 1, frame_rate = 4 }}\noutput.size = [320, 180]\n[body.ball]\nshape.sphere.radius = 0.1\n{keys}"
+    );
+    let scene = Scene::parse(&text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let frames = Frames::new(&scene).map(Result::unwrap).collect();
+    (plan, frames)
+}
+
+#[test]
+fn labels_are_there_from_their_first_time_until_before_their_second_and_leave_their_room_to_others() {
+    let keys = "[label.first]\ntext = '1'\nuntil = 0.5\n[label.second]\ntext = '2'\n[label.third]\ntext = '3'\nfrom = 0.5\nuntil = 1\n\
+        [label.ball]\ntext = 'b'\nbody = 'ball'\nfrom = 0.25\nuntil = 0.75";
+    let (plan, frames) = labelled(keys);
+    let texts: Vec<_> = frames.iter().map(|frame| plan.texts(frame)).collect();
+    let said = texts.iter().map(|texts| texts.iter().map(|text| text.says.as_ref()).collect::<String>());
+    assert_eq!(said.collect::<Vec<_>>(), ["12", "12b", "23b", "23", "23"]);
+    let place = |frame: usize, number: usize| texts[frame][number].y;
+    assert_eq!(place(0, 0), place(2, 0), "the second label moves into the place of the first");
+    assert_eq!(place(0, 1), place(2, 1), "the third into that of the second");
+}
+
+#[test]
+fn lines_of_labels_stand_below_each_other_at_their_corner() {
+    let label =
+        |name: &str, corner: &str| format!("[label.{name}]\ntext = \"a\\nb\\nc\"\ncorner = '{corner}'\n");
+    let other = "[label.other]\ntext = 'd'\ncorner = 'bottom'\n";
+    let keys =
+        format!("{}{}{}{other}", label("top", "top"), label("bottom", "bottom"), label("center", "center"));
+    let (plan, frames) = labelled(&keys);
+    let texts = plan.texts(&frames[0]);
+    let extent = |name: &str| {
+        let text = texts.iter().find(|text| text.name == name).unwrap();
+        let first = text.y.above_middle(180.0 / 320.0);
+        // Letters are from the base line to 0.73 of the height above it.
+        [first - 2.0 * crate::picture::LINE * text.height, first + 0.73 * text.height]
+    };
+    let ([top, ceiling], [floor, bottom], [low, high]) = (extent("top"), extent("bottom"), extent("center"));
+    assert!(ceiling < 0.5625 - 0.035 && ceiling > 0.5625 - 0.07 && floor > 0.035 - 0.5625, "{texts:?}");
+    assert!(bottom < low && high < top, "{texts:?}");
+    let other = texts.iter().find(|text| text.name == "other").unwrap();
+    assert!(other.y.above_middle(0.5625) > bottom, "the other label stands above all three lines");
+}
+
+#[test]
+fn a_decimal_comma_is_in_all_numbers_of_a_picture() {
+    let keys = "[output]\nsize = [320, 180]\ndecimal = ','\n[label.l]\ntext = '0.5: ${t:.2}'\n[scale_bar]\nlength = 1.5\n\
+        [grid]\nspacing = 0.25\n[plot.p]\ny = 't'";
+    let text = format!(
+        "simulation = {{ duration = 1, frame_rate = 4 }}\n[body.ball]\nshape.sphere.radius = 0.5\n{keys}"
+    );
+    let scene = Scene::parse(&text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let frame = Frames::at(&scene, 0.5).unwrap();
+    let mut texts = plan.texts(&frame);
+    texts.extend(plan.planned_plots()[0].texts.iter().cloned());
+    let said: Vec<&str> = texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(said.contains(&"0.5: 0,50") && said.contains(&"1,5 m") && said.contains(&"0,5"), "{said:?}");
+    let is_of_grid = texts.iter().any(|text| text.name == "grid" && text.says.contains(','));
+    assert!(is_of_grid, "{said:?}");
+    let points = said.iter().filter(|said| said.contains('.') && !said.contains(':'));
+    assert_eq!(points.count(), 0, "{said:?}");
+}
+
 #[test]
 fn a_camera_that_follows_looks_at_its_body() {
     let (plan, frame) = plan("[camera]\nfollow = { body = 'ball' }\n[label.now]\ntext = 'x'");

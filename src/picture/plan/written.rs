@@ -62,7 +62,7 @@ impl Plan {
         let things: Vec<Thing<'_>> = of_arrows.things.into_iter().chain(sketch.things).collect();
         let notes: Vec<Note<'_>> = of_arrows.notes.into_iter().chain(sketch.notes).collect();
         let mut named = Vec::new();
-        if labels.len() < self.labels.count() || !notes.is_empty() {
+        if self.labels.are_beside_bodies(frame.time) || !notes.is_empty() {
             let before = labels.len();
             self.lines(frame).into_iter().for_each(|(ends, width)| room.cross(ends, width, &screen));
             for (ends, width) in things.iter().flat_map(|thing| thing.form.avoided()) {

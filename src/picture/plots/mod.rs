@@ -181,6 +181,7 @@ fn plan(
         names: &names,
         x_name: &plot.x_name,
         units: [x_unit, unit(plot)],
+        sign: scene.output.decimal,
     };
     let is_time = plot.x.single == Some(Measure::Run(RunMeasure::Time));
     let is_count = |formula: &MeasureFormula| formula.is_count;

@@ -1,11 +1,13 @@
 //! Lays out the panel of a plot: where its axes, its numbers and its legend stand.
 
+use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{Text, Vertical, width};
 use super::axis::{Axis, Range, Tick};
 use super::room::Room;
 use super::{Axes, PlotLine};
-use crate::scene::{Color, Plot, PlotPlace};
+use crate::lettering::closed;
+use crate::scene::{Color, DecimalSign, Plot, PlotPlace};
 
 /// The usual height of a panel in a corner of the picture, relative to its width.
 const USUAL_HEIGHT: f64 = 0.64;
@@ -49,6 +51,8 @@ pub(super) struct Legend<'a> {
     pub(super) x_name: &'a str,
     /// The units of both axes.
     pub(super) units: [&'a str; 2],
+    /// The sign before the decimals of numbers. It has the same width as a point.
+    pub(super) sign: DecimalSign,
 }
 
 /// The layout of a plot.
@@ -197,7 +201,8 @@ impl Panel {
         }
         for tick in axes[1].ticks() {
             let y = bottom + tick.at * (top - bottom) - 0.27 * line;
-            texts.push(text(tick.says, [left - BESIDE_AXIS * line, y], 1.0, ink));
+            let says = with_sign(tick.says, legend.sign);
+            texts.push(text(says, [left - BESIDE_AXIS * line, y], 1.0, ink));
         }
         let base = bottom - 1.05 * line;
         let unit = axes[0].unit(legend.units[0]);
@@ -209,7 +214,7 @@ impl Panel {
         for tick in axes[0].ticks() {
             let x = left + tick.at * (right - left);
             if x + width(&tick.says, line) / 2.0 < begin_of_name {
-                texts.push(text(tick.says, [x, base], 0.5, ink));
+                texts.push(text(with_sign(tick.says, legend.sign), [x, base], 0.5, ink));
             }
         }
         texts.push(text(cut(&name, room, line), [end, base - self.name_row], 1.0, ink));
@@ -240,10 +245,11 @@ fn cut(words: &str, room: f64, line: f64) -> String {
         return words.to_owned();
     }
     let mut cut: String = words.to_owned();
-    while !cut.is_empty() && width(&format!("{cut}…"), line) > room {
+    let with_ellipsis = |cut: &str| format!("{}…", closed(cut.trim_end().to_owned()));
+    while !cut.is_empty() && width(&with_ellipsis(&cut), line) > room {
         cut.pop();
     }
-    format!("{}…", cut.trim_end())
+    with_ellipsis(&cut)
 }
 
 #[cfg(test)]
@@ -260,7 +266,8 @@ mod tests {
     #[test]
     fn names_stand_in_rows_within_the_panel() {
         let names = [("first", Color::WHITE), ("second", Color::WHITE), ("a much longer name", Color::WHITE)];
-        let legend = Legend { title: None, names: &names, x_name: "t", units: ["s", "J"] };
+        let legend =
+            Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
         let (places, rows) = placed(&legend, (1.0, 0.4, 10.0), 1.0);
         assert_eq!(rows, 2.0);
         assert!(places[0] == (1.0, 0.0) && places[1].1 == 0.0 && places[2] == (0.4, 1.0), "{places:?}");

@@ -6,7 +6,7 @@ use super::super::grid;
 use super::super::labels;
 use super::super::text::{MARGIN, Vertical, across_free, is_top, least_height};
 use super::PlannedPlot;
-use crate::scene::{Corner, Label, LabelPlace, Output, Plot, PlotPlace, Scene};
+use crate::scene::{Corner, Output, Plot, PlotPlace, Scene};
 
 /// The usual height of a line of text, as a fraction of the picture's height.
 const USUAL_LINE: f64 = 0.036;
@@ -158,9 +158,5 @@ fn others(scene: &Scene, place: PlotPlace, aspect: f64) -> f64 {
     }
     let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
     let bar = scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 4.0 * aspect * grid::SIZE);
-    let height = |label: &Label| match label.place {
-        LabelPlace::Corner(corner) if is_here(corner) => labels::least_room(label, scene.output),
-        _ => 0.0,
-    };
-    bar + scene.labels.iter().map(height).sum::<f64>()
+    bar + labels::least_room(scene, is_here)
 }

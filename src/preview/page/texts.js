@@ -41,13 +41,15 @@ export class Texts {
 
   span(text, x, y, height) {
     const span = document.createElement("span");
-    span.textContent = text.says;
     const size = Math.max(9, height);
+    span.append(...text.says.map(([letters, part, rise]) => small(letters, part, rise, size)));
     const halo = text.color[0] + text.color[1] + text.color[2] > 1.5 ? "#111" : "#fff";
     span.style.fontSize = `${size}px`;
+    span.style.lineHeight = text.line ?? 1;
+    span.style.textAlign = ["left", "center", "right"][2 * text.align];
     span.style.color = css(text.color);
     span.style.textShadow = [[1, 0], [-1, 0], [0, 1], [0, -1]].map(([a, b]) => `${a}px ${b}px 1px ${halo}`).join(",");
-    span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, -85%)`;
+    span.style.transform = `translate(${x}px, ${y}px) translate(${-100 * text.align}%, ${-(0.35 + (text.line ?? 1) / 2) * size}px)`;
     return span;
   }
 
@@ -59,7 +61,7 @@ export class Texts {
       const size = (0.25 * arm * view.focal) / space.size / spot.w;
       if (!(spot.w > 0) || size < 7) return [];
       const [x, y] = [((spot.x + 1) / 2) * view.width, ((1 - spot.y) / 2) * view.height];
-      const span = this.span({ says: "xyz"[axis], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
+      const span = this.span({ says: [["xyz"[axis], 1, 0]], height: 0, align: 0.5, color }, x, y + 0.35 * size, size);
       span.className = "axis";
       span.style.textShadow = "none";
       return [span];
@@ -82,6 +84,16 @@ function anchored({ anchor: [point, [right, up]] }, view, space, width) {
   const spot = projected(view.clip, times(sub(point, space.center), 1 / space.size));
   if (!(spot.w > 0)) return [];
   return [((spot.x + 1) / 2) * view.width + (right / 2) * width, ((1 - spot.y) / 2) * view.height - (up / 2) * width];
+}
+
+/** Returns letters of a text: a text node, or an element with smaller letters that stand `rise` times `size` above the line. */
+function small(letters, part, rise, size) {
+  if (part === 1) return letters;
+  const element = document.createElement("small");
+  element.textContent = letters;
+  element.style.fontSize = `${part * size}px`;
+  element.style.bottom = `${rise * size}px`;
+  return element;
 }
 
 /** Returns the position of a label beside its body, for a camera other than the scene's. */

@@ -4,21 +4,31 @@ use std::ops::Range;
 
 use super::Context;
 use super::measures::{OwnBody, Reader, Things};
+use super::read::figure;
 use super::showing::wanted;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::font;
+use crate::lettering::{self, BadScript};
 use crate::scene::grammar::labels::{grid, label, scale_bar};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
-use crate::scene::{Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side};
+use crate::scene::{
+    Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side, Timeline,
+};
 
 /// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
 pub(super) const MAX_LENGTH: usize = 160;
 
-pub(super) fn read(root: &View<'_>, things: Things<'_>, context: &mut Context<'_>) -> Vec<Label> {
+pub(super) fn read(
+    root: &View<'_>,
+    things: Things<'_>,
+    timeline: &Timeline,
+    context: &mut Context<'_>,
+) -> Vec<Label> {
     let read = |(name, _, view): (&str, Span, View<'_>)| {
+        let visible = visible(name, &view, timeline, context);
         let place = place_of(&view, things.bodies, context);
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
         let text = text.map(|(text, span)| pieces((text, span), root, place, things, context));
@@ -26,11 +36,45 @@ pub(super) fn read(root: &View<'_>, things: Things<'_>, context: &mut Context<'_
             name: name.to_owned(),
             text: text.unwrap_or_default(),
             place,
+            visible,
             size: view.get(&label::SIZE),
             color: view.get(&label::COLOR),
         }
     };
     root.named(&scene::LABEL).into_iter().map(read).collect()
+}
+
+/// Reads the times at which a label is visible.
+fn visible(name: &str, view: &View<'_>, timeline: &Timeline, context: &mut Context<'_>) -> [f64; 2] {
+    let (from, until) = (view.get(&label::FROM), view.get(&label::UNTIL));
+    let spans = [(&label::UNTIL.spec, "this must be later"), (&label::FROM.spec, "than this")];
+    if let (Some(from), Some(until)) = (from, until)
+        && until <= from
+    {
+        let message =
+            format!("the label `{name}` appears at {} s and disappears at {} s", figure(from), figure(until));
+        let error = Diagnostic::error(Code::EndBeforeStart, message);
+        let spans = spans.into_iter().filter_map(|(key, label)| Some((view.span(key)?, label)));
+        context.diagnostics.push(spans.fold(error, |error, (span, label)| error.at(span, label)));
+        return Label::ALWAYS;
+    }
+    let at = |time: f64| timeline.nearest_frame(time);
+    // The last frame keeps a label that stays as long as the scene.
+    let until_end = until.map(at).filter(|until| *until < timeline.end());
+    let visible = [from.map_or(f64::NEG_INFINITY, at), until_end.unwrap_or(f64::INFINITY)];
+    let is_seen =
+        timeline.first_frame_from(visible[0]).is_some_and(|first| timeline.time(first) < visible[1]);
+    if let Some(span) = view.span(&label::FROM).or(view.span(&label::UNTIL)).filter(|_| !is_seen) {
+        let warning = Diagnostic::warning(Code::NeverThere, format!("no frame shows the label `{name}`"));
+        let between = match (from, until) {
+            (Some(_), Some(_)) if visible[1] > 0.0 && visible[0] <= timeline.end() => {
+                format!("the frames are {} s apart", figure(timeline.interval()))
+            }
+            _ => format!("the scene goes from 0 to {} s", figure(timeline.end())),
+        };
+        context.diagnostics.push(warning.at(span, between));
+    }
+    visible
 }
 
 pub(super) fn scale_bar(root: &View<'_>) -> Option<ScaleBar> {
@@ -59,7 +103,10 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
             useless(&label::SIDE.spec, "without `body`");
             useless(&label::GHOSTS.spec, "without `body`");
         }
-        return LabelPlace::Corner(corner(view, &label::CORNER));
+        return match view.get(&label::CORNER) {
+            Label::CENTER => LabelPlace::Center,
+            _ => LabelPlace::Corner(corner(view, &label::CORNER)),
+        };
     };
     let ghosts = view.get(&label::GHOSTS);
     if ghosts && bodies[body].showing.ghosts.is_none() {
@@ -78,7 +125,7 @@ pub(super) fn pieces(
 ) -> Vec<Piece> {
     let own = match place {
         LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
-        LabelPlace::Corner(_) => None,
+        LabelPlace::Corner(_) | LabelPlace::Center => None,
     };
     let mut reader = Reader::new("label", (text, span), root, own, things, context);
     if text.len() > MAX_LENGTH {
@@ -120,6 +167,9 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
         let rest = &words[begin..];
         at = begin + 1;
         let (length, message, meant) = if rest.starts_with('{') {
+            if lettering::is_script(words, begin) {
+                continue;
+            }
             let Some(length) = rest.find('}').map(|end| end + 1) else { continue };
             (length, "text in braces is shown unchanged", format!("${}", &rest[..length]))
         } else if let Some(name) = rest.strip_prefix('$') {
@@ -151,7 +201,11 @@ fn values_of_other_languages(words: &str) -> Vec<Other> {
 impl Reader<'_, '_, '_> {
     fn words(&mut self, range: Range<usize>) -> Option<Piece> {
         let words = &self.text[range.clone()];
-        self.note_letters(range.clone());
+        let mut begin = range.start;
+        for line in words.split('\n') {
+            self.note_letters(begin..begin + line.len());
+            begin += line.len() + 1;
+        }
         for Other { range: inner, message, meant } in values_of_other_languages(words) {
             let here = range.start + inner.start..range.start + inner.end;
             let at = self.at(&here);
@@ -165,7 +219,26 @@ impl Reader<'_, '_, '_> {
                 warning
             });
         }
-        (!words.is_empty()).then(|| Piece::Words(words.to_owned()))
+        let set = self.set(range)?;
+        (!set.is_empty()).then_some(Piece::Words(set))
+    }
+
+    /// Sets the subscripts and superscripts in a byte range of the text. Reports those without an end.
+    pub(super) fn set(&mut self, range: Range<usize>) -> Option<String> {
+        let wrong = match lettering::set(&self.text[range.clone()], range.start > 0) {
+            Ok(set) => return Some(set),
+            Err(wrong) => wrong,
+        };
+        for BadScript { range: inner, is_open } in wrong {
+            let sign = &self.text[range.start + inner.start..][..1];
+            let (message, label) = match is_open {
+                true => ("this script has no end", format!("needs a `}}`; `\\{sign}` is the sign itself")),
+                false => ("this script is empty", "needs letters in the braces".to_owned()),
+            };
+            let error = Diagnostic::error(Code::LabelSyntax, message);
+            self.report(error, range.start + inner.start..range.start + inner.end, &label);
+        }
+        None
     }
 
     /// Notes the letters of a byte range that the font does not have, for [`report_missing`](Self::report_missing).

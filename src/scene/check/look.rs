@@ -10,8 +10,8 @@ use crate::scene::grammar::scene::{environment, ground, output, scene};
 use crate::scene::grammar::shapes::{sdl, shape};
 use crate::scene::value;
 use crate::scene::{
-    Body, BodyLook, Color, Environment, Ground, Layout, Light, LightKind, Output, Preset, SimulationSettings,
-    Sky,
+    Body, BodyLook, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, Output, Preset,
+    SimulationSettings, Sky,
 };
 
 /// Reads the `look` of a body: the scale at which it is drawn, and its raw SDL.
@@ -99,5 +99,6 @@ pub(super) fn output(view: &View<'_>) -> Output {
         layout: view.choice(&output::LAYOUT, Layout::ALL, Layout::name),
         transparent: view.get(&output::TRANSPARENT),
         video_rate: view.get(&output::VIDEO_RATE),
+        decimal: view.choice(&output::DECIMAL, DecimalSign::ALL, DecimalSign::name),
     }
 }

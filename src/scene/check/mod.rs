@@ -343,7 +343,7 @@ fn build(
     let mut povray = povray::read(&root, context);
     povray.templates = templates::read(&root.table(&scene::POVRAY), options.templates.as_deref(), context);
     let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
-    let labels = label::read(&root, things, context);
+    let labels = label::read(&root, things, &simulation.timeline, context);
     let (plots, places_of_plots) = plot::read(&root, things, context);
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));

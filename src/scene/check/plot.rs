@@ -42,10 +42,9 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let written = texts(view, &plot::Y);
         let formulas: Vec<Option<MeasureFormula>> = written.iter().map(|text| self.formula(*text)).collect();
         let names = texts(view, &plot::NAMES);
-        names.iter().for_each(|name| self.check_letters(*name));
-        for key in [&plot::TITLE, &plot::X_NAME] {
-            view.get(key).zip(view.span(key)).into_iter().for_each(|written| self.check_letters(written));
-        }
+        let set_names: Vec<Option<String>> = names.iter().map(|name| self.set(*name)).collect();
+        let [title, x_name] =
+            [&plot::TITLE, &plot::X_NAME].map(|key| self.set(view.get(key).zip(view.span(key))?));
         if !names.is_empty() && names.len() != written.len() {
             let counted =
                 |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
@@ -96,17 +95,17 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                     unit.filter(|_| !is_one_unit).map_or(String::new(), |unit| format!(", {}", unit.trim()));
                 format!("{}{unit}", name.trim())
             });
-            let given = names.get(number).map(|(name, _)| (*name).to_owned());
-            Some(Curve { name: given.or(own)?, y: formula? })
+            let set = set_names.get(number).cloned().flatten();
+            Some(Curve { name: set.or(own)?, y: formula? })
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
         let curves_at = written.iter().map(|(_, span)| *span).collect();
         let spans = PlotSpans { name: span, curves: curves_at, range: view.span(&plot::RANGE) };
         let plot = Plot {
             name: name.to_owned(),
-            title: view.get(&plot::TITLE).map(str::to_owned),
+            title,
             x: x?,
-            x_name: view.get(&plot::X_NAME).unwrap_or(without_unit(x_formula)).trim().to_owned(),
+            x_name: x_name.unwrap_or_else(|| without_unit(x_formula).to_owned()).trim().to_owned(),
             curves,
             place,
             width,
@@ -138,11 +137,11 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         text.len() > MAX_LENGTH
     }
 
-    /// Reports the letters that the font does not have.
-    fn check_letters(&mut self, written: Written<'_>) {
+    /// Sets the subscripts and superscripts of a text. Reports the letters that the font does not have.
+    fn set(&mut self, written: Written<'_>) -> Option<String> {
         let (text, span) = written;
         if self.is_too_long(written) {
-            return;
+            return None;
         }
         if text.contains("${") {
             let message = "titles and names of a plot show no values".to_owned();
@@ -151,6 +150,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let mut reader = self.reader(written);
         reader.note_letters(0..text.len());
         reader.report_missing();
+        reader.set(0..text.len())
     }
 
     fn reader<'t>(&'t mut self, (text, span): Written<'t>) -> Reader<'t, 'b, 'c> {

@@ -2,12 +2,16 @@
 
 use super::Kind::{Boolean, Choice, Color, Either, List, Named, Number, Reference, Table, Text};
 use super::key::table;
-use super::kind::POSITIVE;
+use super::kind::{ANY, POSITIVE};
 use super::{Bound, Collection, KeySpec, Kind, Rule};
-use crate::scene::{Corner, GridPlane, Plot, Side};
+use crate::scene::{Corner, GridPlane, Label, Plot, Side};
 
 fn corners() -> Vec<&'static str> {
     Corner::ALL.iter().map(|corner| corner.name()).collect()
+}
+
+fn places() -> Vec<&'static str> {
+    corners().into_iter().chain([Label::CENTER]).collect()
 }
 
 fn sides() -> Vec<&'static str> {
@@ -65,7 +69,11 @@ table! {
         "With `body`, whether each ghost has a label, too, with values of the ghost's time",
     )
     .default_flag(false),
-    CORNER: value::Text = KeySpec::new("corner", Choice(corners), "Its corner of the picture; several stand below each other")
+    CORNER: value::Text = KeySpec::new(
+        "corner",
+        Choice(places),
+        "Its corner of the picture, or its center; several stand below each other",
+    )
         .default_word("top-left")
         .also(&["place", "position", "location", "at"]),
     SIZE: Option<f64> = KeySpec::new(
@@ -73,11 +81,19 @@ table! {
         Number(Bound::From(0.01, 0.5)),
         "The height of its lines, as part of the picture's height",
     )
-    .default("0.055, and at least 13 pixels")
+    .default("0.055, and at least 13 pixels; in the center 0.1")
     .also(&["font_size", "fontsize", "text_size", "height"]),
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("dark, or light on a dark background")
         .also(&["colour"]),
+    FROM: Option<f64> = KeySpec::new("from", ANY, "When it appears")
+        .unit("s")
+        .default("the start of the run")
+        .also(&["start", "begin", "appears", "since", "t0"]),
+    UNTIL: Option<f64> = KeySpec::new("until", ANY, "When it disappears; the frame of this time does not show it, unless it is the last")
+        .unit("s")
+        .default("it stays")
+        .also(&["end", "to", "vanishes", "disappears", "t1"]),
 }
 
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];

@@ -397,6 +397,7 @@ Between `${` and `}` stands a [formula](#formulas) of the current values and `[v
 decimals and `.2e` two decimals with a power of ten. The default is three significant digits, and all digits for a number of impacts. In a label at
 a body, the names of that body's values need no prefix, and take precedence over variables of the same name; with `ghosts`, only these and `t` are
 available. A value that is undefined, such as the speed of an absent body, is shown as `?`.
+`output.decimal = \",\"` writes decimal commas in labels, plots, the grid and the scale bar.
 
 **Units**: after the colon, a unit can stand, alone or behind the format: `${ball.speed:km/h}` and `${ball.speed:.1f km/h}`. The value is
 converted, and the unit stands behind the number. It must fit the measure; a formula of measures has no unit that jabuka knows. Plots take
@@ -411,6 +412,13 @@ value of many copies: `sum(gas.kinetic)`, `mean(gas[*].x)`, `max(brick[*,0].y)`.
 
 Elsewhere, a variable of the scene hides a measure of the run with the same name. In the table, words in capitals stand for names: `BODY` and
 `OTHER` for bodies, `NAME` for a joint or a force. `jabuka list measures` prints it.
+
+In the texts of labels and plots, `v_0` and `m/s^2` are subscripts and superscripts, as are `x_{max}` and `10^{-6}`, with any letters in braces. Without
+braces, only a single letter has a subscript, so `my_ball` stays as it is. A backslash makes the sign itself: `'v\\_0'` in single quotes.
+
+`\\n` in double quotes begins a new line. A label in a corner that is wider than the picture is broken into lines at its spaces.
+`corner = \"center\"` makes a title in large letters; with `until = 2`, it disappears after two seconds. Labels that are not visible need no
+room, so others move into their places.
 
 A label at a body is left out of pictures without the body. If it would cover an arrow or another
 label, it moves to another side, or farther away. It hides the grid numbers that it would cover.

@@ -21,7 +21,7 @@ use super::materials;
 use super::{Bound, KeySpec, Rule};
 use crate::physics::Method;
 use crate::scene::sdl::Where;
-use crate::scene::{ContactLaw, Layout, Preset};
+use crate::scene::{ContactLaw, DecimalSign, Layout, Preset};
 
 fn integrators() -> Vec<&'static str> {
     Method::all().map(|method| method.name).collect()
@@ -177,6 +177,10 @@ table! {
     .also(&["contact", "collisions", "collision", "collide", "collides"]),
 }
 
+fn decimal_signs() -> Vec<&'static str> {
+    DecimalSign::ALL.iter().map(|sign| sign.name()).collect()
+}
+
 fn layouts() -> Vec<&'static str> {
     Layout::ALL.iter().map(|layout| layout.name()).collect()
 }
@@ -280,4 +284,11 @@ table! {
     .unit("frames/s")
     .default("`simulation.frame_rate`, or 25 if that is not from 1 to 120")
     .also(&["film_rate", "playback_rate", "fps"]),
+    DECIMAL: value::Text = KeySpec::new(
+        "decimal",
+        Choice(decimal_signs),
+        "The sign before the decimals of numbers in pictures. Tables always have points",
+    )
+    .default_word(".")
+    .also(&["decimal_sign", "decimal_separator", "comma", "decimal_comma", "locale"]),
 }

@@ -5,3 +5,21 @@ use crate::server::Scene;
 in_the_browser! { Scene::gallery("damped_oscillator"), "plots.mjs":
     the_plots_of_a_scene_are_drawn_as_far_as_time_has_come,
 }
+
+const LETTERS: &str = r#"
+    simulation.duration = 1
+    output = { size = [640, 360], decimal = "," }
+    [body.ball]
+    shape.sphere.radius = 1
+    [label.first]
+    text = "x_{max} = ${t:.1}\nm/s^2"
+    size = 0.1
+    [label.card]
+    text = "at the start"
+    corner = "center"
+    until = 0.5
+    "#;
+
+in_the_browser! { Scene::of(LETTERS), "plots.mjs":
+    labels_have_subscripts_lines_and_times,
+}

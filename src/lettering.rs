@@ -1,0 +1,312 @@
+//! Texts with subscripts and superscripts.
+//!
+//! A scene writes `v_0`, `x_{max}` and `m/s^2`. Digits and signs become the letters that Unicode has for them: `v₀`, `m/s²`. The font has
+//! few such letters for words, with uneven gaps, so other scripts are set in smaller letters that are lowered or raised. In a set text,
+//! control characters stand around them, which no text of a scene can contain.
+
+use std::ops::Range;
+
+use crate::font;
+
+/// The mark before lowered letters.
+const LOWER: char = '\u{11}';
+/// The mark before raised letters.
+const RAISE: char = '\u{12}';
+/// The mark after lowered or raised letters.
+const END: char = '\u{13}';
+
+/// The size of lowered and raised letters, relative to the other letters.
+pub const SMALL: f64 = 0.68;
+
+/// The position of letters relative to the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// The letters are on the line.
+    Line,
+    /// The letters are a subscript.
+    Lower,
+    /// The letters are a superscript.
+    Upper,
+}
+
+impl Level {
+    /// The size of the letters, relative to those on the line.
+    pub fn size(self) -> f64 {
+        if self == Level::Line { 1.0 } else { SMALL }
+    }
+
+    /// The height of the letters above the line, relative to the size of letters on the line.
+    pub fn rise(self) -> f64 {
+        match self {
+            Level::Line => 0.0,
+            Level::Lower => -0.14,
+            Level::Upper => 0.33,
+        }
+    }
+}
+
+/// Letters of a set text that stand at the same level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run<'a> {
+    /// The level of the letters.
+    pub level: Level,
+    /// The letters.
+    pub letters: &'a str,
+}
+
+/// Splits a set text into runs of letters at the same level. There are no empty runs.
+pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
+    let mut level = Level::Line;
+    text.split_inclusive([LOWER, RAISE, END]).filter_map(move |part| {
+        let letters = part.trim_end_matches([LOWER, RAISE, END]);
+        let run = Run { level, letters };
+        match part[letters.len()..].chars().next() {
+            Some(LOWER) => level = Level::Lower,
+            Some(RAISE) => level = Level::Upper,
+            Some(_) => level = Level::Line,
+            None => {}
+        }
+        (!letters.is_empty()).then_some(run)
+    })
+}
+
+/// Returns the width of a set text, relative to the size of the font: that of its longest line.
+pub fn width(text: &str) -> f64 {
+    let line = |line: &str| runs(line).map(|run| run.level.size() * font::width(run.letters)).sum();
+    text.split('\n').map(line).fold(0.0, f64::max)
+}
+
+/// Returns the bytes of the spaces and line breaks in a set text, except of those in subscripts and superscripts.
+pub fn spaces(text: &str) -> impl Iterator<Item = usize> {
+    let mut is_on_line = true;
+    text.char_indices().filter_map(move |(at, letter)| {
+        match letter {
+            LOWER | RAISE => is_on_line = false,
+            END => is_on_line = true,
+            _ => {}
+        }
+        (is_on_line && matches!(letter, ' ' | '\n')).then_some(at)
+    })
+}
+
+/// Returns a part of a set text that was cut at its end, with the mark that then misses.
+pub fn closed(mut text: String) -> String {
+    if text.rfind([LOWER, RAISE]) > text.rfind(END) {
+        text.push(END);
+    }
+    text
+}
+
+/// A script without an end, or without letters: the range of its bytes in the text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BadScript {
+    /// The range from the sign `_` or `^` on.
+    pub range: Range<usize>,
+    /// True if there is no `}`, false if nothing stands before it.
+    pub is_open: bool,
+}
+
+/// Sets the subscripts and superscripts of a text. `follows` tells whether a value stands right before the text.
+///
+/// A script in braces stands anywhere. Without braces, `^` needs a letter, a digit or a closing bracket before it, and `_` a single letter,
+/// so that `my_ball` and `x_1_2` stay as they are. `\_` and `\^` are the signs themselves.
+///
+/// # Errors
+///
+/// Returns all scripts in braces without an end or without letters.
+pub fn set(text: &str, follows: bool) -> Result<String, Vec<BadScript>> {
+    let (mut out, mut wrong) = (String::with_capacity(text.len()), Vec::new());
+    let mut at = 0;
+    // Whether a script ended right before `at`.
+    let mut after_script = follows;
+    while let Some(letter) = text[at..].chars().next() {
+        let rest = &text[at + letter.len_utf8()..];
+        if let Some(sign) = rest.chars().next().filter(|sign| letter == '\\' && matches!(sign, '_' | '^')) {
+            out.push(sign);
+            (at, after_script) = (at + 2, false);
+            continue;
+        }
+        match script(text, at, after_script) {
+            Some(Ok((inside, end))) => {
+                push(&mut out, letter == '^', inside);
+                (at, after_script) = (end, true);
+            }
+            found => {
+                wrong.extend(found.and_then(Result::err));
+                out.push(letter);
+                (at, after_script) = (at + letter.len_utf8(), false);
+            }
+        }
+    }
+    if wrong.is_empty() { Ok(out) } else { Err(wrong) }
+}
+
+/// True if a brace at this byte begins a script.
+pub fn is_script(text: &str, brace: usize) -> bool {
+    let before = &text[..brace];
+    before.ends_with(['_', '^']) && !before[..before.len() - 1].ends_with('\\')
+}
+
+/// Returns the letters of the script whose sign is at the byte `at`, and the byte after the script. `None` if there is no script.
+fn script(text: &str, at: usize, after_script: bool) -> Option<Result<(&str, usize), BadScript>> {
+    let is_raised = text[at..].starts_with('^');
+    if !is_raised && !text[at..].starts_with('_') {
+        return None;
+    }
+    let rest = &text[at + 1..];
+    if let Some(inside) = rest.strip_prefix('{') {
+        let Some(length) = inside.find('}') else {
+            return Some(Err(BadScript { range: at..at + 2, is_open: true }));
+        };
+        if inside[..length].trim().is_empty() {
+            return Some(Err(BadScript { range: at..at + length + 3, is_open: false }));
+        }
+        return Some(Ok((&inside[..length], at + length + 3)));
+    }
+    let before = &text[..at];
+    let has_base = match is_raised {
+        true => {
+            after_script || before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '°'))
+        }
+        false => after_script && at > 0 || ends_with_single_letter(before),
+    };
+    let length = if is_raised { raised_length(rest) } else { word_length(rest) };
+    // A second `_` makes it a name, such as `a_b_c`.
+    let is_name = !is_raised && rest[length..].strip_prefix('_').is_some_and(|next| word_length(next) > 0);
+    (has_base && length > 0 && !is_name).then(|| Ok((&rest[..length], at + 1 + length)))
+}
+
+/// The length of the letters and digits at the start of a text, bytes.
+fn word_length(text: &str) -> usize {
+    text.find(|c: char| !c.is_alphanumeric()).unwrap_or(text.len())
+}
+
+/// The length of an exponent at the start of a text, bytes: a sign, and letters or a number.
+fn raised_length(text: &str) -> usize {
+    let digits = text.trim_start_matches(['+', '-', '−']);
+    let sign = text.chars().next().filter(|_| digits.len() < text.len()).map_or(0, char::len_utf8);
+    let word = word_length(&text[sign..]);
+    let end = sign + word;
+    let is_number = word > 0 && text[sign..end].bytes().all(|byte| byte.is_ascii_digit());
+    match text[end..].strip_prefix('.').filter(|_| is_number) {
+        Some(rest) => {
+            let decimals = rest.bytes().take_while(u8::is_ascii_digit).count();
+            if decimals > 0 { end + 1 + decimals } else { end }
+        }
+        None => end,
+    }
+}
+
+/// True if a text ends with a letter that is no part of a word: `v`, `2v` and `Δx` do, and `my` and `a_b` do not.
+fn ends_with_single_letter(text: &str) -> bool {
+    let mut letters = text.chars().rev();
+    let is_greek = |c: char| matches!(c, '\u{370}'..='\u{3ff}' | '\u{1f00}'..='\u{1fff}');
+    let Some(last) = letters.next().filter(|letter| letter.is_alphabetic()) else { return false };
+    match letters.find(|c| !c.is_ascii_digit()) {
+        Some('_' | '^') => false,
+        Some(before) => !before.is_alphabetic() || is_greek(before) != is_greek(last),
+        None => true,
+    }
+}
+
+/// Appends a script to a set text.
+fn push(out: &mut String, is_raised: bool, inside: &str) {
+    let inside = with_minus(inside);
+    let small: Option<String> = inside.chars().map(|letter| unicode(is_raised, letter)).collect();
+    match small {
+        Some(small) => out.push_str(&small),
+        None => {
+            out.push(if is_raised { RAISE } else { LOWER });
+            out.push_str(&inside);
+            out.push(END);
+        }
+    }
+}
+
+/// Replaces hyphens that are minus signs: those at the start and before digits.
+fn with_minus(text: &str) -> String {
+    let is_minus = |at: usize| at == 0 || text[at + 1..].starts_with(|next: char| next.is_ascii_digit());
+    let letters = text.char_indices();
+    letters.map(|(at, letter)| if letter == '-' && is_minus(at) { '−' } else { letter }).collect()
+}
+
+/// Returns the letter of Unicode for a digit or sign in a script.
+fn unicode(is_raised: bool, letter: char) -> Option<char> {
+    const LETTERS: [&str; 3] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎"];
+    let number = LETTERS[0].chars().position(|known| known == letter)?;
+    LETTERS[if is_raised { 1 } else { 2 }].chars().nth(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sets a text, and shows the marks as `<`, `>` and `|`.
+    fn shown(text: &str) -> String {
+        let set = set(text, false).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}"));
+        set.replace(LOWER, "<").replace(RAISE, ">").replace(END, "|")
+    }
+
+    #[test]
+    fn scripts_of_digits_are_letters_of_unicode() {
+        for (text, expected) in [
+            ("v_0", "v₀"),
+            ("x_12, ω_0", "x₁₂, ω₀"),
+            ("10^{-6} m/s^2", "10⁻⁶ m/s²"),
+            ("10^-6", "10⁻⁶"),
+            ("x_0^2", "x₀²"),
+            ("(a+b)^2", "(a+b)²"),
+            ("^{14}C, Na^+", "¹⁴C, Na⁺"),
+            ("½mv_{0}^2", "½mv₀²"),
+            ("2v_0, Δx_0", "2v₀, Δx₀"),
+        ] {
+            assert_eq!(shown(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn other_scripts_are_lowered_and_raised_letters() {
+        for (text, expected) in [
+            ("x_{max} = 2", "x<max| = 2"),
+            ("E_kin", "E<kin|"),
+            ("e^x", "e>x|"),
+            ("e^{-kt}", "e>−kt|"),
+            ("x_{i-1}^{a-b}", "x<i−1|>a-b|"),
+            ("v_x(t)", "v<x|(t)"),
+            ("10^1.5.", "10>1.5|."),
+        ] {
+            assert_eq!(shown(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn names_and_signs_alone_stay_as_they_are() {
+        for text in [
+            "my_ball", "a_b_c", "x_", "_0", "x _0", "a ^ b", "^_^", "1_000", "2^", "{t}", "k2v_0", "a\\b",
+            "é_",
+        ] {
+            assert_eq!(shown(text), text);
+        }
+        assert_eq!(shown(r"v\_0 x\^2 v_0"), "v_0 x^2 v₀");
+        assert_eq!(set("^2", true).unwrap(), "²", "a value stands before it");
+    }
+
+    #[test]
+    fn a_script_without_an_end_is_a_mistake_at_its_place() {
+        let wrong = |range, is_open| BadScript { range, is_open };
+        assert_eq!(set("é x_{max", false), Err(vec![wrong(4..6, true)]));
+        assert_eq!(set("x_{} y^{ }", false), Err(vec![wrong(1..4, false), wrong(6..10, false)]));
+    }
+
+    #[test]
+    fn runs_are_as_wide_as_their_letters() {
+        let text = set("x_{max} and", false).unwrap();
+        let runs: Vec<Run<'_>> = runs(&text).collect();
+        let run = |level, letters| Run { level, letters };
+        assert_eq!(runs, [run(Level::Line, "x"), run(Level::Lower, "max"), run(Level::Line, " and")]);
+        let expected = font::width("x and") + SMALL * font::width("max");
+        assert!((width(&text) - expected).abs() < 1e-9);
+        assert_eq!(closed(text[..4].to_owned()), "x\u{11}ma\u{13}");
+        assert_eq!(closed(text.clone()), text);
+    }
+}

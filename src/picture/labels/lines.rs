@@ -1,0 +1,246 @@
+//! Breaks labels into lines, where they are wider than the picture.
+
+use super::super::framing::Free;
+use super::super::text::{LINE, MARGIN};
+use super::height;
+use super::said::sample;
+use crate::lettering;
+use crate::scene::{Label, LabelPlace, Output, Piece};
+
+/// The largest part of the picture's height that a label in a corner may take after it was broken into lines.
+const MOST: f64 = 0.5;
+/// The same for a label in the center.
+const MOST_IN_CENTER: f64 = 0.9;
+
+/// A label whose lines fit into the picture.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// The label, with a line break after each line.
+    pub(super) label: Label,
+    /// The height of a line of text in the image plane.
+    pub(super) height: f64,
+    /// The number of lines.
+    pub(super) rows: usize,
+    /// The width of the longest line.
+    pub(super) wide: f64,
+}
+
+impl Block {
+    /// Breaks a label into lines at spaces if it is wider than the free part of the picture. The lines get about the same length. If a
+    /// word is too long, or if there are too many lines, the letters get smaller. A label beside a body keeps its lines.
+    pub(super) fn new(label: &Label, free: Free, output: Output) -> Block {
+        let aspect = f64::from(output.height) / f64::from(output.width);
+        let words = Words::of(label);
+        let mut height = height(label, output);
+        let (mut rows, mut breaks, mut wide) = (words.lines.len(), Vec::new(), words.widest());
+        let room = 2.0 * (free.half - MARGIN);
+        let most = match label.place {
+            LabelPlace::Body { .. } => f64::INFINITY,
+            LabelPlace::Corner(_) => MOST * 2.0 * aspect,
+            LabelPlace::Center => MOST_IN_CENTER * 2.0 * aspect,
+        };
+        if most.is_finite() && wide * height > room {
+            height = height.min(room / words.longest().max(1e-9));
+            rows = words.broken(room / height).0;
+            while rows > words.lines.len() && row_heights(rows) * height > most {
+                height *= 0.95;
+                rows = words.broken(room / height).0;
+            }
+            // The least width with the same number of lines makes lines of about the same length.
+            let (mut low, mut high) = (words.longest(), room / height);
+            for _ in 0..20 {
+                let middle = (low + high) / 2.0;
+                if words.broken(middle).0 > rows { low = middle } else { high = middle }
+            }
+            (_, breaks, wide) = words.broken(high);
+        }
+        Block { label: with_breaks(label, &breaks), height, rows, wide: wide * height }
+    }
+
+    /// The height of all lines.
+    pub(super) fn high(&self) -> f64 {
+        row_heights(self.rows) * self.height
+    }
+}
+
+/// The height of lines, relative to the size of their letters.
+#[allow(clippy::cast_precision_loss, reason = "there are few lines")]
+fn row_heights(rows: usize) -> f64 {
+    rows as f64 * LINE
+}
+
+/// The widths of the words of a label, relative to the size of its letters. A word is what stands between two spaces; a value is as wide
+/// as a number of the largest expected length.
+struct Words {
+    /// The words of each line that the scene writes. No line is without words, but words can be empty.
+    lines: Vec<Vec<f64>>,
+    space: f64,
+}
+
+impl Words {
+    fn of(label: &Label) -> Words {
+        let mut lines = vec![vec![0.0]];
+        for (piece, follows) in with_preceding(&label.text) {
+            for (separator, letters) in parts(&sample(piece), follows) {
+                let wide = lettering::width(letters);
+                // There is always a last line with a last word.
+                let Some(line) = lines.last_mut() else { continue };
+                match separator {
+                    Some('\n') => lines.push(vec![wide]),
+                    Some(_) => line.push(wide),
+                    None => line.iter_mut().next_back().into_iter().for_each(|word| *word += wide),
+                }
+            }
+        }
+        Words { lines, space: lettering::width(" ") }
+    }
+
+    /// The width of the longest word.
+    fn longest(&self) -> f64 {
+        self.lines.iter().flatten().copied().fold(0.0, f64::max)
+    }
+
+    /// The width of the longest line that the scene writes.
+    fn widest(&self) -> f64 {
+        self.broken(f64::INFINITY).2
+    }
+
+    /// Breaks the lines where they would be longer than `room`. Returns the number of lines, the numbers of the spaces that become breaks,
+    /// and the width of the longest line.
+    fn broken(&self, room: f64) -> (usize, Vec<usize>, f64) {
+        let (mut breaks, mut widest, mut space) = (Vec::new(), 0.0_f64, 0);
+        for line in &self.lines {
+            let mut wide = line[0];
+            for word in &line[1..] {
+                let longer = wide + self.space + word;
+                if longer > room * (1.0 + 1e-9) {
+                    breaks.push(space);
+                    widest = widest.max(wide);
+                    wide = *word;
+                } else {
+                    wide = longer;
+                }
+                space += 1;
+            }
+            widest = widest.max(wide);
+        }
+        (self.lines.len() + breaks.len(), breaks, widest)
+    }
+}
+
+/// Returns each piece of a label, with whether a value stands right before it.
+fn with_preceding(pieces: &[Piece]) -> impl Iterator<Item = (&Piece, bool)> {
+    let before =
+        std::iter::once(false).chain(pieces.iter().map(|piece| matches!(piece, Piece::Value { .. })));
+    pieces.iter().zip(before)
+}
+
+/// Returns the bytes of a set text at which it can be split: its line breaks, and its spaces except of those between a number and a unit.
+/// `follows` tells whether a value stands right before the text.
+fn splits(text: &str, follows: bool) -> impl Iterator<Item = usize> {
+    lettering::spaces(text).filter(move |at| {
+        let is_after_number =
+            if *at == 0 { follows } else { text[..*at].ends_with(|c: char| c.is_numeric()) };
+        let is_before_word = text[at + 1..].starts_with(char::is_alphabetic);
+        text[*at..].starts_with('\n') || !(is_after_number && is_before_word)
+    })
+}
+
+/// Splits a set text where it can be. Returns each part with the space or line break before it, if any.
+fn parts(text: &str, follows: bool) -> Vec<(Option<char>, &str)> {
+    let (mut parts, mut begin, mut separator) = (Vec::new(), 0, None);
+    for at in splits(text, follows) {
+        parts.push((separator, &text[begin..at]));
+        // Both are one byte long.
+        (begin, separator) = (at + 1, text[at..].chars().next());
+    }
+    parts.push((separator, &text[begin..]));
+    parts
+}
+
+/// Replaces spaces of a label, given by their numbers, by line breaks.
+fn with_breaks(label: &Label, breaks: &[usize]) -> Label {
+    let mut number = 0;
+    let mut broken = label.clone();
+    if breaks.is_empty() {
+        return broken;
+    }
+    let mut follows = false;
+    for piece in &mut broken.text {
+        let follows = std::mem::replace(&mut follows, matches!(piece, Piece::Value { .. }));
+        let Piece::Words(words) = piece else { continue };
+        let spaces: Vec<usize> = splits(words, follows).filter(|at| words[*at..].starts_with(' ')).collect();
+        for at in spaces {
+            if breaks.contains(&number) {
+                words.replace_range(at..=at, "\n");
+            }
+            number += 1;
+        }
+    }
+    broken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn block(label: &str, size: [u32; 2]) -> Block {
+        let [width, height] = size;
+        let scene = Scene::parse(&format!(
+            "output.size = [{width}, {height}]\n[body.ball]\nshape.sphere.radius = 1\n[label.note]\n{label}"
+        ));
+        let scene = scene.unwrap();
+        Block::new(&scene.labels[0], Free::ALL, scene.output)
+    }
+
+    /// The lines of a block, with `#` for a value.
+    fn lines(block: &Block) -> Vec<String> {
+        let piece = |piece: &Piece| match piece {
+            Piece::Words(words) => words.clone(),
+            Piece::Value { .. } => "#".to_owned(),
+        };
+        block.label.text.iter().map(piece).collect::<String>().split('\n').map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_label_wider_than_the_picture_is_broken_into_lines_of_about_the_same_length() {
+        let text = "text = 'A ball falls from a height of ${ball.y:.1} m to the ground, and loses energy at each impact'";
+        let wide = block(text, [320, 180]);
+        let usual = block("text = 'short'", [320, 180]);
+        assert_eq!(wide.height, usual.height, "its letters do not shrink");
+        let said = lines(&wide);
+        assert_eq!((said.len(), wide.rows), (3, 3), "{said:?}");
+        let widths: Vec<f64> = said.iter().map(|line| lettering::width(line)).collect();
+        assert!(widths.iter().all(|wide| *wide > 0.7 * widths[0]), "{said:?}");
+        assert!(wide.wide < 2.0 - 2.0 * MARGIN);
+        assert_eq!(lines(&block(text, [1280, 360])).len(), 1, "a wide picture has room for one line");
+    }
+
+    #[test]
+    fn a_number_and_its_unit_stay_in_one_line() {
+        for width in (200..400).step_by(10) {
+            let text = "text = 'It has 18 m/s, and then ${ball.speed:.1} m/s, and at the end 2 m/s'";
+            let said = lines(&block(text, [width, 180]));
+            assert!(said.iter().all(|line| !line.starts_with("m/s")), "{said:?}");
+        }
+    }
+
+    #[test]
+    fn a_line_break_of_the_scene_stays() {
+        assert_eq!(lines(&block(r#"text = "one\ntwo words""#, [320, 180])), ["one", "two words"]);
+        let both =
+            block("text = \"Head\\nA ball falls from a height of 10 m, and it loses energy\"", [320, 180]);
+        let said = lines(&both);
+        assert!(said.len() == 3 && said[0] == "Head", "{said:?}");
+    }
+
+    #[test]
+    fn letters_shrink_if_a_word_is_too_long_or_there_are_too_many_lines() {
+        let usual = block("text = 'short'", [320, 180]).height;
+        let word = block(&format!("text = '{}'", "W".repeat(80)), [320, 180]);
+        assert!(word.height < usual && word.rows == 1, "{word:?}");
+        let many = block(&format!("size = 0.2\ntext = '{}'", "word ".repeat(30).trim()), [320, 180]);
+        assert!(many.high() <= 0.5 * 2.0 * 180.0 / 320.0 && many.rows > 4, "{many:?}");
+    }
+}
