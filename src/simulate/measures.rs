@@ -13,14 +13,14 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::build::forces;
-use super::{Frame, Ghost, ImpactCounts, shown};
+use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, shown};
 use crate::physics::{
     Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
     find,
 };
 use crate::scene::{
-    Aggregate, Body, BodyMeasure, ForceMeasure, JointState, Measure, MeasureFormula, Piece, Quantity,
-    RunMeasure, Scene, Subject,
+    Aggregate, Angle, Body, BodyMeasure, Distance, ForceMeasure, JointState, Measure, MeasureFormula, Piece,
+    Quantity, RunMeasure, Scene, Subject,
 };
 
 /// What is known at a moment: at a frame, or at the time of a ghost.
@@ -92,6 +92,8 @@ impl fmt::Debug for ShownForce {
 /// Computes the measures of a scene.
 #[derive(Clone, Debug)]
 pub struct Measures {
+    angles: Vec<Angle>,
+    distances: Vec<Distance>,
     /// The bodies of the scene. Empty if the scene shows no measures.
     bodies: Vec<Body>,
     /// The coordinates of hinges and sliders, indexed by joint. `None` for other joints.
@@ -121,6 +123,8 @@ impl Measures {
         Measures {
             bodies: if scene.shows_measures() { scene.bodies.clone() } else { Vec::new() },
             joints,
+            angles: scene.angles.clone(),
+            distances: scene.distances.clone(),
             aggregates: scene.aggregates.clone(),
             forces: shown.collect(),
         }
@@ -181,6 +185,13 @@ impl Measures {
             Measure::Force(force, Some(Subject::One(body)), measure) => {
                 let loads = self.loads(force, moment).zip(find(moment.bodies, body));
                 loads.map_or(f64::NAN, |(loads, at)| of_force(&loads, at, measure))
+            }
+            Measure::Angle(number) => {
+                let now = AngleNow::of(&self.angles[number], &self.bodies, moment.bodies);
+                now.map_or(f64::NAN, |now| now.value.to_degrees())
+            }
+            Measure::Length(number) => {
+                DistanceNow::of(&self.distances[number], moment.bodies).map_or(f64::NAN, |now| now.value)
             }
             Measure::Aggregate(number) => self.aggregate(number, moment),
             // An aggregate asks for the measures of one body after the other.

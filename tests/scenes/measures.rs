@@ -51,6 +51,13 @@ const SCENE: &str = "
     [joint.rail.slider]
     between = [[-2, 0, 0], 'bead']
     axis = [1, -1, 0]
+    [angle.phi]
+    at = [-4, 1, 1]
+    from = [0, -1, 0]
+    to = 'bob'
+    [distance.h]
+    between = [[0, 0, 0], 'ball']
+    along = [0, 1, 0]
     ";
 
 /// Returns the names of all measures of the scene: those of the list of all measures, with names of the scene's things in it. So a measure
@@ -69,6 +76,7 @@ fn names(scene: &Scene) -> Vec<String> {
             continue;
         }
         let name = name.replace("force.NAME.BODY", "force.air.gas[1]").replace("force.NAME", "force.pull");
+        let name = name.replace("angle.NAME", "angle.phi").replace("distance.NAME", "distance.h");
         let body = if name.contains('(') { "gas" } else { "ball" };
         names.push(name.replace("BODY", body).replace("OTHER", "crate"));
     }
@@ -115,6 +123,13 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
     // The values are no accident: the ball has fallen 0.3 m, has rebounded once, and still turns.
     assert_eq!(value("ball.impacts"), 1.0);
     assert!(value("ball.spin") > 1.0 && value("joint.hook.motor") != 0.0);
+
+    // The distance is the height of the ball, and the tangent of the angle is that of the way from the hook of the spring to the bob.
+    assert!((value("distance.h") - value("ball.y").abs()).abs() < 1e-8);
+    let bob = last.bodies.iter().find(|body| scene.bodies[body.id].name.as_ref() == "bob").unwrap();
+    let [x, y, z] = (bob.location - jabuka::physics::DVec3::new(-4.0, 1.0, 1.0)).to_array();
+    let expected = libm::atan2((x * x + z * z).sqrt(), -y).to_degrees();
+    assert!((value("angle.phi") - expected).abs() < 1e-8 && expected > 1.0, "{expected}");
 
     let (mut bodies, mut joints) = (Vec::new(), Vec::new());
     let selection = Selection::first(scene.simulation.timeline.frames());

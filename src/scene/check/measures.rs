@@ -4,6 +4,7 @@ mod aggregates;
 mod bodies;
 mod dotted;
 mod forces;
+mod marks;
 mod unit;
 mod words;
 

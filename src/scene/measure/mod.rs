@@ -87,6 +87,10 @@ pub enum Measure {
     Impacts(usize),
     /// The distance between the centers of two bodies, m. The number is the index of the second body in the scene.
     Distance(Subject, usize),
+    /// An angle of the scene, degrees. The number is an index into `angles` of the scene.
+    Angle(usize),
+    /// The length of a dimension line, m. The number is an index into `distances` of the scene.
+    Length(usize),
     /// A quantity of several bodies. The number is an index into `aggregates` of the scene.
     Aggregate(usize),
 }
@@ -96,6 +100,12 @@ const OF_TWO_BODIES: [(&str, &str, &str); 3] = [
     ("BODY.distance.OTHER", "m", "the distance between the centers of two bodies"),
     ("BODY.impacts.OTHER", "", "the number of impacts between two bodies so far"),
     ("BODY.impacts.ground", "", "the number of its impacts with the ground so far"),
+];
+
+/// The measures of marks, each with its name in formulas, its unit and its meaning.
+const OF_MARKS: [(&str, &str, &str); 2] = [
+    ("angle.NAME", "°", "the angle of `[angle.NAME]`"),
+    ("distance.NAME", "m", "the length of `[distance.NAME]`"),
 ];
 
 /// A line of the list of all measures.
@@ -134,6 +144,7 @@ impl Measure {
             )
         };
         list.extend(ForceMeasure::ALL.map(of_force));
+        list.extend(OF_MARKS.map(|(name, unit, meaning)| line(name.to_owned(), unit, meaning)));
         let of_copies = |(name, _, meaning): (&str, _, _)| {
             line(format!("{name}(BODY.speed)"), BodyMeasure::Speed.unit(), meaning)
         };

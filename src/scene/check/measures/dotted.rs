@@ -44,6 +44,15 @@ impl Reader<'_, '_, '_> {
                 self.note(&mut dotted, joined, measure, &formula[begin..taken], start + begin)?;
                 continue;
             }
+            if let Some((begin, name, measure)) =
+                self.of_mark(&formula[..at], &formula[at + 1..], start + at + 1)
+            {
+                taken = at + 1 + name.len();
+                let joined = formula[begin..taken].replace(|c| !is_part(c), &joint);
+                plain.replace_range(begin..taken, &joined);
+                self.note(&mut dotted, joined, measure?, &formula[begin..taken], start + begin)?;
+                continue;
+            }
             if let Some((name, rest)) = self.force_name(&formula[..at], &formula[at + 1..]) {
                 let begin = at - "force".len();
                 let behind = at + 1 + name.len() + 1;

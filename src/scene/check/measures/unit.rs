@@ -75,7 +75,8 @@ impl Reader<'_, '_, '_> {
             Measure::Joint(joint, measure) => (measure.unit_of(&self.things.joints[joint].kind), false),
             Measure::Force(_, _, measure) => (measure.unit(), false),
             Measure::Impacts(_) => ("", true),
-            Measure::Distance(..) => ("m", false),
+            Measure::Distance(..) | Measure::Length(_) => ("m", false),
+            Measure::Angle(_) => ("°", false),
             Measure::Aggregate(number) => {
                 let aggregate = &self.context.aggregates[number];
                 let is_count = aggregate.formula.is_count && aggregate.how != crate::scene::Aggregation::Mean;
