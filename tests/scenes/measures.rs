@@ -127,7 +127,7 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
     // The distance is the height of the ball, and the tangent of the angle is that of the way from the hook of the spring to the bob.
     assert!((value("distance.h") - value("ball.y").abs()).abs() < 1e-8);
     let bob = last.bodies.iter().find(|body| scene.bodies[body.id].name.as_ref() == "bob").unwrap();
-    let [x, y, z] = (bob.location - jabuka::physics::DVec3::new(-4.0, 1.0, 1.0)).to_array();
+    let [x, y, z] = (bob.location - glam::DVec3::new(-4.0, 1.0, 1.0)).to_array();
     let expected = libm::atan2((x * x + z * z).sqrt(), -y).to_degrees();
     assert!((value("angle.phi") - expected).abs() < 1e-8 && expected > 1.0, "{expected}");
 
