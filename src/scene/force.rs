@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::SpringLook;
 use super::law::FormulaLaw;
 use crate::physics::{
-    BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz, Spring,
+    Anchor, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz,
+    Spring,
 };
 
 /// A named force between bodies, on bodies, or on particles. The `force` key of a single body is part of that body instead.
@@ -74,7 +75,7 @@ impl ForceKind {
             ForceKind::Buoyancy(buoyancy) => buoyancy.bodies.iter().map(|(body, _)| *body).collect(),
             ForceKind::J2(J2 { planet, bodies, .. }) => both(bodies, &Some(vec![*planet])),
             ForceKind::Spring { links, .. } => {
-                links.iter().flat_map(|link| link.between).filter_map(|end| end.body()).collect()
+                links.iter().flat_map(|link| link.between).filter_map(Anchor::body).collect()
             }
         };
         bodies.sort_by_key(|body| body.index());

@@ -132,6 +132,16 @@ fn what_cannot_be_listed_is_an_error() {
     assert!(CATEGORIES.iter().all(|category| said.contains(category.name)), "{said}");
 }
 
+#[test]
+fn measures_are_listed_with_units_and_meanings() {
+    let said = stdout(&jabuka().args(["list", "measures"]).output().unwrap());
+    for words in
+        ["\nBODY.speed ", "\nBODY.distance.OTHER ", "\nforce.NAME.x ", " m/s  ", "the distance between"]
+    {
+        assert!(said.contains(words), "{words} is not in {said}");
+    }
+}
+
 const MEETING: &str = "
     simulation.duration = 2
     [body.left]
@@ -273,7 +283,7 @@ fn explain_tells_about_keys_and_names() {
         "studio: A photographer's room: white and seamless, with soft lights\n\
          in `jabuka list environments`: `environment`\n"
     );
-    assert!(stdout(&explain("ball.speed")).starts_with("speed: of a body: "));
+    assert!(stdout(&explain("ball.speed")).starts_with("BODY.speed: m/s its speed\n"));
     let output = explain("simulation.gravty");
     let said = stderr(&output);
     let begin = "error: there is no code or key `simulation.gravty`; did you mean `simulation.gravity`?\n";
