@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{BVec3, DVec3};
 
 use super::angle::drawn;
 use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sketch};
+use crate::physics::Anchor;
 use crate::picture::length::prefixed;
 use crate::picture::number;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Color, Distance, Scene};
-use crate::simulate::DistanceNow;
+use crate::simulate::{Bounds, DistanceNow};
 
 /// The length of a tick on each side of the line, relative to the width in view.
 const TICK_LENGTH: f64 = 0.009;
@@ -34,6 +35,27 @@ pub(super) fn marks(scene: &Scene, ink: Color) -> Vec<Arc<dyn Mark>> {
             as Arc<dyn Mark>
     };
     scene.distances.iter().map(mark).collect()
+}
+
+/// Extends the bounds of a run by the dimension lines that stand beside its bodies. `bounds` contain the bodies and all fixed points. The
+/// place of a moving end is not known here, so each corner of the bounds counts as one.
+pub(in crate::picture) fn with_lines(scene: &Scene, bounds: Bounds) -> Bounds {
+    let Bounds { min, max } = bounds;
+    let corners = (0..8).map(|corner: u32| {
+        let pick = |axis: u32| corner >> axis & 1 == 1;
+        DVec3::select(BVec3::new(pick(0), pick(1), pick(2)), max, min)
+    });
+    let ends = |distance: &Distance| {
+        let Distance { between, along, offset, .. } = distance.clone();
+        let corners = corners.clone();
+        corners.map(move |corner| match (between[0], along) {
+            (Anchor::Point(begin), Some(along)) => begin + offset + along * (corner - begin).dot(along),
+            _ => corner + offset,
+        })
+    };
+    let beside = scene.distances.iter().filter(|distance| distance.offset != DVec3::ZERO);
+    let points = beside.flat_map(ends).map(|point| Bounds { min: point, max: point });
+    points.fold(bounds, Bounds::union)
 }
 
 impl Mark for DistanceMark {

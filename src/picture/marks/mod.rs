@@ -12,6 +12,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 pub(super) use self::arrow::ArrowMarks;
+pub(super) use self::distance::with_lines;
 pub(super) use self::note::{Note, Says, place};
 
 use super::camera::Placed;

@@ -22,7 +22,7 @@ use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
-use super::marks::{ArrowMarks, Marks};
+use super::marks::{self, ArrowMarks, Marks};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{CurveNow, PlannedPlot, Plots, UnseenPlot};
 use super::scope::{Part, Scope};
@@ -110,6 +110,7 @@ impl Plan {
         if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {
             seen = seen.union(grid.bounds());
         }
+        seen = marks::with_lines(scene, seen);
         let eye = match scope.part {
             // If the body falls through the ground, the camera stops above the ground.
             Part::AroundBody(_) => eye_on(seen).within(span.bounds),
