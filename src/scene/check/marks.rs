@@ -1,12 +1,13 @@
 //! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the texts and components of arrows.
 
+use glam::DVec3;
+
 use super::label::pieces;
 use super::measures::Things;
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::physics::{Anchor, BodyId};
-use crate::scene::grammar::Bound;
 use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::marks::{angle, distance, leg};
 use crate::scene::grammar::scene::scene;
@@ -62,7 +63,7 @@ pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Ang
             name: name.to_owned(),
             vertex,
             legs: [from?, to?],
-            axis: view.get(&angle::AXIS).and_then(|axis| axis.try_normalize()),
+            axis: view.get(&angle::AXIS),
             radius: view.get(&angle::RADIUS),
             text,
             color: view.get(&angle::COLOR),
@@ -93,7 +94,7 @@ fn leg_of(
 ) -> Option<Leg> {
     let node = view.node(key)?;
     let leg = match &node.value {
-        Value::Array(_) => Leg::Along(read::vector(node, Bound::Any)?.try_normalize()?),
+        Value::Array(_) => Leg::Along(DVec3::from_array(read::direction(node).ok()?)),
         Value::Table(table) => {
             let view = View::new(&leg::TABLE, Some(table));
             match view.get(&leg::POINT) {
@@ -155,7 +156,7 @@ pub(super) fn distances(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<
         Some(Distance {
             name: name.to_owned(),
             between,
-            along: view.get(&distance::ALONG).and_then(|along| along.try_normalize()),
+            along: view.get(&distance::ALONG),
             offset: view.get(&distance::OFFSET),
             text,
             color: view.get(&distance::COLOR),
@@ -185,7 +186,7 @@ pub(super) fn arrow_marks(known: Known<'_, '_>, context: &mut Context<'_>) -> Ve
             let message = "`component_labels` has no effect without `components`";
             context.diagnostics.push(Diagnostic::warning(Code::NoEffect, message).at(span, ""));
         }
-        let components = components.map(|along| Components { along: along.normalize(), texts });
+        let components = components.map(|along| Components { along, texts });
         if text.is_some() || components.is_some() {
             marks.push(ArrowMark { owner, quantity, text, components });
         }
