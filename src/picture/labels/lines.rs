@@ -210,7 +210,7 @@ mod tests {
         let usual = block("text = 'short'", [320, 180]);
         assert_eq!(wide.height, usual.height, "its letters do not shrink");
         let said = lines(&wide);
-        assert_eq!((said.len(), wide.rows), (3, 3), "{said:?}");
+        assert_eq!((said.len(), wide.rows), (2, 2), "{said:?}");
         let widths: Vec<f64> = said.iter().map(|line| lettering::width(line)).collect();
         assert!(widths.iter().all(|wide| *wide > 0.7 * widths[0]), "{said:?}");
         assert!(wide.wide < 2.0 - 2.0 * MARGIN);
