@@ -1,8 +1,9 @@
 //! Texts with subscripts and superscripts.
 //!
-//! A scene writes `v_0`, `x_{max}` and `m/s^2`. Digits and signs become the letters that Unicode has for them: `v₀`, `m/s²`. The font has
-//! few such letters for words, with uneven gaps, so other scripts are set in smaller letters that are lowered or raised. In a set text,
-//! control characters stand around them, which no text of a scene can contain.
+//! A scene writes `v_0`, `x_{max}` and `m/s^2`. Raised digits and signs become the letters that Unicode has for them: `m/s²`. The lowered digits
+//! of the font hardly stand below the line, so a zero would look like the letter o, and the font has few such letters for words, with uneven
+//! gaps. So other scripts are set in smaller letters that are lowered or raised. In a set text, control characters stand around them, which no
+//! text of a scene can contain.
 
 use std::ops::Range;
 
@@ -212,7 +213,8 @@ fn ends_with_single_letter(text: &str) -> bool {
 /// Appends a script to a set text.
 fn push(out: &mut String, is_raised: bool, inside: &str) {
     let inside = with_minus(inside);
-    let small: Option<String> = inside.chars().map(|letter| unicode(is_raised, letter)).collect();
+    let raised = |letter| if is_raised { superscript(letter) } else { None };
+    let small: Option<String> = inside.chars().map(raised).collect();
     match small {
         Some(small) => out.push_str(&small),
         None => {
@@ -230,11 +232,11 @@ fn with_minus(text: &str) -> String {
     letters.map(|(at, letter)| if letter == '-' && is_minus(at) { '−' } else { letter }).collect()
 }
 
-/// Returns the letter of Unicode for a digit or sign in a script.
-fn unicode(is_raised: bool, letter: char) -> Option<char> {
-    const LETTERS: [&str; 3] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎"];
+/// Returns the letter of Unicode for a digit or sign in a superscript.
+fn superscript(letter: char) -> Option<char> {
+    const LETTERS: [&str; 2] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾"];
     let number = LETTERS[0].chars().position(|known| known == letter)?;
-    LETTERS[if is_raised { 1 } else { 2 }].chars().nth(number)
+    LETTERS[1].chars().nth(number)
 }
 
 #[cfg(test)]
@@ -248,17 +250,17 @@ mod tests {
     }
 
     #[test]
-    fn scripts_of_digits_are_letters_of_unicode() {
+    fn raised_digits_are_letters_of_unicode() {
         for (text, expected) in [
-            ("v_0", "v₀"),
-            ("x_12, ω_0", "x₁₂, ω₀"),
+            ("v_0", "v<0|"),
+            ("x_12, ω_0", "x<12|, ω<0|"),
             ("10^{-6} m/s^2", "10⁻⁶ m/s²"),
             ("10^-6", "10⁻⁶"),
-            ("x_0^2", "x₀²"),
+            ("x_0^2", "x<0|²"),
             ("(a+b)^2", "(a+b)²"),
             ("^{14}C, Na^+", "¹⁴C, Na⁺"),
-            ("½mv_{0}^2", "½mv₀²"),
-            ("2v_0, Δx_0", "2v₀, Δx₀"),
+            ("½mv_{0}^2", "½mv<0|²"),
+            ("2v_0, Δx_0", "2v<0|, Δx<0|"),
         ] {
             assert_eq!(shown(text), expected, "{text}");
         }
@@ -287,7 +289,7 @@ mod tests {
         ] {
             assert_eq!(shown(text), text);
         }
-        assert_eq!(shown(r"v\_0 x\^2 v_0"), "v_0 x^2 v₀");
+        assert_eq!(shown(r"v\_0 x\^2 v_0"), "v_0 x^2 v<0|");
         assert_eq!(set("^2", true).unwrap(), "²", "a value stands before it");
     }
 

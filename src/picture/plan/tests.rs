@@ -134,6 +134,19 @@ fn lines_of_labels_stand_below_each_other_at_their_corner() {
 }
 
 #[test]
+fn a_title_in_the_center_moves_away_from_long_captions() {
+    let title = "[label.title]\ntext = 'Title'\ncorner = 'center'\n";
+    let caption = "[label.caption]\ntext = \"1\\n2\\n3\\n4\\n5\\n6\"\ncorner = 'bottom'\nuntil = 0.5\n";
+    let (plan, frames) = labelled(&format!("{title}{caption}"));
+    let texts = [0, 3].map(|frame| plan.texts(&frames[frame]));
+    let [with, without] = [&texts[0], &texts[1]].map(|texts| texts[0].y.above_middle(0.5625));
+    let [title, caption] = &texts[0][..] else { panic!("{texts:?}") };
+    assert!(without.abs() < 0.5 * title.height, "it stands in the middle: {without}");
+    let top = caption.y.above_middle(0.5625) + 0.73 * caption.height;
+    assert!(with > without && with - 0.25 * title.height > top, "{with} above {top}");
+}
+
+#[test]
 fn a_decimal_comma_is_in_all_numbers_of_a_picture() {
     let keys = "[output]\nsize = [320, 180]\ndecimal = ','\n[label.l]\ntext = '0.5: ${t:.2}'\n[scale_bar]\nlength = 1.5\n\
         [grid]\nspacing = 0.25\n[plot.p]\ny = 't'";
