@@ -59,6 +59,8 @@ impl Layout {
             places.push((*number, Place { x: free.center, y, align: 0.5 }));
             top -= block.high();
         }
+        // In the order of the scene.
+        places.sort_by_key(|(number, _)| *number);
         Layout { from, places }
     }
 }
@@ -69,8 +71,8 @@ fn middle(taken: &[Taken], [wide, high]: [f64; 2], (free, aspect): (Free, f64)) 
     let [mut floor, mut ceiling] = [-aspect, aspect];
     for Taken { is_top, across, inset } in taken {
         let is_beside = across[1] < free.center - wide / 2.0 || across[0] > free.center + wide / 2.0;
-        // A panel of a plot is known from both edges, and what crosses the middle has no side.
-        if is_beside || inset[1] > aspect {
+        // A panel of a plot is known from both edges. It counts from the nearer one.
+        if is_beside || inset[0] + inset[1] > 2.0 * aspect {
             continue;
         }
         match is_top {
