@@ -169,9 +169,9 @@ fn script(text: &str, at: usize, after_script: bool) -> Option<Result<(&str, usi
         true => {
             after_script || before.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '°'))
         }
-        false => after_script && at > 0 || ends_with_single_letter(before),
+        false => after_script && at > 0 || is_base(before, &rest[..script_length(rest)]),
     };
-    let length = if is_raised { raised_length(rest) } else { word_length(rest) };
+    let length = if is_raised { raised_length(rest) } else { script_length(rest) };
     // A second `_` makes it a name, such as `a_b_c`.
     let is_name = !is_raised && rest[length..].strip_prefix('_').is_some_and(|next| word_length(next) > 0);
     (has_base && length > 0 && !is_name).then(|| Ok((&rest[..length], at + 1 + length)))
@@ -182,11 +182,20 @@ fn word_length(text: &str) -> usize {
     text.find(|c: char| !c.is_alphanumeric()).unwrap_or(text.len())
 }
 
+/// The length of a script without braces at the start of a text, bytes: a number, a word, or a sign such as ∞.
+fn script_length(text: &str) -> usize {
+    match text.chars().next() {
+        Some(first) if first.is_ascii_digit() => text.bytes().take_while(u8::is_ascii_digit).count(),
+        Some(sign @ ('∞' | '∥' | '⊥' | '*')) => sign.len_utf8(),
+        _ => word_length(text),
+    }
+}
+
 /// The length of an exponent at the start of a text, bytes: a sign, and letters or a number.
 fn raised_length(text: &str) -> usize {
     let digits = text.trim_start_matches(['+', '-', '−']);
     let sign = text.chars().next().filter(|_| digits.len() < text.len()).map_or(0, char::len_utf8);
-    let word = word_length(&text[sign..]);
+    let word = script_length(&text[sign..]);
     let end = sign + word;
     let is_number = word > 0 && text[sign..end].bytes().all(|byte| byte.is_ascii_digit());
     match text[end..].strip_prefix('.').filter(|_| is_number) {
@@ -198,14 +207,25 @@ fn raised_length(text: &str) -> usize {
     }
 }
 
-/// True if a text ends with a letter that is no part of a word: `v`, `2v` and `Δx` do, and `my` and `a_b` do not.
-fn ends_with_single_letter(text: &str) -> bool {
-    let mut letters = text.chars().rev();
+/// True if a text ends with a letter that can have the subscript `script`. It is no part of a word: `v`, `2v` and `Δx` end so, and `my` and
+/// `a_b` do not. Before a number or a single letter, it may also be the second factor of a product, as in `mv_0`.
+fn is_base(text: &str, script: &str) -> bool {
     let is_greek = |c: char| matches!(c, '\u{370}'..='\u{3ff}' | '\u{1f00}'..='\u{1fff}');
-    let Some(last) = letters.next().filter(|letter| letter.is_alphabetic()) else { return false };
-    match letters.find(|c| !c.is_ascii_digit()) {
-        Some('_' | '^') => false,
-        Some(before) => !before.is_alphabetic() || is_greek(before) != is_greek(last),
+    let Some(last) = text.chars().next_back().filter(|letter| letter.is_alphabetic()) else { return false };
+    let before = &text[..text.len() - last.len_utf8()];
+    let Some(letter) = before.chars().next_back().filter(|letter| letter.is_alphabetic()) else {
+        return is_factor(before);
+    };
+    let is_short = script.chars().count() == 1 || script.bytes().all(|byte| byte.is_ascii_digit());
+    is_greek(letter) != is_greek(last) || is_short && is_factor(&before[..before.len() - letter.len_utf8()])
+}
+
+/// True if a factor of a product can begin behind a text: behind a number that is no part of a name, and behind signs and spaces.
+fn is_factor(text: &str) -> bool {
+    let before = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    match before.chars().next_back() {
+        Some('_') => before.len() < text.len() && is_base(&before[..before.len() - 1], &text[before.len()..]),
+        Some(letter) => letter != '^' && !letter.is_alphabetic(),
         None => true,
     }
 }
@@ -275,6 +295,9 @@ mod tests {
             ("e^{-kt}", "e>−kt|"),
             ("x_{i-1}^{a-b}", "x<i−1|>a-b|"),
             ("v_x(t)", "v<x|(t)"),
+            ("v_0t, H_2O, v^2t", "v<0|t, H<2|O, v²t"),
+            ("p = mv_0, mg_x, 2x_1x_2", "p = mv<0|, mg<x|, 2x<1|x<2|"),
+            ("v_∞, G_⊥", "v<∞|, G<⊥|"),
             ("10^1.5.", "10>1.5|."),
         ] {
             assert_eq!(shown(text), expected, "{text}");
@@ -284,7 +307,21 @@ mod tests {
     #[test]
     fn names_and_signs_alone_stay_as_they_are() {
         for text in [
-            "my_ball", "a_b_c", "x_", "_0", "x _0", "a ^ b", "^_^", "1_000", "2^", "{t}", "k2v_0", "a\\b",
+            "my_ball",
+            "ball_1",
+            "ball_0",
+            "part_1b_2",
+            "a_b_c",
+            "x_",
+            "_0",
+            "x _0",
+            "a ^ b",
+            "^_^",
+            "1_000",
+            "2^",
+            "{t}",
+            "k2v_0",
+            "a\\b",
             "é_",
         ] {
             assert_eq!(shown(text), text);

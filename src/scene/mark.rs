@@ -32,8 +32,15 @@ pub enum Leg {
     Along(DVec3),
     /// The direction from the vertex to a point.
     Towards(Anchor),
-    /// The direction of a quantity of the body with this index.
-    Of(usize, Quantity),
+    /// The direction of a vector of a body.
+    Of {
+        /// The index of the body.
+        body: usize,
+        /// The quantity.
+        quantity: Quantity,
+        /// The size up to which the vector counts as zero, in SI units: rounding leaves a little where a vector vanishes.
+        negligible: f64,
+    },
 }
 
 /// A dimension line: a line with the distance that it measures.
@@ -113,9 +120,17 @@ const GREEK: [(&str, &str); 24] = [
 ];
 
 impl Angle {
-    /// The usual text of an angle: the Greek letter that its name spells, or the name itself.
-    pub fn usual_text(name: &str) -> &str {
-        GREEK.iter().find(|(word, _)| *word == name).map_or(name, |(_, letter)| letter)
+    /// The usual text of an angle: its name, in which a word that spells a Greek letter is that letter: `alpha`, `Phi`, `omega_0`.
+    pub fn usual_text(name: &str) -> String {
+        let end = name.find('_').unwrap_or(name.len());
+        let word = &name[..end];
+        let small = word.to_lowercase();
+        let Some((_, letter)) = GREEK.iter().find(|(known, _)| *known == small) else {
+            return name.to_owned();
+        };
+        let is_capital = word.starts_with(char::is_uppercase);
+        let letter = if is_capital { letter.to_uppercase() } else { (*letter).to_owned() };
+        letter + &name[end..]
     }
 }
 
@@ -125,7 +140,11 @@ mod tests {
 
     #[test]
     fn a_name_that_spells_a_greek_letter_is_written_as_the_letter() {
-        assert_eq!((Angle::usual_text("alpha"), Angle::usual_text("launch")), ("α", "launch"));
+        for (name, text) in
+            [("alpha", "α"), ("launch", "launch"), ("omega_0", "ω_0"), ("Phi", "Φ"), ("my_pi", "my_pi")]
+        {
+            assert_eq!(Angle::usual_text(name), text);
+        }
         assert!(GREEK.iter().all(|(_, letter)| letter.chars().all(crate::font::has)));
     }
 }

@@ -27,8 +27,9 @@ impl AngleNow {
         let direction = |leg: Leg| match leg {
             Leg::Along(direction) => Some(direction),
             Leg::Towards(point) => (place(point, bodies)? - vertex).try_normalize(),
-            Leg::Of(body, quantity) => {
-                shown(quantity, &scene_bodies[body], find(bodies, body)?).try_normalize()
+            Leg::Of { body, quantity, negligible } => {
+                let vector = shown(quantity, &scene_bodies[body], find(bodies, body)?);
+                vector.try_normalize().filter(|_| vector.length() > negligible)
             }
         };
         // As seen along the axis, a leg has only its part across the axis.

@@ -35,13 +35,15 @@ impl Layout {
         let labels = labels.iter().map(|planned| &planned.block).enumerate();
         let visible: Vec<(usize, &Block)> =
             labels.filter(|(_, block)| block.label.is_visible(from)).collect();
+        // Plots and the scale bar.
+        let others = taken.len();
         let mut places = Vec::new();
         for (number, block) in &visible {
             let LabelPlace::Corner(corner) = block.label.place else { continue };
             let Block { height, rows, .. } = **block;
             let size = [block.wide, height, block.high()];
-            let inset = inset_without_overlap(&mut taken, corner, size, (free, 2.0 * aspect));
-            let (x, align) = across_free(corner, free);
+            let (x, align) = beside_others(&taken[..others], corner, size, free);
+            let inset = inset_without_overlap(&mut taken, corner, size, ((x, align), 2.0 * aspect));
             let y = match is_top(corner) {
                 true => Vertical::Top(inset + 0.3 * height),
                 false => Vertical::Bottom(inset - 0.3 * height + below(rows, height)),
@@ -112,16 +114,41 @@ pub(super) fn under_plot(area: Rectangle, aspect: f64) -> [Taken; 2] {
     [Taken { is_top: true, across, inset: inset[0] }, Taken { is_top: false, across, inset: inset[1] }]
 }
 
+/// The horizontal position of lines of text, and their alignment. In the middle of an edge, they move aside from plots and from the scale
+/// bar, by the smallest way at which they have room at the edge. `size` is the width of the longest line, the height of letters and that of
+/// all lines.
+fn beside_others(others: &[Taken], corner: Corner, [wide, height, high]: [f64; 3], free: Free) -> (f64, f64) {
+    let (x, align) = across_free(corner, free);
+    if !matches!(corner, Corner::Top | Corner::Bottom) {
+        return (x, align);
+    }
+    let gap = height / 2.0;
+    let at_edge = |other: &&Taken| {
+        other.is_top == is_top(corner) && other.inset[0] < MARGIN + high && other.inset[1] > MARGIN
+    };
+    let blocking: Vec<[f64; 2]> =
+        others.iter().filter(at_edge).map(|other| [other.across[0] - gap, other.across[1] + gap]).collect();
+    let [low, most] = [-1.0, 1.0].map(|side| free.center + side * (free.half - MARGIN - wide / 2.0));
+    let has_room = |x: &f64| {
+        let is_apart =
+            |other: &[f64; 2]| x + wide / 2.0 <= other[0] + 1e-9 || x - wide / 2.0 >= other[1] - 1e-9;
+        (low - 1e-9..=most + 1e-9).contains(x) && blocking.iter().all(is_apart)
+    };
+    let beside = blocking.iter().flat_map(|[left, right]| [left - wide / 2.0, right + wide / 2.0]);
+    let nearest = std::iter::once(x).chain(beside).filter(has_room);
+    let nearest = nearest.min_by(|one, other| (one - x).abs().total_cmp(&(other - x).abs()));
+    (nearest.unwrap_or(x), align)
+}
+
 /// Finds room for lines of text in a corner: the smallest distance from the edge at which they overlap no others. `size` is the width of
-/// the longest line, the height of letters and that of all lines. Returns the distance from the edge to the middle of the nearest line. Beyond the opposite edge, at the distance `most`, no room is reserved, since nothing
+/// the longest line, the height of letters and that of all lines. `x` is their horizontal position, and `align` the part of them there. Returns the distance from the edge to the middle of the nearest line. Beyond the opposite edge, at the distance `most`, no room is reserved, since nothing
 /// is visible.
 fn inset_without_overlap(
     taken: &mut Vec<Taken>,
     corner: Corner,
     [wide, height, high]: [f64; 3],
-    (free, most): (Free, f64),
+    ((x, align), most): ((f64, f64), f64),
 ) -> f64 {
-    let (x, align) = across_free(corner, free);
     let across = [x - align * wide, x - align * wide + wide];
     let overlap = |a: [f64; 2], b: [f64; 2]| a[0] < b[1] - 1e-9 && b[0] < a[1] - 1e-9;
     let mut begin = MARGIN;

@@ -78,6 +78,11 @@ impl Labels {
         self.labels.iter().any(|planned| is_beside(&planned.block.label))
     }
 
+    /// The height of the picture, relative to its width.
+    pub(super) fn aspect(&self) -> f64 {
+        self.aspect
+    }
+
     /// The height of a note's line of text in the image plane.
     pub(super) fn note_height(&self) -> f64 {
         self.note_height

@@ -90,11 +90,24 @@ impl Mark for DistanceMark {
                 .text
                 .as_deref()
                 .map_or_else(|| Says::Words(with_unit(now.value, scale.view)), Says::Text),
-            at: middle,
+            at: middle_of_visible([begin, end], scale).unwrap_or(middle),
             away: aside * outward.signum(),
             color: self.color,
         });
     }
+}
+
+/// The middle of the part of a line that is in the picture. `None` if no part is.
+fn middle_of_visible([begin, end]: [DVec3; 2], scale: &Scale<'_>) -> Option<DVec3> {
+    /// The number of points of the line that are tried.
+    const POINTS: u32 = 64;
+    let is_visible = |point: &DVec3| {
+        let spot = scale.screen.project(*point);
+        spot.is_some_and(|spot| spot.x.abs() < 1.0 && spot.y.abs() < scale.aspect)
+    };
+    let points = (0..=POINTS).map(|number| begin.lerp(end, f64::from(number) / f64::from(POINTS)));
+    let visible: Vec<DVec3> = points.filter(is_visible).collect();
+    Some((*visible.first()? + *visible.last()?) / 2.0)
 }
 
 /// Writes a length. The unit and the number of decimals follow from the width in view (m), so that they stay the same while the length

@@ -31,6 +31,8 @@ pub(super) struct Scale<'a> {
     pub(super) frame: &'a Frame,
     pub(super) camera: &'a Placed,
     pub(super) screen: &'a Screen,
+    /// The height of the picture, relative to its width.
+    pub(super) aspect: f64,
     /// The width in view of the camera, m.
     pub(super) view: f64,
     /// The width of a clearly visible line, m.

@@ -12,9 +12,9 @@ use crate::simulate::MomentState;
 /// The gap between a point and its text, in heights of a line.
 const GAP: f64 = 0.3;
 /// The directions in which a text is tried, relative to the wanted one, degrees.
-const TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
+const TURNS: [f64; 10] = [0.0, 35.0, -35.0, 70.0, -70.0, 105.0, -105.0, 140.0, -140.0, 180.0];
 /// The additional distances at which a text is tried, in heights of a line.
-const FARTHER: [f64; 3] = [0.0, 0.8, 1.6];
+const FARTHER: [f64; 6] = [0.0, 0.8, 1.6, 2.5, 3.5, 5.0];
 
 /// A text at a point of the world.
 pub(in crate::picture) struct Note<'a> {
@@ -55,6 +55,9 @@ pub(in crate::picture) fn place<'a>(
             Says::Text(pieces) => labels.said(pieces, moment),
             Says::Words(words) => labels.with_sign(words),
         };
+        if says.trim().is_empty() {
+            continue;
+        }
         let height = labels.note_height();
         let half = [width(&says, height) / 2.0, height / 2.0];
         // A hundredth of the picture's width in the wanted direction.

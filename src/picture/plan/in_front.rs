@@ -41,7 +41,14 @@ impl Plan {
         }
         let (camera, sizes) = (self.eye.at(frame), self.sizes(frame));
         let screen = camera.screen();
-        let scale = Scale { frame, camera: &camera, screen: &screen, view: sizes.view, stroke: sizes.stroke };
+        let scale = Scale {
+            frame,
+            camera: &camera,
+            screen: &screen,
+            aspect: self.labels.aspect(),
+            view: sizes.view,
+            stroke: sizes.stroke,
+        };
         let mut sketch = self.marks.sketch(&scale);
         for thing in &mut sketch.things {
             let Form::Lines(lines) = &mut thing.form else { continue };

@@ -146,6 +146,19 @@ fn a_title_in_the_center_moves_away_from_long_captions() {
     assert!(with > without && with - 0.25 * title.height > top, "{with} above {top}");
 }
 
+/// A label in the middle of the upper edge stays at the edge, beside a plot in the corner.
+#[test]
+fn a_caption_moves_aside_from_a_plot() {
+    let keys = "[label.top]\ntext = 'after the crash'\ncorner = 'top'\n[plot.p]\ny = 't'\nwidth = 0.45\n";
+    let (plan, frames) = labelled(keys);
+    let texts = plan.texts(&frames[0]);
+    let [text] = &texts[..] else { panic!("{texts:?}") };
+    let panel = &plan.planned_plots()[0];
+    assert!(text.y.above_middle(0.5625) > 0.5625 - 0.2, "it is at the edge: {text:?}");
+    let right = text.x + 0.5 * crate::lettering::width(&text.says) * text.height;
+    assert!(right < panel.left && right > panel.left - 0.1 && text.x < 0.0, "{right} beside {}", panel.left);
+}
+
 #[test]
 fn a_decimal_comma_is_in_all_numbers_of_a_picture() {
     let keys = "[output]\nsize = [320, 180]\ndecimal = ','\n[label.l]\ntext = '0.5: ${t:.2}'\n[scale_bar]\nlength = 1.5\n\

@@ -7,6 +7,7 @@ use super::measures::Things;
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
+use crate::lettering;
 use crate::physics::{Anchor, BodyId};
 use crate::scene::grammar::bodies::body;
 use crate::scene::grammar::marks::{angle, distance, leg};
@@ -15,8 +16,8 @@ use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowMark, ArrowOwner, Body, Components, Corner, Distance, LabelPlace, Leg, Piece, Quantity, Side,
-    read,
+    Angle, ArrowMark, ArrowOwner, Components, Corner, Distance, LabelPlace, Leg, Piece, Quantity, Side,
+    SimulationSettings, read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -27,9 +28,28 @@ const VECTORS: [Quantity; 3] = Quantity::OF_BODIES;
 pub(super) struct Known<'a, 'b> {
     pub(super) root: &'a View<'b>,
     pub(super) things: Things<'a>,
+    pub(super) simulation: &'a SimulationSettings,
 }
 
+/// The size up to which a vector counts as zero, relative to the largest that is likely in the run.
+const NEGLIGIBLE: f64 = 1e-9;
+
 impl Known<'_, '_> {
+    /// The size up to which a vector of a body counts as zero, in SI units. It follows from the initial speeds and from gravity, so it is the
+    /// same in all units.
+    fn negligible(self, body: usize, quantity: Quantity) -> f64 {
+        let (gravity, duration) = (self.simulation.gravity.length(), self.simulation.timeline.duration);
+        let speeds = self.things.bodies.iter().map(|body| body.start.velocity.length());
+        let speed = speeds.fold(gravity * duration, f64::max);
+        let acceleration = if duration > 0.0 { gravity.max(speed / duration) } else { gravity };
+        NEGLIGIBLE
+            * match quantity {
+                Quantity::Velocity => speed,
+                Quantity::Acceleration => acceleration,
+                _ => self.things.bodies[body].start.mass * acceleration,
+            }
+    }
+
     /// Reads the text of a key. `of` is the body whose measures need no name. `None` if the key is missing.
     fn text(
         self,
@@ -56,8 +76,7 @@ pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Ang
         let text = known.text(&view, &angle::TEXT, None, context);
         let text = text.unwrap_or_else(|| vec![Piece::Words(usual_text((name, span), context))]);
         let vertex = end::anchor(view.node(&angle::AT)?, context)?;
-        let legs =
-            [&angle::FROM, &angle::TO].map(|key| leg_of(&view, key, vertex, known.things.bodies, context));
+        let legs = [&angle::FROM, &angle::TO].map(|key| leg_of(&view, key, vertex, known, context));
         let [from, to] = legs;
         Some(Angle {
             name: name.to_owned(),
@@ -74,14 +93,14 @@ pub(super) fn angles(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Ang
 
 /// Returns the text of an angle without one, which comes from its name. Reports letters of the name that the font does not have.
 fn usual_text((name, span): (&str, Span), context: &mut Context<'_>) -> String {
-    let text = Angle::usual_text(name).to_owned();
+    let text = Angle::usual_text(name);
     if let Some(letter) = text.chars().find(|letter| !crate::font::has(*letter)) {
         let message = format!("the font has no letter `{letter}`");
         let error =
             Diagnostic::error(Code::LabelLetter, message).at(span, "the name is the text of the angle");
         context.diagnostics.push(error.help("another text: `text = \"…\"`"));
     }
-    text
+    lettering::set(&text, false).unwrap_or(text)
 }
 
 /// Reads a leg of an angle. Reports a leg without a direction.
@@ -89,7 +108,7 @@ fn leg_of(
     view: &View<'_>,
     key: &Key<Any>,
     vertex: Anchor,
-    bodies: &[Body],
+    known: Known<'_, '_>,
     context: &mut Context<'_>,
 ) -> Option<Leg> {
     let node = view.node(key)?;
@@ -105,7 +124,7 @@ fn leg_of(
                 }
             }
         }
-        _ => named_leg(node, bodies, context)?,
+        _ => named_leg(node, known, context)?,
     };
     if leg == Leg::Towards(vertex) {
         let error = Diagnostic::error(Code::BadMark, "this leg of the angle has no direction");
@@ -116,7 +135,7 @@ fn leg_of(
 }
 
 /// Reads a leg that names a body, such as `"bob"`, or a vector of a body, such as `"ball.velocity"`.
-fn named_leg(node: &Node, bodies: &[Body], context: &mut Context<'_>) -> Option<Leg> {
+fn named_leg(node: &Node, known: Known<'_, '_>, context: &mut Context<'_>) -> Option<Leg> {
     let text = node.as_str()?;
     if let Some(body) = context.names.bodies.get(text) {
         return Some(Leg::Towards(Anchor::centre(BodyId::new(*body))));
@@ -124,7 +143,7 @@ fn named_leg(node: &Node, bodies: &[Body], context: &mut Context<'_>) -> Option<
     let (name, vector) = text.rsplit_once('.').map_or((text, None), |(name, vector)| (name, Some(vector)));
     let Some(body) = context.names.bodies.get(name).copied() else {
         let error = Diagnostic::error(Code::UnknownName, format!("there is no body `{name}`"));
-        let near = nearest(name, bodies.iter().map(|body| &*body.name).take(1000));
+        let near = nearest(name, known.things.bodies.iter().map(|body| &*body.name).take(1000));
         let label = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
         context.diagnostics.push(error.at(node.span, label));
         return None;
@@ -133,14 +152,15 @@ fn named_leg(node: &Node, bodies: &[Body], context: &mut Context<'_>) -> Option<
     let quantity = VECTORS.into_iter().find(|quantity| quantity.name() == vector);
     if quantity.is_none() {
         let message = format!("a body has no vector `{vector}` that an angle could begin with");
-        let known = VECTORS.map(Quantity::name);
-        let label = nearest(vector, known).map_or(String::new(), |near| format!("did you mean `{near}`?"));
-        let known = format!("there are {}", crate::scene::grammar::quoted(&known));
+        let names = VECTORS.map(Quantity::name);
+        let label = nearest(vector, names).map_or(String::new(), |near| format!("did you mean `{near}`?"));
+        let help = format!("there are {}", crate::scene::grammar::quoted(&names));
         context
             .diagnostics
-            .push(Diagnostic::error(Code::UnknownName, message).at(node.span, label).help(known));
+            .push(Diagnostic::error(Code::UnknownName, message).at(node.span, label).help(help));
     }
-    Some(Leg::Of(body, quantity?))
+    let quantity = quantity?;
+    Some(Leg::Of { body, quantity, negligible: known.negligible(body, quantity) })
 }
 
 pub(super) fn distances(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Distance> {

@@ -348,7 +348,7 @@ fn build(
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
-    let known = marks::Known { root: &root, things };
+    let known = marks::Known { root: &root, things, simulation: &simulation };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
     let arrow_marks = marks::arrow_marks(known, context);

@@ -21,6 +21,7 @@ macro_rules! in_the_browser {
 }
 mod bodies;
 mod large;
+mod marks;
 mod methods;
 mod page;
 mod plots;
