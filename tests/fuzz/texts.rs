@@ -9,6 +9,7 @@ use jabuka::Scene;
 use jabuka::catalog::Category;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::explain::Explanation;
+use jabuka::lettering;
 use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
 use jabuka::report::{Assessment, assess};
@@ -21,7 +22,7 @@ use jabuka::simulate::Selection;
 use proptest::prelude::*;
 
 /// The public functions with a text argument that are tried here, as `file: name`.
-const TRIED: [&str; 39] = [
+const TRIED: [&str; 46] = [
     "catalog.rs: named",
     "diagnostic/code.rs: named",
     "diagnostic/mod.rs: at",
@@ -35,12 +36,19 @@ const TRIED: [&str; 39] = [
     "diagnostic/visible.rs: visible",
     "diagnostic/visible.rs: visible_lines",
     "explain.rs: of",
+    "font.rs: ink",
     "font.rs: width",
     "integrator/mod.rs: by_name",
+    "lettering.rs: is_script",
+    "lettering.rs: runs",
+    "lettering.rs: set",
+    "lettering.rs: spaces",
+    "lettering.rs: width",
     "report/plot/chart.rs: of_charts",
     "report/plot/mod.rs: of",
     "report/text.rs: to_text",
     "scene/color.rs: parse",
+    "scene/mark.rs: usual_text",
     "scene/expression/function.rs: named",
     "scene/expression/parser.rs: parse",
     "scene/expression/program.rs: compile",
@@ -198,6 +206,18 @@ proptest! {
         let _ = png(&picture).unwrap();
         let width = jabuka::font::width(&text);
         prop_assert!(width.is_finite() && width >= 0.0, "{width}");
+        prop_assert!(jabuka::font::ink(&text).is_none_or(|ends| ends.iter().all(|end| end.is_finite())));
+        match lettering::set(&text, false) {
+            Ok(set) => {
+                prop_assert!(lettering::width(&set).is_finite());
+                prop_assert!(lettering::runs(&set).all(|run| !run.letters.is_empty()));
+                prop_assert!(lettering::spaces(&set).all(|at| set.is_char_boundary(at)));
+            }
+            Err(wrong) => prop_assert!(wrong.iter().all(|script| text.get(script.range.clone()).is_some())),
+        }
+        let braces = text.match_indices('{').filter(|(at, _)| lettering::is_script(&text, *at));
+        prop_assert!(braces.count() <= text.len());
+        prop_assert!(text.is_empty() || !jabuka::scene::Angle::usual_text(&text).is_empty());
 
         let _ = Scene::parse(&text).map_err(|report| report.to_text(false));
         let options = Options { overrides: vec![Override::new(&other)], trust: true, ..Options::default() };
