@@ -12,9 +12,10 @@ use crate::simulate::MomentState;
 /// The gap between a point and its text, in heights of a line.
 const GAP: f64 = 0.3;
 /// The directions in which a text is tried, relative to the wanted one, degrees.
-const TURNS: [f64; 10] = [0.0, 35.0, -35.0, 70.0, -70.0, 105.0, -105.0, 140.0, -140.0, 180.0];
-/// The additional distances at which a text is tried, in heights of a line.
-const FARTHER: [f64; 6] = [0.0, 0.8, 1.6, 2.5, 3.5, 5.0];
+const TURNS: [f64; 8] = [0.0, 35.0, -35.0, 70.0, -70.0, 110.0, -110.0, 180.0];
+/// The additional distances at which a text is tried, in heights of a line. A text goes far only if nothing near is free.
+const NEAR: [f64; 3] = [0.0, 0.8, 1.6];
+const FAR: [f64; 3] = [2.5, 3.5, 5.0];
 
 /// A text at a point of the world.
 pub(in crate::picture) struct Note<'a> {
@@ -83,11 +84,13 @@ pub(in crate::picture) fn place<'a>(
                 anchor: Some(note.at),
             })
         };
-        let tried = || FARTHER.into_iter().flat_map(|farther| TURNS.map(|turn| candidate(turn, farther)));
-        let text = tried()
-            .find(|text| room.has_room_for(text) && crowd.has_room_for(text))
-            .or_else(|| tried().find(|text| room.has_room_for(text)))
-            .unwrap_or_else(|| candidate(0.0, 0.0));
+        let free = |distances: [f64; 3]| {
+            let tried =
+                || distances.into_iter().flat_map(|farther| TURNS.map(|turn| candidate(turn, farther)));
+            let beside_bodies = tried().find(|text| room.has_room_for(text) && crowd.has_room_for(text));
+            beside_bodies.or_else(|| tried().find(|text| room.has_room_for(text)))
+        };
+        let text = free(NEAR).or_else(|| free(FAR)).unwrap_or_else(|| candidate(0.0, 0.0));
         room.take_text(&text);
         texts.push(text);
     }
