@@ -2,22 +2,22 @@
 //!
 //! A scene writes `v_0`, `x_{max}` and `m/s^2`. Raised digits and signs become the letters that Unicode has for them: `m/s²`. The lowered digits
 //! of the font hardly stand below the line, so a zero would look like the letter o, and the font has few such letters for words, with uneven
-//! gaps. So other scripts are set in smaller letters that are lowered or raised. In a set text, control characters stand around them, which no
-//! text of a scene can contain.
+//! gaps. So other scripts are set in smaller letters that are lowered or raised. A *set text* is a text in which control characters
+//! mark these letters. No text of a scene can contain control characters.
 
 use std::ops::Range;
 
 use crate::font;
 
 /// The mark before lowered letters.
-const LOWER: char = '\u{11}';
+const LOWER_MARK: char = '\u{11}';
 /// The mark before raised letters.
-const RAISE: char = '\u{12}';
+const RAISE_MARK: char = '\u{12}';
 /// The mark after lowered or raised letters.
-const END: char = '\u{13}';
+const END_MARK: char = '\u{13}';
 
 /// The size of lowered and raised letters, relative to the other letters.
-pub const SMALL: f64 = 0.68;
+pub const SCRIPT_SIZE: f64 = 0.68;
 
 /// The position of letters relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub enum Level {
 impl Level {
     /// The size of the letters, relative to those on the line.
     pub fn size(self) -> f64 {
-        if self == Level::Line { 1.0 } else { SMALL }
+        if self == Level::Line { 1.0 } else { SCRIPT_SIZE }
     }
 
     /// The height of the letters above the line, relative to the size of letters on the line.
@@ -58,12 +58,12 @@ pub struct Run<'a> {
 /// Splits a set text into runs of letters at the same level. There are no empty runs.
 pub fn runs(text: &str) -> impl Iterator<Item = Run<'_>> {
     let mut level = Level::Line;
-    text.split_inclusive([LOWER, RAISE, END]).filter_map(move |part| {
-        let letters = part.trim_end_matches([LOWER, RAISE, END]);
+    text.split_inclusive([LOWER_MARK, RAISE_MARK, END_MARK]).filter_map(move |part| {
+        let letters = part.trim_end_matches([LOWER_MARK, RAISE_MARK, END_MARK]);
         let run = Run { level, letters };
         match part[letters.len()..].chars().next() {
-            Some(LOWER) => level = Level::Lower,
-            Some(RAISE) => level = Level::Upper,
+            Some(LOWER_MARK) => level = Level::Lower,
+            Some(RAISE_MARK) => level = Level::Upper,
             Some(_) => level = Level::Line,
             None => {}
         }
@@ -82,8 +82,8 @@ pub fn spaces(text: &str) -> impl Iterator<Item = usize> {
     let mut is_on_line = true;
     text.char_indices().filter_map(move |(at, letter)| {
         match letter {
-            LOWER | RAISE => is_on_line = false,
-            END => is_on_line = true,
+            LOWER_MARK | RAISE_MARK => is_on_line = false,
+            END_MARK => is_on_line = true,
             _ => {}
         }
         (is_on_line && matches!(letter, ' ' | '\n')).then_some(at)
@@ -92,8 +92,8 @@ pub fn spaces(text: &str) -> impl Iterator<Item = usize> {
 
 /// Returns a part of a set text that was cut at its end, with the mark that then misses.
 pub fn closed(mut text: String) -> String {
-    if text.rfind([LOWER, RAISE]) > text.rfind(END) {
-        text.push(END);
+    if text.rfind([LOWER_MARK, RAISE_MARK]) > text.rfind(END_MARK) {
+        text.push(END_MARK);
     }
     text
 }
@@ -238,9 +238,9 @@ fn push(out: &mut String, is_raised: bool, inside: &str) {
     match small {
         Some(small) => out.push_str(&small),
         None => {
-            out.push(if is_raised { RAISE } else { LOWER });
+            out.push(if is_raised { RAISE_MARK } else { LOWER_MARK });
             out.push_str(&inside);
-            out.push(END);
+            out.push(END_MARK);
         }
     }
 }
@@ -254,9 +254,9 @@ fn with_minus(text: &str) -> String {
 
 /// Returns the letter of Unicode for a digit or sign in a superscript.
 fn superscript(letter: char) -> Option<char> {
-    const LETTERS: [&str; 2] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾"];
-    let number = LETTERS[0].chars().position(|known| known == letter)?;
-    LETTERS[1].chars().nth(number)
+    const DIGITS_AND_SUPERSCRIPTS: [&str; 2] = ["0123456789+−=()", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾"];
+    let number = DIGITS_AND_SUPERSCRIPTS[0].chars().position(|known| known == letter)?;
+    DIGITS_AND_SUPERSCRIPTS[1].chars().nth(number)
 }
 
 #[cfg(test)]
@@ -266,7 +266,7 @@ mod tests {
     /// Sets a text, and shows the marks as `<`, `>` and `|`.
     fn shown(text: &str) -> String {
         let set = set(text, false).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}"));
-        set.replace(LOWER, "<").replace(RAISE, ">").replace(END, "|")
+        set.replace(LOWER_MARK, "<").replace(RAISE_MARK, ">").replace(END_MARK, "|")
     }
 
     #[test]
@@ -343,7 +343,7 @@ mod tests {
         let runs: Vec<Run<'_>> = runs(&text).collect();
         let run = |level, letters| Run { level, letters };
         assert_eq!(runs, [run(Level::Line, "x"), run(Level::Lower, "max"), run(Level::Line, " and")]);
-        let expected = font::width("x and") + SMALL * font::width("max");
+        let expected = font::width("x and") + SCRIPT_SIZE * font::width("max");
         assert!((width(&text) - expected).abs() < 1e-9);
         assert_eq!(closed(text[..4].to_owned()), "x\u{11}ma\u{13}");
         assert_eq!(closed(text.clone()), text);

@@ -13,9 +13,9 @@ use crate::svg::{Anchor, HALF_OF_LETTERS, Svg};
 /// The width of the drawing, pixels.
 const WIDTH: f64 = 800.0;
 /// The width of the lines of grid and axes, pixels.
-const RULED: f64 = 1.0;
+const LINE_WIDTH: f64 = 1.0;
 /// The width of the curves, pixels.
-const DRAWN: f64 = 2.0;
+const CURVE_WIDTH: f64 = 2.0;
 /// The fonts of the texts. Their letters are as wide as those in pictures.
 const FONTS: &str = "DejaVu Sans, Verdana, sans-serif";
 
@@ -76,11 +76,11 @@ fn svg(plot: &PlannedPlot) -> String {
     let at = |[x, y]: [f64; 2]| [x * scale, high - y * scale];
     let mut svg = Svg::new([WIDTH, high], Color::WHITE.bytes(), FONTS);
     for line in &plot.lines {
-        svg.line([line.from, line.to].map(at), RULED, line.color.bytes());
+        svg.line([line.from, line.to].map(at), LINE_WIDTH, line.color.bytes());
     }
     for curve in &plot.curves {
         for part in curve.points.split(|point| point.at.is_none()).filter(|part| part.len() > 1) {
-            svg.line(part.iter().filter_map(|point| point.at.map(at)), DRAWN, curve.color.bytes());
+            svg.line(part.iter().filter_map(|point| point.at.map(at)), CURVE_WIDTH, curve.color.bytes());
         }
     }
     let bottom = plot.bottom.above_middle(1.0);

@@ -10,7 +10,7 @@ use super::in_front::lift_from_body;
 use super::thing::{Form, Line, Thing};
 use crate::decimal::decimal_step;
 use crate::physics::{BodyId, BodySnapshot, ContactSnapshot, find};
-use crate::scene::{self, Body, Color, Joint, Quantity, Scene};
+use crate::scene::{self, ArrowOwner, Body, Color, Joint, Quantity, Scene};
 use crate::simulate::{Frame, Ghost, JointEnd, Load, axis, loads_on, root, shown};
 
 /// The colors of arrows on light backgrounds, in the order of [`Quantity::color`]. They are easy to tell apart, and rarely used for
@@ -35,25 +35,13 @@ const LIGHT_COLORS: [Color; Quantity::COLORS] = [
     Color([1.0, 0.92, 0.35]),
 ];
 
-/// The body or joint that an arrow belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ArrowOwner {
-    /// The body with this index.
-    Body(usize),
-    /// A joint.
-    Joint {
-        /// The index of the joint.
-        joint: usize,
-        /// The index of the body at the second end of the joint. If that end is a fixed point, the index of the body at the first end.
-        body: Option<usize>,
-    },
-}
-
 /// An arrow that shows a vector of a body or of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arrow {
-    /// The body or joint that the arrow belongs to.
+    /// The body or joint that has the arrow.
     pub(super) owner: ArrowOwner,
+    /// The index of the body at which the arrow begins. `None` for an arrow of a joint between fixed points.
+    pub(super) body: Option<usize>,
     /// The quantity that the arrow shows.
     pub(super) quantity: Quantity,
     /// The point where the arrow begins, in world axes, m.
@@ -99,6 +87,8 @@ pub(super) struct Arrows {
 #[derive(Clone, Debug)]
 struct OfJoint {
     owner: ArrowOwner,
+    /// The index of the body at the second end of the joint. If that end is a fixed point, the index of the body at the first end.
+    body: Option<usize>,
     end: JointEnd,
     quantity: Quantity,
     /// The drawn length of one unit of the quantity, m. `None` if the scene gives no scale.
@@ -176,11 +166,11 @@ impl Arrows {
         }
         let of_joints = scene.joints.iter().enumerate().flat_map(|(number, joint)| {
             let [first, second] = joint.kind.between().map(|end| end.body().map(BodyId::index));
-            let owner = ArrowOwner::Joint { joint: number, body: second.or(first) };
+            let (owner, body) = (ArrowOwner::Joint(number), second.or(first));
             Quantity::OF_JOINTS.into_iter().zip(joint.arrows).filter_map(move |(quantity, arrow)| {
                 let scene::Arrow { scale, color } = arrow?;
                 let color = color.unwrap_or(colors[quantity.color()]);
-                Some(OfJoint { owner, end: JointEnd::new(scene, number), quantity, scale, color })
+                Some(OfJoint { owner, body, end: JointEnd::new(scene, number), quantity, scale, color })
             })
         });
         let of_joints = of_joints.collect();
@@ -215,9 +205,10 @@ impl Arrows {
         arrows.extend(self.of_joints.iter().filter_map(|arrow| {
             let (from, vector) = arrow.end.arrow(arrow.quantity, frame)?;
             let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.quantity.number()]);
-            let OfJoint { owner, quantity, color, .. } = *arrow;
+            let OfJoint { owner, body, quantity, color, .. } = *arrow;
             is_seen(from, to, sizes).then_some(Arrow {
                 owner,
+                body,
                 quantity,
                 from,
                 to,
@@ -241,8 +232,15 @@ impl Arrows {
             let Load { body, quantity, root: from, vector, .. } = *load;
             let to = from + vector * load.arrow.scale.unwrap_or(sizes.scales[quantity.number()]);
             let color = load.arrow.color.unwrap_or(colors[quantity.color()]);
-            let mut arrow =
-                Arrow { owner: ArrowOwner::Body(body), quantity, from, to, radius: sizes.radius, color };
+            let mut arrow = Arrow {
+                owner: ArrowOwner::Body(body),
+                body: Some(body),
+                quantity,
+                from,
+                to,
+                radius: sizes.radius,
+                color,
+            };
             let seen = is_seen(from, to, sizes);
             lift_from_body(&mut arrow, &scene.bodies[body], find(bodies, body)?, camera);
             seen.then_some(arrow)
@@ -255,7 +253,7 @@ impl Arrows {
         let Arrow { from, to, radius, color, .. } = *arrow;
         let owner = match arrow.owner {
             ArrowOwner::Body(body) => self.body(body).map(|body| &*body.name),
-            ArrowOwner::Joint { joint, .. } => self.joint_names.get(&joint).map(String::as_str),
+            ArrowOwner::Joint(joint) => self.joint_names.get(&joint).map(String::as_str),
         };
         let name = format!("{}, {}", owner.unwrap_or_default(), arrow.quantity.name());
         Thing { name: name.into(), form: Form::Arrow { from, to, radius }, color }
@@ -308,7 +306,15 @@ impl Arrows {
         let to = from + vector * arrow.scale.unwrap_or(sizes.scales[arrow.kind]);
         let Planned { quantity, color, .. } = *arrow;
         let owner = ArrowOwner::Body(*number);
-        is_seen(from, to, sizes).then_some(Arrow { owner, quantity, from, to, radius: sizes.radius, color })
+        is_seen(from, to, sizes).then_some(Arrow {
+            owner,
+            body: Some(*number),
+            quantity,
+            from,
+            to,
+            radius: sizes.radius,
+            color,
+        })
     }
 }
 

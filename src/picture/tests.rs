@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::arrows::ArrowOwner;
 use super::{Form, Part, Plan, Text, Thing};
-use crate::scene::{Options, Override, Scene};
+use crate::scene::{ArrowOwner, Options, Override, Scene};
 use crate::simulate::{Frame, Frames, survey};
 
 fn plan(text: &str) -> (Scene, Plan) {
@@ -368,7 +367,7 @@ fn a_joint_has_arrows_for_its_force_and_its_torque() {
     ));
     let frame = frames(&scene).nth(20).unwrap();
     let [string, force, torque] = plan.arrows(&frame)[..] else { panic!("three are asked for") };
-    assert_eq!(string.owner, ArrowOwner::Joint { joint: 0, body: Some(0) });
+    assert_eq!((string.owner, string.body), (ArrowOwner::Joint(0), Some(0)));
     // The arrow begins at the surface of the bob, and points towards the pivot.
     assert!(string.from.abs_diff_eq(DVec3::new(0.0, -1.9, 0.0), 1e-9), "{string:?}");
     assert!((string.to - string.from).normalize().abs_diff_eq(DVec3::Y, 1e-9), "{string:?}");

@@ -6,22 +6,26 @@
 use std::borrow::Cow;
 
 use glam::{DMat3, DQuat, DVec3};
+use serde::Serialize;
 
 use crate::scene::Color;
 
 /// A thing that is drawn beside the bodies.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Thing<'a> {
     /// What the thing shows, such as `spring` or `ball, velocity`.
+    #[serde(skip)]
     pub name: Cow<'a, str>,
     /// The shape of the thing, with its position and size.
+    #[serde(flatten)]
     pub form: Form,
     /// The color of the thing. Axes have their own colors.
     pub color: Color,
 }
 
 /// The shape of a thing. Lengths and positions are in meters, in world axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "form", rename_all = "lowercase")]
 pub enum Form {
     /// A ball: the pin of a joint, or the end of a spring, rod or rope at a fixed point.
     Ball {
@@ -74,7 +78,10 @@ pub enum Form {
         length: f64,
     },
     /// Thin straight lines, which shine and cast no shadow: the lines of a grid, an arc, a dimension line.
-    Lines(Vec<Line>),
+    Lines {
+        /// The lines.
+        lines: Vec<Line>,
+    },
 }
 
 /// A thing that a picture may show, independent of the frame. Some frames may not show it.
@@ -107,7 +114,7 @@ pub enum FormKind {
 }
 
 /// A thin straight line, drawn as a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// The start of the line, m.
     pub from: DVec3,
@@ -121,7 +128,7 @@ impl Thing<'_> {
     /// The thin straight lines of the thing. Empty unless it consists of them.
     pub fn lines(&self) -> &[Line] {
         match &self.form {
-            Form::Lines(lines) => lines,
+            Form::Lines { lines } => lines,
             _ => &[],
         }
     }
@@ -133,7 +140,7 @@ impl Form {
         let points: &[DVec3] = match self {
             Form::Coil { ends, .. } | Form::Rod { ends, .. } => ends,
             Form::Rope { points, .. } => points,
-            Form::Ball { .. } | Form::Arrow { .. } | Form::Axes { .. } | Form::Lines(_) => &[],
+            Form::Ball { .. } | Form::Arrow { .. } | Form::Axes { .. } | Form::Lines { .. } => &[],
         };
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
@@ -149,7 +156,7 @@ impl Form {
                 let arms = DMat3::from_quat(*orientation).to_cols_array_2d().map(DVec3::from_array);
                 arms.map(|arm| ([*location, *location + arm * *length * 1.1], 0.1 * length)).to_vec()
             }
-            Form::Lines(lines) => {
+            Form::Lines { lines } => {
                 lines.iter().map(|line| ([line.from, line.to], 2.0 * line.radius)).collect()
             }
         }
@@ -163,7 +170,7 @@ impl Form {
             | Form::Rod { radius, .. }
             | Form::Rope { radius, .. }
             | Form::Arrow { radius, .. } => *radius,
-            Form::Axes { .. } | Form::Lines(_) => 0.0,
+            Form::Axes { .. } | Form::Lines { .. } => 0.0,
         }
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::run::{Outcome, PreviewRun};
 use crate::physics::{self, Shape};
-use crate::picture::{PlacedLight, Plan, has_texts, pale};
+use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
 use crate::simulate::Bounds;
 use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance, ground, pieces};
@@ -124,7 +124,7 @@ struct Stage {
     /// The trails, with the indices of their bodies. Colors are in sRGB.
     trails: Vec<Trail>,
     /// The lines of the grid for each camera. `None` without a grid, or for a camera that moves.
-    grids: Vec<Option<super::shown::Thing>>,
+    grids: Vec<Option<Thing<'static>>>,
     /// The plots of the scene, with their curves over the whole run.
     plots: Vec<super::shown::Plot>,
     /// The initial position and direction of each camera.
@@ -338,7 +338,7 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
         drift: survey.drift,
         drift_scale: survey.drift_scale.name(),
         trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
-        grids: outcome.plans.iter().map(|plan| plan.still_grid().map(super::shown::thing)).collect(),
+        grids: outcome.plans.iter().map(|plan| plan.still_grid().cloned()).collect(),
         plots: super::shown::plots(&run.scene, plan),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
         lights: match plan.lights(0.0) {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::run::PreviewRun;
 use crate::lettering;
-use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Vertical};
+use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Thing, Vertical};
 use crate::scene::{LabelPlace, Scene, Side};
 use crate::simulate::Frame;
 
@@ -15,16 +15,16 @@ type Vector = [f64; 3];
 
 /// The objects that are drawn beside the bodies in a frame.
 #[derive(Serialize)]
-pub(super) struct Shown {
+pub(super) struct Shown<'a> {
     camera: Camera,
     /// The lights of the frame. `None` if lights do not move.
     lights: Option<Vec<Light>>,
     /// The line width of trails whose width the scene does not set, m.
     stroke: f64,
     /// The lines of the grid. `None` without a grid, or if the camera does not move.
-    grid: Option<Thing>,
-    /// Everything else: springs, joints, arrows, axes.
-    things: Vec<Thing>,
+    grid: Option<Thing<'a>>,
+    /// Everything else: springs, joints, arrows, axes, marks.
+    things: Vec<Thing<'a>>,
     texts: Vec<Text>,
     bar: Option<Bar>,
     /// What the frame shows of the curves of each plot.
@@ -51,34 +51,6 @@ pub(super) struct Light {
     shadows: bool,
     /// True for parallel light. `location` is then a far point in the direction from which the light comes.
     sun: bool,
-}
-
-/// A thing that is drawn beside the bodies.
-#[derive(Serialize)]
-pub(super) struct Thing {
-    #[serde(flatten)]
-    form: Form,
-    color: Vector,
-}
-
-#[derive(Serialize)]
-#[serde(tag = "form", rename_all = "lowercase")]
-enum Form {
-    Ball { at: Vector, radius: f64 },
-    Coil { ends: [Vector; 2], radius: f64, wire: f64, turns: u32 },
-    Rod { ends: [Vector; 2], radius: f64 },
-    Rope { points: Vec<Vector>, radius: f64 },
-    Arrow { from: Vector, to: Vector, radius: f64 },
-    Axes { location: Vector, turn: [f64; 4], length: f64 },
-    Lines { lines: Vec<Line> },
-}
-
-/// A thin straight line. `radius` is half its width, m.
-#[derive(Serialize)]
-struct Line {
-    from: Vector,
-    to: Vector,
-    radius: f64,
 }
 
 #[derive(Serialize)]
@@ -183,7 +155,7 @@ pub(super) fn frames(
     run: &PreviewRun,
     view: usize,
     frames: impl Iterator<Item = usize>,
-) -> io::Result<Vec<Shown>> {
+) -> io::Result<Vec<Shown<'_>>> {
     let Some(Ok(outcome)) = run.outcome() else { return Ok(Vec::new()) };
     let plan = outcome.plans.get(view).unwrap_or(&outcome.plans[0]);
     frames.map(|frame| Ok(shown(&run.scene, plan, &run.frame(frame)?))).collect()
@@ -200,7 +172,7 @@ pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
     run.ghosts().iter().map(|each| ghost(each)).collect()
 }
 
-fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
+fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
     let height = |y: Vertical| y.above_middle(aspect(scene));
     let screen = plan.screen(frame);
     let mut things = plan.links(frame);
@@ -218,8 +190,8 @@ fn shown(scene: &Scene, plan: &Plan, frame: &Frame) -> Shown {
         camera: Camera::of(&plan.camera(frame)),
         lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
         stroke: plan.stroke(frame),
-        grid: plan.grid(frame).filter(|_| plan.camera_moves()).as_ref().map(thing),
-        things: things.iter().map(thing).collect(),
+        grid: plan.grid(frame).filter(|_| plan.camera_moves()),
+        things,
         texts: plan.texts(frame).iter().map(|each| text(scene, screen.as_ref(), each)).collect(),
         bar: plan.bar(frame).map(bar),
         plots: plan.plots(frame).iter().map(|curves| curves.iter().map(now).collect()).collect(),
@@ -275,34 +247,6 @@ pub(super) fn plots(scene: &Scene, plan: &Plan) -> Vec<Plot> {
     plan.planned_plots().iter().map(plot).collect()
 }
 
-/// Describes a thing that is drawn beside the bodies.
-pub(super) fn thing(thing: &picture::Thing<'_>) -> Thing {
-    let vectors = |ends: &[DVec3; 2]| ends.map(|end| end.to_array());
-    let line = |line: &picture::Line| Line {
-        from: line.from.to_array(),
-        to: line.to.to_array(),
-        radius: line.radius,
-    };
-    let form = match &thing.form {
-        picture::Form::Ball { at, radius } => Form::Ball { at: at.to_array(), radius: *radius },
-        picture::Form::Coil { ends, radius, wire, turns } => {
-            Form::Coil { ends: vectors(ends), radius: *radius, wire: *wire, turns: *turns }
-        }
-        picture::Form::Rod { ends, radius } => Form::Rod { ends: vectors(ends), radius: *radius },
-        picture::Form::Rope { points, radius } => {
-            Form::Rope { points: points.iter().map(DVec3::to_array).collect(), radius: *radius }
-        }
-        picture::Form::Arrow { from, to, radius } => {
-            Form::Arrow { from: from.to_array(), to: to.to_array(), radius: *radius }
-        }
-        picture::Form::Axes { location, orientation, length } => {
-            Form::Axes { location: location.to_array(), turn: orientation.to_array(), length: *length }
-        }
-        picture::Form::Lines(lines) => Form::Lines { lines: lines.iter().map(line).collect() },
-    };
-    Thing { form, color: thing.color.0 }
-}
-
 /// Returns the body that the label with this name belongs to, and the side of the body where the label stands. `None` for a label in a
 /// corner of the picture.
 fn beside(scene: &Scene, name: &str) -> Option<(usize, &'static str)> {
@@ -336,9 +280,9 @@ mod tests {
         };
         assert!(seen.y > ground, "the force points into the ground, but is drawn above it");
         let tips = shown(&scene, &plan, &frame).things.into_iter().filter_map(|thing| match thing.form {
-            Form::Arrow { to, .. } => Some(to),
+            picture::Form::Arrow { to, .. } => Some(to),
             _ => None,
         });
-        assert!(tips.collect::<Vec<_>>().contains(&seen.to_array()));
+        assert!(tips.collect::<Vec<_>>().contains(&seen));
     }
 }

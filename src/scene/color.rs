@@ -1,9 +1,11 @@
 //! Colors in sRGB, and the parser for colors in scenes.
 
+use serde::Serialize;
+
 pub(super) use super::color_names::NAMES;
 
 /// A color in sRGB, as on screens and in color pickers: red, green and blue from 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Color(pub [f64; 3]);
 
 /// Returns the name of each named CSS color, with its value as `#rrggbb`.

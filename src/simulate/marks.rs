@@ -139,4 +139,61 @@ mod tests {
             assert!(now.line[1].abs_diff_eq(line[1].into(), 1e-12), "{now:?}");
         }
     }
+
+    /// The same throw, drawn from another origin, turned about the x axis, and in other units: lengths in units of 1 mm, times in units of 1 ms.
+    /// Angles and the ratio of lengths stay the same, and an angle of a vanishing velocity is undefined in each.
+    #[test]
+    fn angles_do_not_depend_on_origin_axes_and_units() {
+        let values = |[meter, second]: [f64; 2], shift: f64, turn: f64| {
+            let (sin, cos) = libm::sincos(turn);
+            let vector = |[x, y, z]: [f64; 3], unit: f64| {
+                format!(
+                    "[{:e}, {:e}, {:e}]",
+                    unit * x,
+                    unit * (y * cos - z * sin),
+                    unit * (y * sin + z * cos)
+                )
+            };
+            let (speed, fall) = (meter / second, meter / (second * second));
+            let place = |point: [f64; 3]| vector([point[0] + shift, point[1], point[2]], meter);
+            let text = format!(
+                "simulation = {{ duration = {:e}, frame_rate = {:e}, gravity = {}, integrator = 'velocity-verlet' }}
+                [body.a]\nshape.sphere.radius = {:e}\nlocation = {}\nvelocity = {}
+                [body.b]\nshape.sphere.radius = {:e}\nlocation = {}\nvelocity = {}
+                [angle.alpha]\nat = 'a'\nfrom = {}\nto = 'a.velocity'
+                [angle.beta]\nat = 'a'\nfrom = 'a.acceleration'\nto = 'b'
+                [angle.top]\nat = 'b'\nfrom = {}\nto = 'b.velocity'
+                [distance.d]\nbetween = ['a', 'b']\nalong = {}",
+                2.0 * second,
+                10.0 / second,
+                vector([0.0, -10.0, 0.0], fall),
+                0.1 * meter,
+                place([0.0, 1.0, 0.0]),
+                vector([3.0, 4.0, 1.0], speed),
+                0.1 * meter,
+                place([2.0, 0.0, 0.5]),
+                vector([0.0, 10.0, 0.0], speed),
+                vector([1.0, 0.0, 0.0], 1.0),
+                vector([1.0, 0.0, 0.0], 1.0),
+                vector([1.0, 2.0, 0.0], 1.0),
+            );
+            let scene = Scene::parse(&text).unwrap_or_else(|report| panic!("{report}"));
+            let frame = Frames::new(&scene).nth(10).unwrap().unwrap();
+            let angle = |number: usize| AngleNow::of(&scene.angles[number], &scene.bodies, &frame.bodies);
+            assert_eq!(angle(2), None, "b turns back at this moment, {:?}", frame.bodies[1].velocity);
+            let length = DistanceNow::of(&scene.distances[0], &frame.bodies).unwrap().value / meter;
+            [angle(0).unwrap().value, angle(1).unwrap().value, length]
+        };
+        let expected = values([1.0, 1.0], 0.0, 0.0);
+        for found in [
+            values([1.0, 1.0], 1000.0, 0.0),
+            values([1.0, 1.0], 0.0, 0.7),
+            values([1e3, 1e3], 0.0, 0.0),
+            values([1e-9, 1.0], -1.0, 2.0),
+        ] {
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-9, "{found}, not {expected}");
+            }
+        }
+    }
 }

@@ -130,6 +130,11 @@ impl Measures {
         }
     }
 
+    /// Returns the bodies of a scene that shows measures.
+    pub(crate) fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
     /// Returns a body of a scene that shows measures.
     pub(crate) fn body(&self, id: usize) -> &Body {
         &self.bodies[id]

@@ -278,7 +278,7 @@ fn subscripts_and_lines_of_a_label_are_in_their_places() {
     let high = 0.2 * 360.0;
     // The columns of the letters in the first line: an H, the subscript, the superscript, and an H after a space.
     let width = |text: &str| jabuka::font::width(text) * high;
-    let small = jabuka::lettering::SMALL;
+    let small = jabuka::lettering::SCRIPT_SIZE;
     // The ink begins at the place of the label.
     let mut begin = 0.035 / 2.0 * 640.0 - jabuka::font::ink("H").unwrap()[0] * high;
     let mut bottoms = Vec::new();

@@ -171,9 +171,9 @@ mod tests {
         assert_eq!(letters, ["x", "max", "= 2"]);
         assert_eq!(parts[0], ("x".to_owned(), 0.0, 0.0, 1.0));
         let (_, x, rise, height) = parts[1];
-        assert!((0.5..0.7).contains(&x) && rise < -0.1 && height == lettering::SMALL, "{parts:?}");
+        assert!((0.5..0.7).contains(&x) && rise < -0.1 && height == lettering::SCRIPT_SIZE, "{parts:?}");
         // The space before the sign is about a third of the height.
-        let end = x + lettering::SMALL * font::width("max");
+        let end = x + lettering::SCRIPT_SIZE * font::width("max");
         assert!((0.25..0.45).contains(&(parts[2].1 - end)), "{parts:?}");
         let left = parts_of("x_{max} = 2", 1.0);
         let shift = parts[0].1 - left[0].1;

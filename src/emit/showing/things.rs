@@ -48,7 +48,7 @@ pub(super) fn write(out: &mut String, thing: &Thing<'_>, style: Style) {
             style.matrix(out, *orientation, *location);
             out.push_str(&format!(" no_shadow }} // {name}\n"));
         }
-        Form::Lines(lines) => thin(out, lines, &color, &name, style),
+        Form::Lines { lines } => thin(out, lines, &color, &name, style),
         Form::Rod { .. } | Form::Coil { .. } | Form::Rope { .. } | Form::Arrow { .. } => {}
     }
 }

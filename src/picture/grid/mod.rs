@@ -188,7 +188,11 @@ impl GridPlan {
         };
         GridLayout {
             axes: [axis(Beside::Below, "x", &across), axis(beside, name, &along)],
-            lines: Thing { name: "grid".into(), form: Form::Lines(lines.collect()), color: self.color },
+            lines: Thing {
+                name: "grid".into(),
+                form: Form::Lines { lines: lines.collect() },
+                color: self.color,
+            },
             height: self.height,
             aspect: self.aspect,
             ink: self.ink,

@@ -6,7 +6,7 @@ use super::{HELPING_LINE_RADIUS, MAIN_LINE_RADIUS, Mark, Note, Says, Scale, Sket
 use crate::physics::Anchor;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Angle, Body, Color, Leg, Scene};
-use crate::simulate::AngleNow;
+use crate::simulate::{AngleNow, Measures};
 
 /// The default radius of an arc, relative to the width in view.
 const USUAL_RADIUS: f64 = 0.1;
@@ -19,24 +19,23 @@ const MAX_BEND: f64 = 0.08;
 struct AngleMark {
     /// The angle, with its points on bodies in their drawn size.
     angle: Angle,
-    bodies: Arc<[Body]>,
+    /// Has the bodies of the scene.
+    measures: Arc<Measures>,
     name: String,
     color: Color,
 }
 
 /// Plans the marks for the angles of a scene.
-pub(super) fn marks(scene: &Scene, ink: Color) -> Vec<Arc<dyn Mark>> {
-    let bodies: Arc<[Body]> =
-        if scene.angles.is_empty() { Arc::new([]) } else { scene.bodies.clone().into() };
+pub(super) fn marks(scene: &Scene, measures: &Arc<Measures>, ink: Color) -> Vec<Arc<dyn Mark>> {
+    let bodies = scene.bodies.as_slice();
     let mark = |angle: &Angle| {
         let leg = |leg: Leg| match leg {
-            Leg::Towards(point) => Leg::Towards(drawn(point, &bodies)),
+            Leg::Towards(point) => Leg::Towards(drawn(point, bodies)),
             leg => leg,
         };
-        let angle =
-            Angle { vertex: drawn(angle.vertex, &bodies), legs: angle.legs.map(leg), ..angle.clone() };
+        let angle = Angle { vertex: drawn(angle.vertex, bodies), legs: angle.legs.map(leg), ..angle.clone() };
         let (name, color) = (format!("angle {}", angle.name), angle.color.unwrap_or(ink));
-        Arc::new(AngleMark { angle, bodies: bodies.clone(), name, color }) as Arc<dyn Mark>
+        Arc::new(AngleMark { angle, measures: measures.clone(), name, color }) as Arc<dyn Mark>
     };
     scene.angles.iter().map(mark).collect()
 }
@@ -51,7 +50,9 @@ pub(super) fn drawn(anchor: Anchor, bodies: &[Body]) -> Anchor {
 
 impl Mark for AngleMark {
     fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
-        let Some(now) = AngleNow::of(&self.angle, &self.bodies, &scale.frame.bodies) else { return };
+        let Some(now) = AngleNow::of(&self.angle, self.measures.bodies(), &scale.frame.bodies) else {
+            return;
+        };
         let size = self.angle.radius.unwrap_or(USUAL_RADIUS * scale.view);
         let line = |from, to, radius: f64| Line { from, to, radius: radius * scale.stroke };
         let pieces = (now.value.abs() / MAX_BEND).ceil().max(1.0);
@@ -68,7 +69,7 @@ impl Mark for AngleMark {
         }
         sketch.things.push(Thing {
             name: self.name.as_str().into(),
-            form: Form::Lines(lines),
+            form: Form::Lines { lines },
             color: self.color,
         });
         sketch.notes.push(Note {

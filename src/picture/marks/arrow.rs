@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{HELPING_LINE_RADIUS, Note, Says, Sketch};
-use crate::picture::arrows::{self, Arrow, Arrows};
+use crate::picture::arrows::{Arrow, Arrows};
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{ArrowMark, ArrowOwner, Piece, Quantity, Scene};
 
@@ -46,11 +46,7 @@ impl ArrowMarks {
     pub(in crate::picture) fn sketch(&self, arrows: &[Arrow], of: &Arrows, stroke: f64) -> Sketch<'_> {
         let mut sketch = Sketch::default();
         for arrow in arrows {
-            let owner = match arrow.owner {
-                arrows::ArrowOwner::Body(body) => ArrowOwner::Body(body),
-                arrows::ArrowOwner::Joint { joint, .. } => ArrowOwner::Joint(joint),
-            };
-            let Some(named) = self.marks.get(&(owner, arrow.quantity)) else { continue };
+            let Some(named) = self.marks.get(&(arrow.owner, arrow.quantity)) else { continue };
             named.draw(arrow, of, stroke, &mut sketch);
         }
         sketch
@@ -85,7 +81,7 @@ impl Named {
         }
         if helping.len() == 2 {
             let name = format!("{}, components", self.name).into();
-            sketch.things.push(Thing { name, form: Form::Lines(helping), color: arrow.color });
+            sketch.things.push(Thing { name, form: Form::Lines { lines: helping }, color: arrow.color });
         }
     }
 }

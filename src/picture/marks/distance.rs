@@ -76,7 +76,7 @@ impl Mark for DistanceMark {
         lines.retain(|line| line.from.distance(line.to) > line.radius);
         sketch.things.push(Thing {
             name: self.name.as_str().into(),
-            form: Form::Lines(lines),
+            form: Form::Lines { lines },
             color: self.color,
         });
         // The text stands on the side of the offset; without an offset above the line, or to the right of it.

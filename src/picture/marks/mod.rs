@@ -19,7 +19,7 @@ use super::camera::Placed;
 use super::screen::Screen;
 use super::thing::Thing;
 use crate::scene::{Color, Scene};
-use crate::simulate::Frame;
+use crate::simulate::{Frame, Measures};
 
 /// The radius of a mark's main line, in strokes. A stroke is the width of a clearly visible line.
 const MAIN_LINE_RADIUS: f64 = 0.4;
@@ -60,9 +60,9 @@ pub(super) struct Marks {
 
 impl Marks {
     /// Plans the marks of a scene. `ink` is their default color.
-    pub(super) fn new(scene: &Scene, ink: Color) -> Marks {
+    pub(super) fn new(scene: &Scene, measures: &Arc<Measures>, ink: Color) -> Marks {
         let mut marks: Vec<Arc<dyn Mark>> = Vec::new();
-        marks.extend(angle::marks(scene, ink));
+        marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
         Marks { marks }
     }

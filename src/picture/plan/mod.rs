@@ -1,7 +1,7 @@
 //! Plans the pictures of a run. The plan then gives the contents of each frame's picture.
 
-mod in_front;
 mod largest;
+mod marks;
 #[cfg(test)]
 mod tests;
 mod written;
@@ -22,7 +22,7 @@ use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
-use super::marks::{self, ArrowMarks, Marks};
+use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{CurveNow, PlannedPlot, Plots, UnseenPlot};
 use super::scope::{Part, Scope};
@@ -110,7 +110,7 @@ impl Plan {
         if let Some(grid) = ruler.as_ref().filter(|_| !first.moves()) {
             seen = seen.union(grid.bounds());
         }
-        seen = marks::with_lines(scene, seen);
+        seen = with_lines(scene, seen);
         let eye = match scope.part {
             // If the body falls through the ground, the camera stops above the ground.
             Part::AroundBody(_) => eye_on(seen).within(span.bounds),
@@ -150,9 +150,9 @@ impl Plan {
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
             bar,
-            labels: Labels::new(scene, ink, plots.areas(), measures),
+            labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
             plots,
-            marks: Marks::new(scene, ink),
+            marks: Marks::new(scene, &measures, ink),
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::picture::Form;
-use crate::picture::arrows::ArrowOwner;
+use crate::scene::ArrowOwner;
 use crate::simulate::{Frames, survey};
 
 fn plan(keys: &str) -> (Plan, Frame) {

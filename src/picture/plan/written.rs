@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Plan;
 use crate::picture::bar::Bar;
-use crate::picture::marks::{self, Note};
+use crate::picture::marks::{self, Note, Sketch};
 use crate::picture::occupancy::Occupancy;
 use crate::picture::screen::Screen;
 use crate::picture::text::Text;
@@ -58,7 +58,10 @@ impl Plan {
         let (mut grid, numbers) = ruled.map_or_else(Default::default, |it| (it.titles, it.numbers));
         grid.iter().for_each(|title| room.take_text(title));
         let sketch = self.sketch(frame);
-        let of_arrows = self.sketch_of_arrows(frame);
+        let of_arrows = match self.arrow_marks.is_empty() {
+            true => Sketch::default(),
+            false => self.sketch_of_arrows(frame, &self.arrows_in_front(frame)),
+        };
         let things: Vec<Thing<'_>> = of_arrows.things.into_iter().chain(sketch.things).collect();
         let notes: Vec<Note<'_>> = of_arrows.notes.into_iter().chain(sketch.notes).collect();
         let mut named = Vec::new();

@@ -11,36 +11,36 @@ use crate::scene::{Color, DecimalSign, Plot, PlotPlace};
 
 /// The usual height of a panel in a corner of the picture, relative to its width.
 const USUAL_HEIGHT: f64 = 0.64;
-/// The smallest usual height of the upright axis of a panel in a corner, relative to the width of the panel.
+/// The smallest usual height of the vertical axis of a panel in a corner, relative to the width of the panel.
 const MIN_USUAL_AXIS: f64 = 0.4;
 /// The usual height of a panel at a side of the picture, relative to the width of the widest panel there.
 const USUAL_HEIGHT_AT_SIDE: f64 = 0.9;
-/// The smallest height of the upright axis at which a plot is easy to read, in lines of text.
+/// The smallest height of the vertical axis at which a plot is easy to read, in lines of text.
 const MIN_AXIS: f64 = 4.0;
-/// The smallest height of the upright axis of a plot without room, in lines of text.
+/// The smallest height of the vertical axis of a plot without room, in lines of text.
 const MIN_AXIS_WITHOUT_ROOM: f64 = 1.0;
-/// The smallest width of the level axis at which a plot is easy to read, relative to the width of the panel.
+/// The smallest width of the horizontal axis at which a plot is easy to read, relative to the width of the panel.
 const MIN_LEVEL_AXIS: f64 = 0.35;
-/// The width of the name of the level axis from which on it stands below the numbers, relative to the width of the panel.
+/// The width of the name of the horizontal axis from which on it stands below the numbers, relative to the width of the panel.
 const LONG_NAME: f64 = 0.2;
 /// The heights of letters that are tried, relative to the usual height.
 const LETTERS: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
 /// The distance of the contents of a panel from its edges, in lines of text.
 const PADDING: f64 = 0.45;
-/// The distance between the numbers of the upright axis and the axis, in lines of text.
+/// The distance between the numbers of the vertical axis and the axis, in lines of text.
 const BESIDE_AXIS: f64 = 0.4;
 /// The distance between two rows of the legend, in lines of text.
 const ROW: f64 = 1.15;
 /// The height of the row with the title, in lines of text.
 const TITLE_ROW: f64 = 1.25;
-/// The height of the row with the numbers of the level axis, in lines of text.
+/// The height of the row with the numbers of the horizontal axis, in lines of text.
 const NUMBERS_ROW: f64 = 1.25;
-/// The height of the row with the name of the level axis, in lines of text.
+/// The height of the row with the name of the horizontal axis, in lines of text.
 const NAME_ROW: f64 = 1.1;
-/// The distance between two numbers of the level axis, and between two of the upright one, in lines of text. Numbers of the level axis may be
+/// The distance between two numbers of the horizontal axis, and between two of the vertical one, in lines of text. Numbers of the horizontal axis may be
 /// farther apart, if they are wide.
 const BETWEEN_NUMBERS: [f64; 2] = [2.8, 2.0];
-/// The largest number of intervals between the numbers of the level and of the upright axis.
+/// The largest number of intervals between the numbers of the level and of the vertical axis.
 const MAX_INTERVALS: [f64; 2] = [8.0, 6.0];
 
 /// The words of a plot.
@@ -51,7 +51,7 @@ pub(super) struct Legend<'a> {
     pub(super) x_name: &'a str,
     /// The units of both axes.
     pub(super) units: [&'a str; 2],
-    /// The sign before the decimals of numbers. It has the same width as a point.
+    /// The decimal sign of numbers: a point or a comma. Both have the same width.
     pub(super) sign: DecimalSign,
 }
 
@@ -64,7 +64,7 @@ pub(super) struct Panel {
     pub(super) area: Rectangle,
     /// The height of a line of text.
     line: f64,
-    /// The height of the row with the name of the level axis. 0 if the name stands beside its numbers.
+    /// The height of the row with the name of the horizontal axis. 0 if the name stands beside its numbers.
     name_row: f64,
     /// The position of each name of the legend: from the left, and the number of the row.
     names: Vec<(f64, f64)>,
@@ -100,7 +100,7 @@ impl Panel {
         let name_row = if width(legend.x_name, line) > LONG_NAME * wide { NAME_ROW * line } else { 0.0 };
         let title_row = if legend.title.is_some() { TITLE_ROW * line } else { 0.0 };
         let foot = pad + NUMBERS_ROW * line + name_row;
-        // The numbers of the upright axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
+        // The numbers of the vertical axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
         let mut upright = Axis::new(&ranges[1], 1.0);
         let (mut numbers, mut names, mut rows, mut high, mut least) =

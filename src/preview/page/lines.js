@@ -79,9 +79,9 @@ function coil(lines, [a, b], radius, wire, turns, color) {
 /** The colors of the x, y and z axes, in sRGB. */
 export const AXES = [[0.8, 0.1, 0.12], [0.1, 0.54, 0.2], [0.14, 0.3, 0.82]];
 
-function axes(lines, { location, turn, length: arm }) {
+function axes(lines, { location, orientation, length: arm }) {
   AXES.forEach((color, i) => {
-    const direction = turned(turn, [0, 1, 2].map((k) => (k === i ? arm : 0)));
+    const direction = turned(orientation, [0, 1, 2].map((k) => (k === i ? arm : 0)));
     lines.add(location, add(location, times(direction, 0.8)), 0.03 * arm, color);
     lines.add(add(location, times(direction, 0.76)), add(location, direction), 0.078 * arm, color, 0);
   });

@@ -100,7 +100,7 @@ function triads(run, shown, at) {
   const bodies = run.description.bodies.flatMap(({ axes: length }, body) => {
     if (!length) return [];
     const here = at(body);
-    return isThere(here) ? [{ location: here.slice(0, 3), turn: here.slice(3), length }] : [];
+    return isThere(here) ? [{ location: here.slice(0, 3), orientation: here.slice(3), length }] : [];
   });
   return [...bodies, ...(shown?.things ?? []).filter((each) => each.form === "axes")];
 }

@@ -54,9 +54,9 @@ export class Texts {
   }
 
   /** Returns the letters x, y and z at the ends of a triad. */
-  letters({ location, turn, length: arm }, view, space) {
+  letters({ location, orientation, length: arm }, view, space) {
     return AXES.flatMap((color, axis) => {
-      const end = add(location, turned(turn, [0, 1, 2].map((k) => (k === axis ? 1.14 * arm : 0))));
+      const end = add(location, turned(orientation, [0, 1, 2].map((k) => (k === axis ? 1.14 * arm : 0))));
       const spot = projected(view.clip, times(sub(end, space.center), 1 / space.size));
       const size = (0.25 * arm * view.focal) / space.size / spot.w;
       if (!(spot.w > 0) || size < 7) return [];

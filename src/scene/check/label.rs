@@ -30,8 +30,12 @@ pub(super) fn read(
     let read = |(name, _, view): (&str, Span, View<'_>)| {
         let visible = visible(name, &view, timeline, context);
         let place = place_of(&view, things.bodies, context);
+        let own = match place {
+            LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
+            LabelPlace::Corner(_) | LabelPlace::Center => None,
+        };
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));
-        let text = text.map(|(text, span)| pieces((text, span), root, place, things, context));
+        let text = text.map(|(text, span)| pieces((text, span), root, own, things, context));
         Label {
             name: name.to_owned(),
             text: text.unwrap_or_default(),
@@ -119,14 +123,10 @@ fn place_of(view: &View<'_>, bodies: &[Body], context: &mut Context<'_>) -> Labe
 pub(super) fn pieces(
     (text, span): (&str, Span),
     root: &View<'_>,
-    place: LabelPlace,
+    own: Option<OwnBody>,
     things: Things<'_>,
     context: &mut Context<'_>,
 ) -> Vec<Piece> {
-    let own = match place {
-        LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
-        LabelPlace::Corner(_) | LabelPlace::Center => None,
-    };
     let mut reader = Reader::new("label", (text, span), root, own, things, context);
     if text.len() > MAX_LENGTH {
         let message = format!("a label has at most {MAX_LENGTH} bytes");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::label::pieces;
-use super::measures::Things;
+use super::measures::{OwnBody, Things};
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
@@ -16,8 +16,7 @@ use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowMark, ArrowOwner, Components, Corner, Distance, LabelPlace, Leg, Piece, Quantity, Side,
-    SimulationSettings, read,
+    Angle, ArrowMark, ArrowOwner, Components, Distance, Leg, Piece, Quantity, SimulationSettings, read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -63,11 +62,8 @@ impl Known<'_, '_> {
 
     /// Reads a text with values. `of` is the body whose measures need no name.
     fn pieces(self, (text, span): (&str, Span), of: Option<usize>, context: &mut Context<'_>) -> Vec<Piece> {
-        let place = match of {
-            Some(body) => LabelPlace::Body { body, side: Side::Above, ghosts: false },
-            None => LabelPlace::Corner(Corner::TopLeft),
-        };
-        pieces((text, span), self.root, place, self.things, context)
+        let own = of.map(|body| OwnBody { body, ghosts: false });
+        pieces((text, span), self.root, own, self.things, context)
     }
 }
 

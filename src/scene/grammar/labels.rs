@@ -130,7 +130,7 @@ table! {
     WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
         .default("0.36, and more in small pictures")
         .also(&["size"]),
-    RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its upright axis")
+    RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its vertical axis")
         .default("that of the curves")
         .also(&["y_range", "ylim", "limits"]),
     AHEAD: bool = KeySpec::new("ahead", Boolean, "Whether the rest of each curve is drawn, too, in a pale color")

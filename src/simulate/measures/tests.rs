@@ -188,3 +188,25 @@ fn the_power_of_a_body_is_the_rate_of_its_kinetic_energy() {
         assert!((near[1][0] - rate).abs() < 1e-4 * largest, "{} W, and {rate} J/s", near[1][0]);
     }
 }
+
+/// The forces on a body add up to its net force, which the simulation computes by another way: with gravity, a spring with damping, drag in the
+/// wind, and a force that grows with time.
+#[test]
+fn the_named_forces_add_up_to_the_net_force() {
+    let text = "simulation = { duration = 2, gravity = [0, -10, 0], integrator = 'rk4' }
+        [body.a]\nshape.sphere.radius = 0.1\nmass = 2\nlocation = [1, 0, 0]\nvelocity = [3, 4, 1]
+        [force.s.spring]\nbetween = ['a', [0, 0, 0]]\nstiffness = 30\ndamping = 2
+        [force.d.drag]\nlinear = 0.4\nquadratic = 0.1\nwind = [0, 0, 3]
+        [force.f.formula]\nforce = ['t', 'x*y', 0]
+        [plot.p]\ny = ['force.s.x + force.d.x + force.f.x - a.fx', 'force.s.y + force.d.y + force.f.y - 20 - a.fy',
+            'force.s.z + force.d.z + force.f.z - a.fz', 'force.s.power + force.d.power + force.f.power - 20*a.vy - a.power', 'a.force']\n";
+    let scene = Scene::parse(text).unwrap_or_else(|report| panic!("{report}"));
+    let measures = Measures::new(&scene);
+    let mut largest = 0.0_f64;
+    for frame in crate::simulate::Frames::new(&scene).map(Result::unwrap) {
+        let value = |curve: usize| measures.value(&scene.plots[0].curves[curve].y, &MomentState::now(&frame));
+        largest = largest.max(value(4));
+        assert!((0..4).all(|curve| value(curve).abs() < 1e-9), "{:?}", [0, 1, 2, 3].map(value));
+    }
+    assert!(largest > 30.0, "{largest} N");
+}

@@ -1,17 +1,20 @@
 //! Collects the arrows, axes and marks of a frame, and moves them in front of what would hide them.
 
 use super::Plan;
-use crate::picture::arrows::{Arrow, ArrowOwner};
+use crate::picture::arrows::Arrow;
 use crate::picture::in_front::lift_from_link;
 use crate::picture::marks::{Scale, Sketch};
 use crate::picture::thing::{Form, Thing};
+use crate::scene::ArrowOwner;
 use crate::simulate::{Frame, Ghost};
 
 impl Plan {
     /// What a frame shows of measured quantities: arrows, axes, angles, distances. The arrows and axes of one body follow each other. What
     /// the ground or a spring would hide is moved towards the camera, in such a way that it looks the same in the picture.
     pub fn marks(&self, frame: &Frame) -> Vec<Thing<'_>> {
-        let mut arrows = self.arrows_in_front(frame).into_iter().peekable();
+        let arrows = self.arrows_in_front(frame);
+        let of_arrows = self.sketch_of_arrows(frame, &arrows);
+        let mut arrows = arrows.into_iter().peekable();
         let mut marks = Vec::new();
         for (its, axes) in self.arrows.axes(frame) {
             let is_before = |arrow: &Arrow| matches!(arrow.owner, ArrowOwner::Body(body) if body <= its);
@@ -21,7 +24,7 @@ impl Plan {
             marks.push(axes);
         }
         marks.extend(arrows.map(|arrow| self.arrows.thing(&arrow)));
-        marks.extend(self.sketch_of_arrows(frame).things);
+        marks.extend(of_arrows.things);
         marks.extend(self.sketch(frame).things);
         marks
     }
@@ -51,32 +54,25 @@ impl Plan {
         };
         let mut sketch = self.marks.sketch(&scale);
         for thing in &mut sketch.things {
-            let Form::Lines(lines) = &mut thing.form else { continue };
+            let Form::Lines { lines } = &mut thing.form else { continue };
             lines.iter_mut().for_each(|line| self.planes.lift_line(line, [line.radius; 2], &camera));
         }
         sketch
     }
 
     /// The texts and components of the arrows of a frame.
-    pub(super) fn sketch_of_arrows(&self, frame: &Frame) -> Sketch<'_> {
-        if self.arrow_marks.is_empty() {
-            return Sketch::default();
-        }
-        self.arrow_marks.sketch(&self.arrows_in_front(frame), &self.arrows, self.sizes(frame).stroke)
+    pub(super) fn sketch_of_arrows(&self, frame: &Frame, arrows: &[Arrow]) -> Sketch<'_> {
+        self.arrow_marks.sketch(arrows, &self.arrows, self.sizes(frame).stroke)
     }
 
     /// The arrows of a frame, moved in front of what would hide them.
-    fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
+    pub(super) fn arrows_in_front(&self, frame: &Frame) -> Vec<Arrow> {
         let mut arrows = self.arrows(frame);
         if !arrows.is_empty() {
             let camera = self.eye.at(frame);
             for arrow in &mut arrows {
                 self.planes.lift(arrow, &camera);
-                let body = match arrow.owner {
-                    ArrowOwner::Body(body) => Some(body),
-                    ArrowOwner::Joint { body, .. } => body,
-                };
-                for link in body.into_iter().flat_map(|body| self.links.of_body(body, frame)) {
+                for link in arrow.body.into_iter().flat_map(|body| self.links.of_body(body, frame)) {
                     lift_from_link(arrow, &link.form, &camera);
                 }
             }
