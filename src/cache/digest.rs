@@ -34,6 +34,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         // Particles move no body. Their motion is computed from the recording.
         emitters: _,
         materials: _,
+        color_maps: _,
         camera: _,
         views: _,
         lights: _,

@@ -35,6 +35,7 @@ codes! {
     AllFramesFail = "all-frames-fail",
     AngleUnit = "angle-unit",
     BadAsset = "bad-asset",
+    BadColorMap = "bad-color-map",
     BadContacts = "bad-contacts",
     BadEmitter = "bad-emitter",
     BadFilmName = "bad-film-name",

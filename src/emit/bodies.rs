@@ -10,12 +10,13 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::materials::MaterialText;
+use super::materials::{MaterialText, SHADE};
 use super::meshes::Meshes;
 use super::sdl::Style;
+use super::showing::color;
 use super::{shapes, text};
 use crate::physics::{BodySnapshot, Shape};
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Color, Scene};
 use crate::simulate::Frame;
 
 /// The planned text of all bodies, without their poses.
@@ -23,6 +24,8 @@ pub(super) struct Block {
     style: Style,
     groups: Vec<Group>,
     forms: Vec<TextTemplate>,
+    /// The colors of each color map of the scene, as SDL vectors.
+    shades: Vec<Vec<String>>,
 }
 
 /// Bodies that are written as one object: all bodies of one plain material, or a single body with its own look.
@@ -30,6 +33,8 @@ struct Group {
     bodies: Vec<Item>,
     /// The SDL text of the bodies' common material. `None` for a single body.
     shared: Option<String>,
+    /// The color map of the bodies, by its index in the scene. `None` if their color stays.
+    map: Option<usize>,
 }
 
 /// One body in the block: its index in the scene, the index of its text template, and its name.
@@ -62,8 +67,14 @@ enum Place {
 }
 
 impl Block {
-    /// Plans the text of all bodies in a scene. `materials` are in the order of the scene's materials.
-    pub(super) fn new(scene: &Scene, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
+    /// Plans the text of all bodies in a scene. `materials` are in the order of the scene's materials; `colors` are those of its color maps.
+    pub(super) fn new(
+        scene: &Scene,
+        materials: &[MaterialText],
+        colors: &[Vec<Color>],
+        meshes: &Meshes,
+        style: Style,
+    ) -> Block {
         let mut together: Vec<(Option<usize>, Vec<usize>)> = Vec::new();
         let mut group_of: Vec<Option<usize>> = vec![None; materials.len()];
         for (id, body) in scene.bodies.iter().enumerate() {
@@ -79,36 +90,64 @@ impl Block {
             }
         }
         let mut forms = Vec::new();
-        let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| match material {
-            Some(material) => {
-                of_one_material(scene, &materials[*material], bodies, meshes, style, &mut forms)
-            }
-            None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style, &mut forms),
+        let plan = |(material, bodies): &(Option<usize>, Vec<usize>)| {
+            let group = match material {
+                Some(material) => {
+                    of_one_material(scene, &materials[*material], bodies, meshes, style, &mut forms)
+                }
+                None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style, &mut forms),
+            };
+            Group { map: scene.color_map_of(&scene.bodies[bodies[0]]), ..group }
         };
         let groups = together.iter().map(plan).collect();
-        Block { style, groups, forms }
+        let shades =
+            colors.iter().map(|colors| colors.iter().map(|it| color(*it, style)).collect()).collect();
+        Block { style, groups, forms, shades }
     }
 
-    /// Appends the bodies that are present in a frame. The error is the index of the first body whose location is not finite in POV-Ray
-    /// units.
-    pub(super) fn write(&self, out: &mut String, frame: &Frame) -> Result<(), usize> {
-        for Group { bodies, shared } in &self.groups {
-            let mut there = bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
-            if shared.is_some() {
-                // POV-Ray warns about a union of one object. The texts for one body and for several differ only in the word before the
-                // brace, so that a further body leaves all other lines unchanged.
-                match there.clone().take(2).count() {
-                    0 => continue,
-                    1 => out.push_str("object {\n"),
-                    _ => out.push_str("union {\n"),
-                }
+    /// Appends the bodies that are present in a frame. `colors` has the color of each body, as an index into the colors of its map. The error
+    /// is the index of the first body whose location is not finite in POV-Ray units.
+    pub(super) fn write(&self, out: &mut String, frame: &Frame, colors: &[u16]) -> Result<(), usize> {
+        for group in &self.groups {
+            let there = group.bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
+            let Some(map) = group.map else {
+                self.together(out, group.shared.as_deref(), there)?;
+                continue;
+            };
+            // Bodies of one color stand together. The sort keeps their order.
+            let color = |item: &Item| colors.get(item.id).map_or(0, |color| usize::from(*color));
+            let mut sorted: Vec<(&Item, &BodySnapshot)> = there.collect();
+            sorted.sort_by_key(|(item, _)| color(item));
+            for of_color in sorted.chunk_by(|(one, _), (other, _)| color(one) == color(other)) {
+                let shade = &self.shades[map][color(of_color[0].0)];
+                let _ = writeln!(out, "#local {SHADE} = {shade};");
+                self.together(out, group.shared.as_deref(), of_color.iter().copied())?;
             }
-            there.try_for_each(|(item, body)| self.item(out, item, body))?;
-            if let Some(material) = shared {
-                out.push_str("  ");
-                out.push_str(material);
-                out.push_str("\n}\n");
+        }
+        Ok(())
+    }
+
+    /// Appends bodies as one object with a common material, or a single body with its own.
+    fn together<'a>(
+        &self,
+        out: &mut String,
+        shared: Option<&str>,
+        mut bodies: impl Iterator<Item = (&'a Item, &'a BodySnapshot)> + Clone,
+    ) -> Result<(), usize> {
+        if shared.is_some() {
+            // POV-Ray warns about a union of one object. The texts for one body and for several differ only in the word before the
+            // brace, so that a further body leaves all other lines unchanged.
+            match bodies.clone().take(2).count() {
+                0 => return Ok(()),
+                1 => out.push_str("object {\n"),
+                _ => out.push_str("union {\n"),
             }
+        }
+        bodies.try_for_each(|(item, body)| self.item(out, item, body))?;
+        if let Some(material) = shared {
+            out.push_str("  ");
+            out.push_str(material);
+            out.push_str("\n}\n");
         }
         Ok(())
     }
@@ -116,7 +155,8 @@ impl Block {
     /// Plans a block of a single body.
     pub(super) fn of(body: &Body, materials: &[MaterialText], meshes: &Meshes, style: Style) -> Block {
         let mut forms = Vec::new();
-        Block { style, groups: vec![single(body, materials, 0, meshes, style, &mut forms)], forms }
+        let groups = vec![single(body, materials, 0, meshes, style, &mut forms)];
+        Block { style, groups, forms, shades: Vec::new() }
     }
 
     /// Appends the only body of a block at another pose, as for a ghost.
@@ -174,7 +214,7 @@ fn of_one_material(
         let form = TextTemplate { before: format!("  {before}"), place, after: format!("{after} }} // ") };
         Item { id, form: number(form, forms), name: in_comment(body) }
     };
-    Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()) }
+    Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()), map: None }
 }
 
 /// Plans one body with its own material.
@@ -189,7 +229,7 @@ fn single(
     let material = body.material.map(|material| &materials[material]);
     let mut group = |form: TextTemplate| {
         let item = Item { id, form: number(form, forms), name: in_comment(body) };
-        Group { bodies: vec![item], shared: None }
+        Group { bodies: vec![item], shared: None, map: None }
     };
     let plane_macro = material.and_then(MaterialText::plane_macro);
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {

@@ -20,6 +20,9 @@ enum Kind {
     Sdl,
 }
 
+/// The identifier of the color of the next bodies in scripts, for materials whose color follows a value.
+pub(super) const SHADE: &str = "Shade";
+
 /// The values of a material that templates can use.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct MaterialText {
@@ -30,6 +33,8 @@ pub(super) struct MaterialText {
     kind: Kind,
     /// The color in sRGB, for a plain material or a material of the library.
     pub(super) color: Option<[f64; 3]>,
+    /// True if the color follows a value. The material is then a macro of the color, since each body has its own.
+    mapped: bool,
     /// The name of the finish, for a plain material.
     finish: Option<&'static str>,
     /// The name of the material in the library, for a material of the library.
@@ -85,6 +90,7 @@ fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> O
         name: format!("{}, ghost", material.name),
         identifier: identifiers.add("Ghost", &material.name),
         color: Some(color),
+        mapped: false,
         on_plane: false,
         ..material.clone()
     })
@@ -96,6 +102,7 @@ fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
         identifier: identifiers.add("Material", &material.name),
         kind: Kind::Plain,
         color: material.look.color().map(|color| color.0),
+        mapped: material.color_map.is_some(),
         finish: None,
         like: None,
         family: None,
@@ -148,9 +155,14 @@ impl MaterialText {
             Kind::Sdl => format!("{}()", self.identifier),
             Kind::Plain | Kind::Library | Kind::Checkered | Kind::Texture => {
                 let no_shadow = if self.glows { " no_shadow" } else { "" };
-                format!("material {{ {} }}{no_shadow}", self.identifier)
+                format!("material {{ {} }}{no_shadow}", self.inside())
             }
         }
+    }
+
+    /// Returns the SDL text of the material between the braces of `material { }`.
+    fn inside(&self) -> String {
+        if self.mapped { format!("{}({SHADE})", self.identifier) } else { self.identifier.clone() }
     }
 
     /// Returns the SDL text that gives a body this material.
@@ -170,7 +182,7 @@ impl MaterialText {
         place.push_str(" scale ");
         style.length(&mut place, radius);
         let no_shadow = if self.glows { " no_shadow" } else { "" };
-        format!("material {{ {}{place} }}{no_shadow}", self.identifier)
+        format!("material {{ {}{place} }}{no_shadow}", self.inside())
     }
 }
 

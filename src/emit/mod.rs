@@ -146,7 +146,7 @@ impl Emitter {
                 templates.mention(name)
             }),
             shared,
-            block: Block::new(scene, &materials, &meshes, style),
+            block: Block::new(scene, &materials, &plan.mapped_colors(), &meshes, style),
             showing: Showing::new(scene, &plan, &materials, &meshes, style),
             particles: Particles::new(scene, style),
             plan,
@@ -193,7 +193,7 @@ impl Emitter {
         }
         // The blocks of all frames have similar lengths. Reserving the length at once avoids a buffer of up to twice the size.
         let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
-        let written = self.block.write(&mut solids_sdl, frame);
+        let written = self.block.write(&mut solids_sdl, frame, &self.plan.colors(frame));
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
         let mut showing_sdl = String::with_capacity(self.longest_beside.load(Ordering::Relaxed));
         let written = self.particles.write(&mut showing_sdl, frame);

@@ -103,6 +103,8 @@ struct Surface {
     second: Option<Color3>,
     /// The color of ghosts (earlier poses) of bodies with this material, linear.
     pale: Color3,
+    /// The index of the color map that gives each body its own color. `None` if the color stays.
+    map: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -125,8 +127,10 @@ struct Stage {
     trails: Vec<Trail>,
     /// The lines of the grid for each camera. `None` without a grid, or for a camera that moves.
     grids: Vec<Option<Thing<'static>>>,
-    /// The plots of the scene, with their curves over the whole run.
+    /// The plots of the scene, with their curves over the whole run, then the color bars.
     plots: Vec<super::shown::Plot>,
+    /// The colors of each color map, linear, from the lowest value to the highest; the last one is for undefined values.
+    maps: Vec<Vec<Color3>>,
     /// The initial position and direction of each camera.
     cameras: Vec<super::shown::Camera>,
     lights: Vec<super::shown::Light>,
@@ -175,7 +179,10 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
         materials: scene
             .materials
             .iter()
-            .map(|m| surface(&appearance(&m.look, preset), Some(&m.look), dark))
+            .map(|m| Surface {
+                map: m.color_map,
+                ..surface(&appearance(&m.look, preset), Some(&m.look), dark)
+            })
             .collect(),
         tiles: surface(&ground(preset), None, dark),
         views: scene.views.iter().map(|view| view.name.as_str()).collect(),
@@ -285,6 +292,7 @@ fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
         },
         second: look.second,
         pale,
+        map: None,
     }
 }
 
@@ -304,6 +312,7 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         || joints
         || trails
         || texts
+        || !scene.color_maps.is_empty()
         || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
 }
 
@@ -340,6 +349,11 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
         trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
         grids: outcome.plans.iter().map(|plan| plan.still_grid().cloned()).collect(),
         plots: super::shown::plots(&run.scene, plan),
+        maps: plan
+            .mapped_colors()
+            .iter()
+            .map(|map| map.iter().map(|color| color.linear()).collect())
+            .collect(),
         cameras: outcome.plans.iter().map(|plan| super::shown::Camera::of(plan.placed())).collect(),
         lights: match plan.lights(0.0) {
             given if given.is_empty() => lights(&plan.usual_lights()),

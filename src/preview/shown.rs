@@ -29,6 +29,8 @@ pub(super) struct Shown<'a> {
     bar: Option<Bar>,
     /// What the frame shows of the curves of each plot.
     plots: Vec<Vec<CurveNow>>,
+    /// The color of each body, as an index into the colors of its material's map. Empty if no color follows a value.
+    colors: Vec<u16>,
 }
 
 /// The position, direction and lens of a camera at one time, for the page.
@@ -91,10 +93,19 @@ pub(super) struct Plot {
     bottom: f64,
     size: [f64; 2],
     paper: Vector,
+    /// The strip of a color bar: its corners, and its colors from left to right.
+    strip: Option<Strip>,
     lines: Vec<PlotLine>,
     texts: Vec<Text>,
     curves: Vec<Curve>,
     dot: f64,
+}
+
+#[derive(Serialize)]
+struct Strip {
+    from: [f64; 2],
+    to: [f64; 2],
+    colors: Vec<Vector>,
 }
 
 #[derive(Serialize)]
@@ -195,6 +206,7 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
         texts: plan.texts(frame).iter().map(|each| text(scene, screen.as_ref(), each)).collect(),
         bar: plan.bar(frame).map(bar),
         plots: plan.plots(frame).iter().map(|curves| curves.iter().map(now).collect()).collect(),
+        colors: plan.colors(frame),
     }
 }
 
@@ -233,12 +245,18 @@ pub(super) fn plots(scene: &Scene, plan: &Plan) -> Vec<Plot> {
         points: curve.points.iter().map(|point| point.at).collect(),
     };
     let line = |line: &picture::PlotLine| PlotLine { from: line.from, to: line.to, color: line.color.0 };
+    let strip = |strip: &picture::Strip| Strip {
+        from: strip.from,
+        to: strip.to,
+        colors: strip.colors.iter().map(|color| color.0).collect(),
+    };
     let plot = |plot: &picture::PlannedPlot| Plot {
         name: plot.name.clone(),
         left: plot.left,
         bottom: plot.bottom.above_middle(aspect(scene)),
         size: plot.size,
         paper: plot.paper.0,
+        strip: plot.strip.as_ref().map(strip),
         lines: plot.lines.iter().map(line).collect(),
         texts: plot.texts.iter().map(|each| text(scene, None, each)).collect(),
         curves: plot.curves.iter().map(curve).collect(),

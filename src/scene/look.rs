@@ -14,8 +14,10 @@ use crate::physics::Surface;
 pub struct Material {
     /// The name of the material: from the scene, the library or the palette, or the name of the body that the material belongs to.
     pub name: String,
-    /// The color, pattern and finish of the material.
+    /// The color, pattern and finish of the material. A color that follows a value is the middle one of its map here.
     pub look: Look,
+    /// The color map that gives each body its own color, by its index in the scene. `None` for a color that stays.
+    pub color_map: Option<usize>,
 }
 
 /// The look of a material: its color, pattern and finish.
@@ -51,6 +53,16 @@ impl Look {
             Look::Plain { color, .. } => Some(*color),
             Look::Library { color, .. } => *color,
             Look::Checkered | Look::Texture(_) | Look::Sdl(_) => None,
+        }
+    }
+
+    /// Returns the same look in another color. A look whose color is fixed stays.
+    #[must_use]
+    pub fn with_color(&self, new: Color) -> Look {
+        match self {
+            Look::Plain { finish, .. } => Look::Plain { color: new, finish: *finish },
+            Look::Library { material, color: Some(_) } => Look::Library { material, color: Some(new) },
+            other => other.clone(),
         }
     }
 

@@ -75,8 +75,10 @@
 mod asset;
 mod check;
 mod color;
+mod color_map;
 mod color_names;
 mod contact;
+mod default_looks;
 pub mod drawn;
 mod emitter;
 mod expand;
@@ -93,7 +95,6 @@ mod measure;
 mod mesh;
 mod model;
 pub mod motion;
-mod palette;
 mod places;
 mod plot;
 mod preset;
@@ -112,6 +113,7 @@ use std::path::{Path, PathBuf};
 pub use asset::{Asset, AssetSource};
 pub use color::Color;
 pub(crate) use color::names as color_names;
+pub use color_map::{ColorMap, Palette};
 pub use contact::{Collider, ContactLaw, is_by_moreau};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
@@ -167,6 +169,8 @@ pub struct Scene {
     pub emitters: Vec<Emitter>,
     /// The materials: first those of `[material.NAME]` in the order of the file, then those of single bodies, the library and the palette.
     pub materials: Vec<Material>,
+    /// The color maps of materials, each once.
+    pub color_maps: Vec<ColorMap>,
     /// The main camera, from `[camera]`.
     pub camera: Camera,
     /// The additional cameras (`[view.NAME]`), in the order of the file.
@@ -231,10 +235,23 @@ impl Scene {
         labels.chain(angles).chain(distances).chain(arrows).chain(components)
     }
 
-    /// Returns whether the pictures have texts with values at bodies: labels, plots, or marks.
+    /// Returns whether the pictures show values of the moment, in letters or as colors.
     pub fn shows_measures(&self) -> bool {
+        self.writes_measures() || !self.color_maps.is_empty()
+    }
+
+    /// Returns whether the pictures have texts with values: labels, plots, color bars, or marks.
+    pub fn writes_measures(&self) -> bool {
         let has_marks = !self.angles.is_empty() || !self.distances.is_empty() || !self.arrow_marks.is_empty();
-        has_marks || !self.labels.is_empty() || !self.plots.is_empty()
+        has_marks
+            || !self.labels.is_empty()
+            || !self.plots.is_empty()
+            || self.color_maps.iter().any(|map| map.bar.is_some())
+    }
+
+    /// Returns the color map of a body. `None` if the color of the body stays.
+    pub fn color_map_of(&self, body: &Body) -> Option<usize> {
+        self.materials[body.material?].color_map
     }
 
     /// Reads and checks the scene in a file.

@@ -115,7 +115,9 @@ impl Measures {
             .plots
             .iter()
             .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
-        let formulas = of_texts.chain(of_plots).chain(scene.aggregates.iter().map(|it| &it.formula));
+        let of_aggregates = scene.aggregates.iter().map(|it| &it.formula);
+        let of_colors = scene.color_maps.iter().map(|map| &map.of);
+        let formulas = of_texts.chain(of_plots).chain(of_aggregates).chain(of_colors);
         let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
             Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
             _ => None,
@@ -206,12 +208,13 @@ impl Measures {
         }
     }
 
-    /// Returns the value of an aggregate of the scene. Absent bodies are left out.
-    fn aggregate(&self, number: usize, moment: &MomentState<'_>) -> f64 {
-        if let Some(known) = moment.computed.aggregates.borrow().get(&number) {
-            return *known;
-        }
-        let Aggregate { how, bodies, formula } = &self.aggregates[number];
+    /// Returns the value of a formula for each of several bodies, in the unit that the scene asks for.
+    pub fn of_each<'a>(
+        &'a self,
+        formula: &'a MeasureFormula,
+        bodies: impl Iterator<Item = usize> + 'a,
+        moment: &'a MomentState<'_>,
+    ) -> impl Iterator<Item = f64> + 'a {
         // What is the same for all bodies is computed once.
         let mut inputs: Vec<f64> = formula
             .inputs
@@ -220,13 +223,23 @@ impl Measures {
             .collect();
         let of_each = formula.inputs.iter().enumerate().filter(|(_, measure)| measure.is_of_each());
         let of_each: Vec<(usize, Measure)> = of_each.map(|(slot, measure)| (slot, *measure)).collect();
-        let present = bodies.iter().filter(|body| find(moment.bodies, **body).is_some());
-        let value = how.of(present.map(|body| {
+        let unit = formula.unit_size();
+        bodies.map(move |body| {
             for (slot, measure) in &of_each {
-                inputs[*slot] = self.measure(measure.of_one(*body), moment);
+                inputs[*slot] = self.measure(measure.of_one(body), moment);
             }
-            formula.program.eval(&inputs)
-        }));
+            formula.program.eval(&inputs) / unit
+        })
+    }
+
+    /// Returns the value of an aggregate of the scene. Absent bodies are left out.
+    fn aggregate(&self, number: usize, moment: &MomentState<'_>) -> f64 {
+        if let Some(known) = moment.computed.aggregates.borrow().get(&number) {
+            return *known;
+        }
+        let Aggregate { how, bodies, formula } = &self.aggregates[number];
+        let present = bodies.iter().copied().filter(|body| find(moment.bodies, *body).is_some());
+        let value = how.of(self.of_each(formula, present, moment));
         moment.computed.aggregates.borrow_mut().insert(number, value);
         value
     }

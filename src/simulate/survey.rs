@@ -2,6 +2,7 @@
 //!
 //! The survey is made while frames are recorded, or while a recording is read.
 
+mod color_ranges;
 mod corrected;
 mod crossing;
 mod curves;
@@ -9,6 +10,7 @@ mod stretched;
 #[cfg(test)]
 mod tests;
 
+use color_ranges::ColorRanges;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
@@ -61,6 +63,8 @@ pub struct Survey {
     /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
     /// values of neighboring frames.
     pub curves: Vec<Vec<CurvePoint>>,
+    /// The values of the first and the last color of each color map, in the order of the scene.
+    pub color_ranges: Vec<[f64; 2]>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -139,6 +143,7 @@ pub struct Surveyor<'a> {
     /// The largest energy error so far.
     error: EnergyError,
     curves: Curves<'a>,
+    color_ranges: ColorRanges<'a>,
 }
 
 impl Survey {
@@ -174,6 +179,7 @@ impl<'a> Surveyor<'a> {
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
             curves: Curves::new(scene),
+            color_ranges: ColorRanges::new(scene),
         }
     }
 
@@ -232,6 +238,7 @@ impl<'a> Surveyor<'a> {
         self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
         self.curves.see(frame);
+        self.color_ranges.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -250,6 +257,7 @@ impl<'a> Surveyor<'a> {
             gaps,
             error,
             curves,
+            color_ranges,
             ..
         } = self;
         let interval = scene.simulation.timeline.interval();
@@ -269,6 +277,7 @@ impl<'a> Surveyor<'a> {
             laws,
             stretched: gaps.finish(scene),
             curves: curves.finish(),
+            color_ranges: color_ranges.finish(),
             drift: error.drift(law),
             drift_scale,
             drift_energy,

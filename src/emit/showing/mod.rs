@@ -42,8 +42,10 @@ pub(super) struct NeededMacros {
     coils: bool,
     /// True if the pictures contain texts.
     labels: bool,
-    /// True if the pictures contain plots.
+    /// True if the pictures contain plots or color bars.
     plots: bool,
+    /// True if the pictures contain color bars.
+    color_bars: bool,
     /// True if bodies have trails.
     trails: bool,
 }
@@ -52,12 +54,14 @@ impl NeededMacros {
     pub(super) fn of(scene: &Scene) -> NeededMacros {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
+        let has_color_bars = scene.color_maps.iter().any(|map| map.bar.is_some());
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
-            plots: !scene.plots.is_empty(),
+            plots: !scene.plots.is_empty() || has_color_bars,
+            color_bars: has_color_bars,
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
     }

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use super::super::{sdl::Style, text};
 use super::color;
 use super::texts::{self, length, short};
-use crate::picture::{CurveNow, PlannedPlot};
+use crate::picture::{CurveNow, PlannedPlot, Strip};
 use crate::scene::Layout;
 use crate::simulate::CurvePoint;
 
@@ -21,6 +21,12 @@ pub(super) fn declare(out: &mut String, plots: &[PlannedPlot], layout: Layout, s
         let _ = writeln!(out, "// the plot {}", text::comment(&plot.name));
         let _ = writeln!(out, "#macro Plot_{number}()");
         let _ = writeln!(out, "Panel({}, {wide}, {high}, {paper})", corner(plot));
+        if let Some(Strip { from, to, colors }) = &plot.strip {
+            let [from, to] = [*from, *to].map(|at| point(Some(at)));
+            let colors: Vec<String> = colors.iter().map(|it| color(*it, style)).collect();
+            let _ = writeln!(out, "#local Colors = array[{}] {{ {} }}", colors.len(), colors.join(", "));
+            let _ = writeln!(out, "Strip({}, {from}, {to}, Colors)", corner(plot));
+        }
         for line in &plot.lines {
             let ([from, to], ink) =
                 ([line.from, line.to].map(|at| point(Some(at))), color(line.color, style));

@@ -6,7 +6,7 @@ use super::document::{Camera, CameraLens, Light, Orthographic, Perspective};
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
-use crate::scene::{Output, Scene};
+use crate::scene::{Body, Color, Output, Scene};
 use crate::simulate::{Recorded, Selection};
 
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
@@ -19,6 +19,8 @@ pub(super) struct CamerasAndLights {
     /// The main camera, followed by the cameras of the views.
     pub(super) cameras: Vec<Camera>,
     pub(super) lights: Vec<Light>,
+    /// The color of each body in the first frame, if it follows a value. Models cannot animate colors.
+    pub(super) colors: Vec<Option<Color>>,
 }
 
 impl CamerasAndLights {
@@ -53,8 +55,24 @@ impl CamerasAndLights {
         let cameras = names.into_iter().zip(seen);
         let cameras = cameras.map(|(name, seen)| seen.camera(name, scene.output, &stage)).collect();
         let lights = lights(scene, &plans[0], selection, motion)?;
-        Ok(CamerasAndLights { cameras, lights, stage })
+        let colors = colors(run, &plans[0], selection)?;
+        Ok(CamerasAndLights { cameras, lights, stage, colors })
     }
+}
+
+/// Returns the color of each body in the first of the selected frames, if it follows a value.
+fn colors(run: &Recorded<'_>, plan: &Plan, selection: &Selection) -> Result<Vec<Option<Color>>, ExportError> {
+    let scene = run.scene();
+    let first = match scene.color_maps.is_empty() {
+        true => None,
+        false => run.exposures(selection).next().transpose()?,
+    };
+    let (maps, colors) = (plan.mapped_colors(), first.map_or(Vec::new(), |first| plan.colors(&first.frame)));
+    let color = |(number, body): (usize, &Body)| {
+        let map = scene.color_map_of(body)?;
+        maps[map].get(usize::from(*colors.get(number)?)).copied()
+    };
+    Ok(scene.bodies.iter().enumerate().map(color).collect())
 }
 
 /// Returns the pose of a camera in glTF's convention: it looks along −z, with y up.

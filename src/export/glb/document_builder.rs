@@ -12,7 +12,7 @@ use super::links::LinkNode;
 use super::materials::PaintedObject;
 use super::meshes::Meshes;
 use super::motion::{NodeMotion, NodePose, SampledMotion};
-use crate::scene::{Body, Look, Scene};
+use crate::scene::{Look, Scene};
 use crate::surface::{BaseShape, Detail, Piece, pieces};
 
 /// The number of pieces of bodies above which each piece gets fewer triangles.
@@ -45,8 +45,8 @@ pub(super) fn document(
         nodes: vec![Node { name: ROOT.to_owned(), ..Node::default() }],
         meshes: Meshes::new(if many { Detail::Coarse } else { Detail::Fine }),
     };
-    let bodies = scene.bodies.iter().zip(motion.ways()).zip(drawn);
-    let bodies: Vec<u32> = bodies.map(|((body, way), pieces)| builder.body(body, way, pieces)).collect();
+    let bodies = motion.ways().iter().zip(drawn).enumerate();
+    let bodies: Vec<u32> = bodies.map(|(id, (way, pieces))| builder.body(id, way, pieces)).collect();
     let mut top = bodies.clone();
     top.extend(builder.ground());
     let beside = builder.beside(&motion.ways()[bodies.len()..]);
@@ -69,11 +69,17 @@ impl DocumentBuilder<'_> {
 
     /// Adds the node of a body, with its pieces as child nodes. A single piece at the body's origin needs no child: the body's node draws
     /// it.
-    fn body(&mut self, body: &Body, way: &NodeMotion, pieces: Vec<Piece>) -> u32 {
+    fn body(&mut self, id: usize, way: &NodeMotion, pieces: Vec<Piece>) -> u32 {
+        let body = &self.scene.bodies[id];
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
-        let material = body.material.map_or(PaintedObject::Unknown, PaintedObject::Material);
+        let color = self.sight.colors.get(id).copied().flatten();
+        let material = match (body.material, color) {
+            (Some(material), Some(color)) => PaintedObject::Mapped(material, color.0.map(f64::to_bits)),
+            (Some(material), None) => PaintedObject::Material(material),
+            (None, _) => PaintedObject::Unknown,
+        };
         // A pattern is designed for a ball of radius 1. A body gets the pattern of a ball with the same volume.
         let ball = body.shape.radius_of_ball();
         for mut piece in pieces {

@@ -20,6 +20,8 @@ pub(super) struct MaterialKey {
 pub(super) enum PaintedObject {
     /// The material with this index in the scene.
     Material(usize),
+    /// The material with this index in the scene, in an sRGB color of its color map, as the bits of its three components.
+    Mapped(usize, [u64; 3]),
     /// An sRGB color, as the bits of its three components.
     Color([u64; 3]),
     /// The sRGB color of a spring or joint, as the bits of its three components.
@@ -72,6 +74,11 @@ pub(super) fn look(what: PaintedObject, scene: &Scene) -> (String, Appearance) {
         PaintedObject::Material(number) => {
             let material = &scene.materials[number];
             (material.name.clone(), appearance(&material.look, preset))
+        }
+        PaintedObject::Mapped(number, bits) => {
+            let material = &scene.materials[number];
+            let look = material.look.with_color(Color(bits.map(f64::from_bits)));
+            (material.name.clone(), appearance(&look, preset))
         }
         PaintedObject::Color(bits) => ("axes".to_owned(), appearance(&satin(bits), preset)),
         PaintedObject::Link(bits) => ("link".to_owned(), appearance(&satin(bits), preset)),

@@ -16,6 +16,7 @@ use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{MovingCamera, Placed};
+use super::color_maps::ColorMaps;
 use super::ghosts::Ghosts;
 use super::grid::{GridLayout, GridPlan};
 use super::in_front::Planes;
@@ -32,7 +33,7 @@ use super::stage::{Scenery, Stage, stroke};
 use super::thing::{PlannedThing, Thing};
 use super::trails::{Trail, Trails};
 use super::{colors, framing};
-use crate::scene::{Camera, Quantity, Scene};
+use crate::scene::{Camera, Color, Quantity, Scene};
 use crate::simulate::{Bounds, Frame, Ghost, Measures, Survey};
 
 /// Everything that the pictures of one camera have in common in all frames of a run. The plan is made once, and gives the contents of each
@@ -55,6 +56,7 @@ pub struct Plan {
     bar: Option<ScaleBars>,
     labels: Labels,
     plots: Plots,
+    color_maps: ColorMaps,
     /// Angles and dimension lines.
     marks: Marks,
     arrow_marks: ArrowMarks,
@@ -79,9 +81,9 @@ struct Sizes {
     arrows: ArrowSizes,
 }
 
-/// True if the pictures of a scene have texts: labels, plots, names of arrows, angles, distances, a grid or a scale bar.
+/// True if the pictures of a scene have texts: labels, plots, color bars, names of arrows, angles, distances, a grid or a scale bar.
 pub(crate) fn has_texts(scene: &Scene) -> bool {
-    scene.shows_measures() || scene.grid.is_some() || scene.scale_bar.is_some()
+    scene.writes_measures() || scene.grid.is_some() || scene.scale_bar.is_some()
 }
 
 impl Plan {
@@ -152,6 +154,7 @@ impl Plan {
             bar,
             labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
             plots,
+            color_maps: ColorMaps::new(scene, survey, measures.clone()),
             marks: Marks::new(scene, &measures, ink),
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
@@ -307,6 +310,17 @@ impl Plan {
     /// What a frame shows of the curves of each plot.
     pub fn plots(&self, frame: &Frame) -> Vec<Vec<CurveNow>> {
         self.plots.at(frame)
+    }
+
+    /// The colors of each color map, from the lowest value to the highest; the last one is for undefined values.
+    pub fn mapped_colors(&self) -> Vec<Vec<Color>> {
+        self.color_maps.colors()
+    }
+
+    /// The color of each body in a frame, as an index into the [colors](Plan::mapped_colors) of its map. Bodies without a map have 0. Empty
+    /// if the scene has no maps.
+    pub fn colors(&self, frame: &Frame) -> Vec<u16> {
+        self.color_maps.at(frame)
     }
 
     /// The image plane of a frame's camera. `None` if the pictures have no texts.

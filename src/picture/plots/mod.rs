@@ -5,6 +5,7 @@
 
 mod axis;
 mod clip;
+mod color_bar;
 mod colors;
 mod panel;
 mod room;
@@ -44,6 +45,8 @@ pub struct PlannedPlot {
     pub size: [f64; 2],
     /// The color of the panel.
     pub paper: Color,
+    /// The strip of colors, for a color bar.
+    pub strip: Option<Strip>,
     /// The lines of the grid and of the axes.
     pub lines: Vec<PlotLine>,
     /// The title, the legend and the numbers, in positions of the image plane.
@@ -52,6 +55,17 @@ pub struct PlannedPlot {
     pub curves: Vec<PlannedCurve>,
     /// The radius of the dots at the present values.
     pub dot: f64,
+}
+
+/// The strip of a color bar: a rectangle with the colors of a map from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strip {
+    /// The lower left corner.
+    pub from: [f64; 2],
+    /// The upper right corner.
+    pub to: [f64; 2],
+    /// Colors at equal distances, from the left edge to the right one.
+    pub colors: Vec<Color>,
 }
 
 /// A straight line of a plot.
@@ -90,6 +104,7 @@ pub struct CurveNow {
 /// The plots of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Plots {
+    /// The plots in the order of the scene, then the color bars.
     planned: Vec<PlannedPlot>,
     plots: Vec<Plot>,
     /// The axes of each plot, and the rectangle that they span in its panel.
@@ -116,6 +131,9 @@ impl Plots {
             plots.planned.push(planned);
             plots.axes.push(axes);
         }
+        let bars =
+            color_bar::planned(scene, survey, &plots.planned, ink_and_paper(scene.environment.is_dark()));
+        plots.planned.extend(bars);
         plots
     }
 
@@ -123,7 +141,7 @@ impl Plots {
         &self.planned
     }
 
-    /// The rectangles of the panels in the image plane.
+    /// The rectangles of the panels in the image plane, in the order of `planned`.
     pub(super) fn areas(&self) -> impl Iterator<Item = Rectangle> {
         self.planned.iter().map(|plot| {
             let bottom = plot.bottom.above_middle(self.aspect);
@@ -148,6 +166,8 @@ impl Plots {
             };
             now.push(plot.curves.iter().zip(&planned.curves).map(curve).collect());
         }
+        // Color bars have no curves.
+        now.resize(self.planned.len(), Vec::new());
         now
     }
 }
@@ -170,8 +190,7 @@ fn plan(
     room: &Room,
     dark: bool,
 ) -> (PlannedPlot, (Axes, Rectangle)) {
-    let (ink, paper) =
-        (ink(dark), if dark { Color([0.10, 0.11, 0.13]) } else { Color([0.985, 0.985, 0.98]) });
+    let [ink, paper] = ink_and_paper(dark);
     let colors = colors::of_curves(scene, plot, dark);
     let names: Vec<(&str, Color)> =
         plot.curves.iter().zip(&colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
@@ -214,12 +233,18 @@ fn plan(
         bottom: panel.bottom,
         size: panel.size,
         paper,
+        strip: None,
         lines: panel.lines(&axes, mixed(ink, paper, 0.82), mixed(ink, paper, 0.25)),
         texts: panel.texts(&axes, &legend, mixed(ink, paper, 0.1)),
         curves: planned_curves.collect(),
         dot: DOT * room.line,
     };
     (planned, (axes, area))
+}
+
+/// The colors of letters and of the panel, on a `dark` or light background.
+fn ink_and_paper(dark: bool) -> [Color; 2] {
+    [ink(dark), if dark { Color([0.10, 0.11, 0.13]) } else { Color([0.985, 0.985, 0.98]) }]
 }
 
 /// The position in a panel of a point in its plot, which is given from 0 to 1.

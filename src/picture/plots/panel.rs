@@ -26,7 +26,7 @@ const LONG_NAME: f64 = 0.2;
 /// The heights of letters that are tried, relative to the usual height.
 const LETTERS: [f64; 6] = [1.0, 0.88, 0.77, 0.67, 0.58, 0.5];
 /// The distance of the contents of a panel from its edges, in lines of text.
-const PADDING: f64 = 0.45;
+pub(super) const PADDING: f64 = 0.45;
 /// The distance between the numbers of the vertical axis and the axis, in lines of text.
 const BESIDE_AXIS: f64 = 0.4;
 /// The distance between two rows of the legend, in lines of text.
@@ -34,7 +34,7 @@ const ROW: f64 = 1.15;
 /// The height of the row with the title, in lines of text.
 const TITLE_ROW: f64 = 1.25;
 /// The height of the row with the numbers of the horizontal axis, in lines of text.
-const NUMBERS_ROW: f64 = 1.25;
+pub(super) const NUMBERS_ROW: f64 = 1.25;
 /// The height of the row with the name of the horizontal axis, in lines of text.
 const NAME_ROW: f64 = 1.1;
 /// The distance between two numbers of the horizontal axis, and between two of the vertical one, in lines of text. Numbers of the horizontal axis may be
@@ -240,7 +240,7 @@ fn placed(legend: &Legend<'_>, (begin, margin, end): (f64, f64, f64), line: f64)
 }
 
 /// Cuts words that are wider than `room`: an ellipsis replaces their end.
-fn cut(words: &str, room: f64, line: f64) -> String {
+pub(super) fn cut(words: &str, room: f64, line: f64) -> String {
     if width(words, line) <= room {
         return words.to_owned();
     }

@@ -5,7 +5,7 @@ use super::super::framing::Free;
 use super::super::grid;
 use super::super::labels;
 use super::super::text::{MARGIN, Vertical, across_free, is_top, least_height};
-use super::PlannedPlot;
+use super::{PlannedPlot, color_bar};
 use crate::scene::{Corner, Output, Plot, PlotPlace, Scene};
 
 /// The usual height of a line of text, as a fraction of the picture's height.
@@ -14,6 +14,8 @@ const USUAL_LINE: f64 = 0.036;
 const MIN_LINE: f64 = 10.5;
 /// The usual width of a plot, as a fraction of the picture's width.
 const USUAL_WIDTH: f64 = 0.36;
+/// The usual width of a color bar, as a fraction of the picture's width.
+const COLOR_BAR_WIDTH: f64 = 0.26;
 /// The smallest usual width of a plot, pixels. Smaller plots cannot be read.
 const MIN_WIDTH: f64 = 140.0;
 /// The largest usual width of a plot in a corner, as a fraction of the picture's width.
@@ -23,7 +25,7 @@ const MAX_TAKEN_AT_SIDE: f64 = 0.44;
 /// The largest part that the plots at both sides take of the picture's width.
 const MAX_TAKEN_AT_SIDES: f64 = 0.8;
 /// The vertical distance between two plots in the image plane, where the picture has a width of 2.
-const GAP: f64 = 0.02;
+pub(super) const GAP: f64 = 0.02;
 
 /// The room of a plot in the picture. Lengths are in the image plane, where the picture has a width of 2, unless noted otherwise.
 #[derive(Clone, Copy)]
@@ -51,23 +53,37 @@ pub(super) struct Room {
 impl Room {
     /// Returns the room of a plot in the picture of a scene. `before` are the plots before it.
     pub(super) fn in_picture(scene: &Scene, plot: &Plot, before: &[PlannedPlot]) -> Room {
-        let output = scene.output;
-        let aspect = f64::from(output.height) / f64::from(output.width);
+        let (output, aspect) = (scene.output, aspect(scene.output));
         let here = || scene.plots.iter().filter(|other| other.place == plot.place);
-        let bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == plot.place);
-        let bar = bar.map_or(0.0, |_| 4.0 * aspect * grid::SIZE);
-        let before = scene.plots.iter().zip(before).filter(|(other, _)| other.place == plot.place);
         let is_in_column = |other: &&Plot| column(other.place) == column(plot.place);
         Room {
-            line: (USUAL_LINE * 2.0 * aspect).max(least_height(MIN_LINE, output)),
+            line: line(output),
             width: 2.0 * width(plot, output),
             widest: here().map(|other| 2.0 * width(other, output)).fold(0.0, f64::max),
             free: free(scene),
             aspect,
-            used: bar + before.map(|(_, planned)| planned.size[1] + GAP).sum::<f64>(),
+            used: used(scene, plot.place, before),
             count: here().count(),
             column: scene.plots.iter().filter(is_in_column).count(),
-            others: others(scene, plot.place, aspect),
+            others: others(scene, plot.place),
+        }
+    }
+
+    /// Returns the room of a color bar. `plots` are those that stand in the picture already; `before` is the height of earlier color bars in
+    /// the same corner.
+    pub(super) fn of_color_bar(scene: &Scene, corner: Corner, plots: &[PlannedPlot], before: f64) -> Room {
+        let (place, output) = (PlotPlace::Corner(corner), scene.output);
+        let wide = 2.0 * (MIN_WIDTH / f64::from(output.width)).clamp(COLOR_BAR_WIDTH, MAX_WIDTH_IN_CORNER);
+        Room {
+            line: line(output),
+            width: wide,
+            widest: wide,
+            free: free(scene),
+            aspect: aspect(output),
+            used: used(scene, place, plots) + before,
+            count: 1,
+            column: 1,
+            others: 0.0,
         }
     }
 
@@ -118,6 +134,24 @@ impl Room {
     }
 }
 
+/// Returns the height of a picture, relative to its width.
+fn aspect(output: Output) -> f64 {
+    f64::from(output.height) / f64::from(output.width)
+}
+
+/// Returns the height of a line of text.
+fn line(output: Output) -> f64 {
+    (USUAL_LINE * 2.0 * aspect(output)).max(least_height(MIN_LINE, output))
+}
+
+/// Returns the height that the scale bar and plots use in a place. `before` are the plots that stand in the picture already.
+fn used(scene: &Scene, place: PlotPlace, before: &[PlannedPlot]) -> f64 {
+    let bar = scene.scale_bar.filter(|bar| PlotPlace::Corner(bar.corner) == place);
+    let bar = bar.map_or(0.0, |_| 4.0 * aspect(scene.output) * grid::SIZE);
+    let before = scene.plots.iter().zip(before).filter(|(other, _)| other.place == place);
+    bar + before.map(|(_, planned)| planned.size[1] + GAP).sum::<f64>()
+}
+
 /// Returns the width of a plot, as a fraction of the picture's width.
 fn width(plot: &Plot, output: Output) -> f64 {
     let most = match plot.place {
@@ -150,13 +184,16 @@ pub(super) fn column(place: PlotPlace) -> i8 {
     }
 }
 
-/// Returns the height of the labels and the scale bar that stand in the same column as a plot in a corner. Beside plots at a side, they have
+/// Returns the height of the labels, the scale bar and the color bars that stand in the same column as a plot in a corner. Beside plots at a side, they have
 /// the rest of the picture.
-fn others(scene: &Scene, place: PlotPlace, aspect: f64) -> f64 {
+fn others(scene: &Scene, place: PlotPlace) -> f64 {
     if !matches!(place, PlotPlace::Corner(_)) {
         return 0.0;
     }
     let is_here = |corner: Corner| column(PlotPlace::Corner(corner)) == column(place);
-    let bar = scene.scale_bar.filter(|bar| is_here(bar.corner)).map_or(0.0, |_| 4.0 * aspect * grid::SIZE);
-    bar + labels::least_room(scene, is_here)
+    let bar = scene
+        .scale_bar
+        .filter(|bar| is_here(bar.corner))
+        .map_or(0.0, |_| 4.0 * aspect(scene.output) * grid::SIZE);
+    bar + labels::least_room(scene, is_here) + color_bar::heights(scene, line(scene.output), is_here)
 }

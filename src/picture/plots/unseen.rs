@@ -62,7 +62,7 @@ impl Plots {
         let areas: Vec<Rectangle> = self.areas().collect();
         let mut unseen = Vec::new();
         let mut points = survey.curves.iter();
-        for (plot, planned) in self.planned.iter().enumerate() {
+        for (plot, planned) in self.planned.iter().take(self.plots.len()).enumerate() {
             unseen.extend(self.without_room(plot, &areas));
             for (curve, drawn) in planned.curves.iter().enumerate() {
                 let points = points.next().map_or(&[][..], Vec::as_slice);

@@ -44,6 +44,7 @@ export class Painter {
     this.forms?.forEach((form) => form.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
     Object.keys(this.batches).forEach((name) => this.release(name));
     this.scattered = undefined;
+    this.colored = undefined;
     this.forms = run.forms.map((form) => upload(gl, form));
     this.description = run.description;
     this.space = spaceOf(run.description);
@@ -63,21 +64,37 @@ export class Painter {
         const material = description.materials[description.bodies[body].material] ?? PLAIN;
         const clear = !piece.color && material.color[3] < 1;
         const key = `${piece.form} ${clear}`;
-        if (!groups.has(key)) groups.set(key, { form: piece.form, ball: piece.ball, clear, numbers: [] });
-        groups.get(key).numbers.push(...instance(piece, material, pose, space.size, pale));
+        if (!groups.has(key)) groups.set(key, { form: piece.form, ball: piece.ball, clear, numbers: [], mapped: [] });
+        const group = groups.get(key);
+        const isMapped = (material.map ?? null) !== null && !piece.color && !pale;
+        if (isMapped) group.mapped.push({ body, map: material.map, at: group.numbers.length + COLOR });
+        group.numbers.push(...instance(piece, material, pose, space.size, pale));
       }
     }
-    const made = [...groups.values()].map(({ form, ball, clear, numbers }) => {
+    const made = [...groups.values()].map(({ form, ball, clear, numbers: list, mapped }) => {
+      const numbers = new Float32Array(list);
       const count = numbers.length / NUMBERS;
       const kind = ball && count > MOST_ROUND ? "BALLS" : "BODY";
       const shape = kind === "BALLS" ? (this.facing ??= upload(gl, FACING)) : this.forms[form];
-      const { vertices, buffer } = instances(gl, shape, new Float32Array(numbers));
-      return { form: shape, kind, clear, vertices, buffer, count };
+      const { vertices, buffer } = instances(gl, shape, numbers);
+      return { form: shape, kind, clear, vertices, buffer, count, numbers, mapped };
     });
     made.sort((a, b) => Number(a.clear) - Number(b.clear));
     const count = bodies.reduce((most, { pose }) => Math.max(most, pose + 1), 1);
     const total = made.reduce((sum, group) => sum + group.count * group.form.count, 0);
     this.batches[name] = { groups: made, poses: poseTexture(gl, count), total };
+  }
+
+  /** Gives the bodies of the run the colors of their maps: `colors` has the index of each body's color in its map. */
+  color(colors, maps) {
+    if (!colors?.length || this.colored === colors) return;
+    this.colored = colors;
+    const { gl } = this;
+    for (const { buffer, numbers, mapped } of this.batches.run.groups.filter((group) => group.mapped.length)) {
+      for (const { body, map, at } of mapped) numbers.set(maps[map][colors[body]], at);
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferSubData(gl.ARRAY_BUFFER, 0, numbers);
+    }
   }
 
   /** Uploads the particles of a frame: balls that belong to no body, each with its own color. */
@@ -385,6 +402,9 @@ export function spaceOf({ stage, bounds }) {
 function linear(c) {
   return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
 }
+
+/** The position of the color among the numbers of an instance: behind location, turn and scale. */
+const COLOR = 10;
 
 function instance(piece, material, pose, size, pale) {
   const own = piece.color?.map(linear);

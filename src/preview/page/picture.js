@@ -71,6 +71,7 @@ function draw() {
   const camera = !present && shown ? shown.camera : sceneCamera(run, position);
   const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye));
   open.painter.place("run", at);
+  open.painter.color(shown?.colors, stage?.maps ?? []);
   if (particles) open.painter.scatter(particles);
   const lines = new Lines();
   streaks(lines, open.painter.scattered ?? NONE);

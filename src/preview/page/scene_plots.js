@@ -21,6 +21,7 @@ export function scenePlots(plots, now, place, width) {
     const [wide, high] = plot.size.map(pixels);
     const group = shape("g", { "data-plot": plot.name });
     group.append(shape("rect", { x: left, y: bottom - high, width: wide, height: high, fill: css(plot.paper), "fill-opacity": 0.9 }));
+    if (plot.strip) group.append(...strip(plot.strip, `colors-${number}`, at));
     for (const { from, to, color } of plot.lines) {
       const [[x1, y1], [x2, y2]] = [at(from), at(to)];
       group.append(shape("line", { x1, y1, x2, y2, stroke: css(color), "stroke-width": Math.max(0.9, pixels(0.0015)) }));
@@ -46,6 +47,14 @@ export function scenePlots(plots, now, place, width) {
     svg.append(group);
   });
   return svg;
+}
+
+/** Returns the strip of a color bar, and the gradient with this name that fills it. */
+function strip({ from, to, colors }, id, at) {
+  const [[x, below], [right, y]] = [at(from), at(to)];
+  const gradient = shape("linearGradient", { id });
+  colors.forEach((color, k) => gradient.append(shape("stop", { offset: k / (colors.length - 1), "stop-color": css(color) })));
+  return [gradient, shape("rect", { x, y, width: right - x, height: below - y, fill: `url(#${id})` })];
 }
 
 /** Divides a curve at its gaps. */

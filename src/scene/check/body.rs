@@ -9,10 +9,10 @@ use super::view::View;
 use super::{Context, contact, corrections, look, mesh, motion, presence, shape, showing};
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{RigidBody, Shape};
+use crate::scene::default_looks::DefaultLooks;
 use crate::scene::grammar::bodies::{body, orientation};
 use crate::scene::grammar::shapes::shape as shape_keys;
 use crate::scene::grammar::{Key, KeySpec};
-use crate::scene::palette::Palette;
 use crate::scene::source::Table;
 use crate::scene::value;
 use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
@@ -38,7 +38,7 @@ pub(super) fn read(
     materials: &mut Vec<Material>,
     context: &mut Context<'_>,
 ) -> Vec<Body> {
-    let mut palette = Palette::default();
+    let mut default_looks = DefaultLooks::default();
     let mut last: Option<Last> = None;
     let mut bodies = Vec::with_capacity(root.bodies().len());
     let mut arranged = None;
@@ -55,7 +55,7 @@ pub(super) fn read(
             let same = last.as_ref().filter(|last| table.is_same(last.table.as_ref()));
             let shape = same.map(|last| last.shape.clone());
             let shape = shape.unwrap_or_else(|| shape::read(name, &table, context));
-            let material = material(name, root, view, &shape, materials, &mut palette, context);
+            let material = material(name, root, view, &shape, materials, &mut default_looks, context);
             let mut start = start(name, span, view, &shape, context);
             let place = (start.location, start.orientation);
             let own = presence::read(name, view, simulation, context);
@@ -301,7 +301,12 @@ fn euler(angles: DVec3) -> DQuat {
 
 /// Returns the index in `materials` of the material that the body's own `material` table describes. Copies of a body with equal looks
 /// share one material.
-fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
+fn own_material(
+    name: &str,
+    (look, color_map): (Look, Option<usize>),
+    materials: &mut Vec<Material>,
+    context: &Context<'_>,
+) -> usize {
     /// The number of most recent materials that are compared with the new look.
     const MAX_COMPARED_MATERIALS: usize = 16;
     if let Some(original) = context.groups.original(name) {
@@ -312,11 +317,13 @@ fn own_material(name: &str, look: Look, materials: &mut Vec<Material>, context: 
             .rev()
             .take(MAX_COMPARED_MATERIALS)
             .take_while(|(_, other)| of_copy(other));
-        if let Some((number, _)) = latest.into_iter().find(|(_, other)| other.look == look) {
+        if let Some((number, _)) =
+            latest.into_iter().find(|(_, other)| other.look == look && other.color_map == color_map)
+        {
             return number;
         }
     }
-    materials.push(Material { name: name.to_owned(), look });
+    materials.push(Material { name: name.to_owned(), look, color_map });
     materials.len() - 1
 }
 
@@ -327,7 +334,7 @@ fn material(
     view: &View<'_>,
     shape: &Shape,
     materials: &mut Vec<Material>,
-    palette: &mut Palette,
+    default_looks: &mut DefaultLooks,
     context: &mut Context<'_>,
 ) -> Option<usize> {
     if matches!(shape, Shape::Axes { .. }) {
@@ -338,7 +345,7 @@ fn material(
     }
     // Take a palette color for every body, even for one with a material. Then the other bodies keep their colors when a user gives one body
     // a material.
-    let usual = palette.next(shape);
+    let usual = default_looks.next(shape);
     if let Some(table) = view.variant(&body::MATERIAL) {
         let look = super::material::look(&table, root, context);
         return Some(own_material(name, look, materials, context));
@@ -346,9 +353,9 @@ fn material(
     // Raw SDL has its own textures, which a material would cover.
     let has_own = view.table(&body::SHAPE).has(&shape_keys::SDL);
     let Some(name) = view.get_as::<value::Text>(&body::MATERIAL) else {
-        return (!has_own).then(|| palette.material(usual, materials));
+        return (!has_own).then(|| default_looks.material(usual, materials));
     };
     let number = context.names.materials.get(name).copied();
-    let number = number.or_else(|| Some(palette.of_library(LibraryMaterial::named(name)?, materials)));
-    Some(number.unwrap_or_else(|| palette.material(usual, materials)))
+    let number = number.or_else(|| Some(default_looks.of_library(LibraryMaterial::named(name)?, materials)));
+    Some(number.unwrap_or_else(|| default_looks.material(usual, materials)))
 }

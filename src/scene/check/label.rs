@@ -15,7 +15,7 @@ use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::{Key, KeySpec, quoted};
 use crate::scene::value;
 use crate::scene::{
-    Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side, Timeline,
+    Body, Corner, Format, Grid, GridPlane, Label, LabelPlace, Piece, ScaleBar, Side, Subject, Timeline,
 };
 
 /// The maximum length of a text in the picture, in bytes. POV-Ray limits the length of strings, and the values need room.
@@ -31,7 +31,7 @@ pub(super) fn read(
         let visible = visible(name, &view, timeline, context);
         let place = place_of(&view, things.bodies, context);
         let own = match place {
-            LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body, ghosts }),
+            LabelPlace::Body { body, ghosts, .. } => Some(OwnBody { body: Subject::One(body), ghosts }),
             LabelPlace::Corner(_) | LabelPlace::Center => None,
         };
         let text = view.get(&label::TEXT).zip(view.span(&label::TEXT));

@@ -16,7 +16,8 @@ use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowMark, ArrowOwner, Components, Distance, Leg, Piece, Quantity, SimulationSettings, read,
+    Angle, ArrowMark, ArrowOwner, Components, Distance, Leg, Piece, Quantity, SimulationSettings, Subject,
+    read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -62,7 +63,7 @@ impl Known<'_, '_> {
 
     /// Reads a text with values. `of` is the body whose measures need no name.
     fn pieces(self, (text, span): (&str, Span), of: Option<usize>, context: &mut Context<'_>) -> Vec<Piece> {
-        let own = of.map(|body| OwnBody { body, ghosts: false });
+        let own = of.map(|body| OwnBody { body: Subject::One(body), ghosts: false });
         pieces((text, span), self.root, own, self.things, context)
     }
 }

@@ -22,8 +22,8 @@ use crate::scene::{Body, BodyMeasure, Force, Joint, Measure, MeasureFormula, Run
 /// The body whose measures need no name in a text, since the text stands beside it.
 #[derive(Clone, Copy)]
 pub(super) struct OwnBody {
-    /// The index of the body.
-    pub(super) body: usize,
+    /// The body, or each body of a color map.
+    pub(super) body: Subject,
     /// Whether the text also stands beside the ghosts of the body, which keep only the body's own state.
     pub(super) ghosts: bool,
 }
@@ -93,7 +93,7 @@ impl Reader<'_, '_, '_> {
     ) -> Option<MeasureFormula> {
         let (plain, mut dotted) = self.without_dots(formula, start)?;
         dotted.extend(aggregates);
-        if let Some(OwnBody { body, ghosts: true }) = self.own
+        if let Some(OwnBody { body: Subject::One(body), ghosts: true }) = self.own
             && !dotted.iter().all(|(_, measure)| is_of(*measure, body))
         {
             let message = "a label at ghosts shows only values of its own body";
@@ -103,7 +103,14 @@ impl Reader<'_, '_, '_> {
             return None;
         }
         let parsed = self.keep(Formula::parse(&plain), start)?;
-        let (scope, inputs) = self.scope(dotted);
+        let (all, inputs) = self.scope(dotted);
+        // Errors suggest any known name, but the program gets only what the formula names: each input costs time for each body.
+        self.keep(parsed.resolve(&all), start)?;
+        let is_named = |name: &str| {
+            plain.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name)
+        };
+        let inputs: Vec<(String, Measure)> = inputs.into_iter().filter(|(name, _)| is_named(name)).collect();
+        let scope = self.scope_of(&inputs);
         let single = inputs.iter().find(|(name, _)| name == plain.trim()).map(|(_, measure)| *measure);
         let program = parsed.resolve(&scope).and_then(|it| it.compile().map_err(|error| vec![error]));
         let program = self.keep(program, start)?;
@@ -124,17 +131,22 @@ impl Reader<'_, '_, '_> {
         self.root.variables()
     }
 
-    /// Returns the names that formulas can use, and the name and the measure of each input of these formulas.
-    fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<(String, Measure)>) {
+    /// Returns a scope of the scene's variables and these inputs, in their order.
+    fn scope_of(&self, inputs: &[(String, Measure)]) -> Scope {
         let mut scope = Scope::default();
         for (name, value) in self.variables() {
             scope.constant(name, value);
         }
-        let mut inputs = Vec::new();
-        let mut add = |name: &str, measure: Measure| {
+        for (name, _) in inputs {
             scope.slot(name);
-            inputs.push((name.to_owned(), measure));
-        };
+        }
+        scope
+    }
+
+    /// Returns the names that formulas can use, and the name and the measure of each of their inputs.
+    fn scope(&self, dotted: Vec<(String, Measure)>) -> (Scope, Vec<(String, Measure)>) {
+        let mut inputs = Vec::new();
+        let mut add = |name: &str, measure: Measure| inputs.push((name.to_owned(), measure));
         let mut with_run = true;
         let has_contacts = self.root.table(&scene::SIMULATION).has(&simulation::CONTACTS);
         if let Some(OwnBody { body, ghosts }) = self.own {
@@ -142,7 +154,7 @@ impl Reader<'_, '_, '_> {
             let known = BodyMeasure::ALL.into_iter();
             let known =
                 known.filter(|(_, measure, _)| *measure != BodyMeasure::Impacts || has_contacts && !ghosts);
-            known.for_each(|(name, measure, _)| add(name, Measure::Body(Subject::One(body), measure)));
+            known.for_each(|(name, measure, _)| add(name, Measure::Body(body, measure)));
         }
         for (name, measure, _) in RunMeasure::ALL {
             // In a label beside a body, a name such as `kinetic` means the measure of that body. A variable of the scene hides a measure.
@@ -154,10 +166,8 @@ impl Reader<'_, '_, '_> {
                 add(name, Measure::Run(measure));
             }
         }
-        for (name, measure) in dotted {
-            add(&name, measure);
-        }
-        (scope, inputs)
+        inputs.extend(dotted);
+        (self.scope_of(&inputs), inputs)
     }
 
     /// Returns the value in `found`, or reports the errors in it. The formula begins at the byte `start` of the label's text.

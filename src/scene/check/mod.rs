@@ -4,6 +4,7 @@ mod asset;
 mod body;
 mod braces;
 mod camera;
+mod color_map;
 mod consequence;
 mod contact;
 mod corrections;
@@ -122,6 +123,8 @@ struct Context<'a> {
     pairs: Vec<[usize; 2]>,
     /// The sums, means and extremes over several bodies in the formulas of measures.
     aggregates: Vec<Aggregate>,
+    /// The color maps of materials as they are written, each once.
+    color_maps: Vec<color_map::Written>,
 }
 
 impl Context<'_> {
@@ -156,6 +159,7 @@ impl Context<'_> {
             files: Vec::new(),
             pairs: Vec::new(),
             aggregates: Vec::new(),
+            color_maps: Vec::new(),
         }
     }
 
@@ -345,6 +349,7 @@ fn build(
     let things = measures::Things { bodies: &bodies, forces: &forces, joints: &joints };
     let labels = label::read(&root, things, &simulation.timeline, context);
     let (plots, places_of_plots) = plot::read(&root, things, context);
+    let color_maps = color_map::read(&root, things, &materials, context);
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
@@ -353,7 +358,11 @@ fn build(
     let distances = marks::distances(known, context);
     let arrow_marks = marks::arrow_marks(known, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
-    let has_labels = !labels.is_empty() || !plots.is_empty() || scale_bar.is_some() || grid.is_some();
+    let has_labels = !labels.is_empty()
+        || !plots.is_empty()
+        || color_maps.iter().any(|map| map.bar.is_some())
+        || scale_bar.is_some()
+        || grid.is_some();
     let has_marks = !angles.is_empty() || !distances.is_empty() || !arrow_marks.is_empty();
     if has_labels || has_marks {
         asset::add_font(&mut povray.assets);
@@ -373,6 +382,7 @@ fn build(
         arrow_marks,
         scale_bar,
         grid,
+        color_maps,
         pairs: std::mem::take(&mut context.pairs),
         aggregates: std::mem::take(&mut context.aggregates),
         output,

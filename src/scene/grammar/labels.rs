@@ -6,7 +6,7 @@ use super::kind::{ANY, POSITIVE};
 use super::{Bound, Collection, KeySpec, Kind, Rule};
 use crate::scene::{Corner, GridPlane, Label, Plot, Side};
 
-fn corners() -> Vec<&'static str> {
+pub(super) fn corners() -> Vec<&'static str> {
     Corner::ALL.iter().map(|corner| corner.name()).collect()
 }
 
@@ -98,6 +98,8 @@ table! {
 
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
 const NUMBER: Kind = Number(Bound::Any);
+/// A list of two numbers: the ends of a range.
+pub(super) const TWO_NUMBERS: Kind = List { of: &NUMBER, min: 2, max: 2 };
 
 table! {
     plot: "a plot", Rule::AtMostOne(&[&["corner", "side"]]);
@@ -130,7 +132,7 @@ table! {
     WIDTH: Option<f64> = KeySpec::new("width", Number(Bound::From(0.1, 1.0)), "Its width, as part of the picture's width; at a side at most 0.4")
         .default("0.36, and more in small pictures")
         .also(&["size"]),
-    RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its vertical axis")
+    RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The lowest and the highest value of its vertical axis")
         .default("that of the curves")
         .also(&["y_range", "ylim", "limits"]),
     AHEAD: bool = KeySpec::new("ahead", Boolean, "Whether the rest of each curve is drawn, too, in a pale color")

@@ -1,10 +1,11 @@
 //! The grammar of `[material.NAME]`: the keys that describe a material.
 
-use super::Kind::{Choice, Color, Identifier, Sdl};
+use super::Kind::{Boolean, Choice, Color, Either, Identifier, List, Sdl, Table, Text};
 use super::key::table;
-use super::{KeySpec, Rule};
+use super::labels::{TWO_NUMBERS, corners};
+use super::{KeySpec, Kind, Rule};
 use crate::scene::sdl::Where;
-use crate::scene::{Finish, MATERIALS};
+use crate::scene::{Finish, MATERIALS, Palette};
 
 fn finishes() -> Vec<&'static str> {
     Finish::ALL.iter().map(|finish| finish.name()).collect()
@@ -14,12 +15,50 @@ fn library() -> Vec<&'static str> {
     MATERIALS.iter().map(|material| material.name).collect()
 }
 
+fn palettes() -> Vec<&'static str> {
+    Palette::NAMED.iter().map(|(name, ..)| *name).collect()
+}
+
+static COLOR_KINDS: [Kind; 2] = [Color, Table(&mapped_color::TABLE)];
+static PALETTE_KINDS: [Kind; 2] = [Choice(palettes), List { of: &Color, min: 2, max: 16 }];
+static BAR_KINDS: [Kind; 2] = [Boolean, Choice(corners)];
+
+table! {
+    mapped_color: "a color that follows a value", Rule::Any;
+    MAP: Any = KeySpec::new("map", Table(&color_map::TABLE), "The value that the color follows, and the colors of its values")
+        .required(),
+}
+
+table! {
+    color_map: "a color map", Rule::Any;
+    OF: Option<value::Text> = KeySpec::new(
+        "of",
+        Text,
+        "The measure that the color follows: `\"speed\"` is that of each body itself, or a formula of measures",
+    )
+    .required()
+    .also(&["by", "value", "measure", "quantity"]),
+    PALETTE: Any = KeySpec::new("palette", Either(&PALETTE_KINDS), "The colors from the lowest to the highest value: a name, or a list of colors")
+        .default_word("viridis")
+        .also(&["colormap", "cmap", "colors", "gradient", "scale"]),
+    RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The values of the first and the last color; values outside get the nearer one")
+        .default("the lowest and the highest value of the run")
+        .also(&["limits", "domain", "clim"]),
+    TITLE: Option<value::Text> = KeySpec::new("title", Text, "The title of its color bar")
+        .default("the formula")
+        .also(&["label", "name"]),
+    BAR: Any = KeySpec::new("bar", Either(&BAR_KINDS), "The corner of its color bar, or `false` for none")
+        .default_word("bottom-right")
+        .also(&["colorbar", "color_bar", "legend"]),
+}
+
 table! {
     material: "a material", Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]);
-    COLOR: Option<value::Color> = KeySpec::new(
+    COLOR: Any = KeySpec::new(
         "color",
-        Color,
-        "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a CSS name",
+        Either(&COLOR_KINDS),
+        "Its color: [red, green, blue] in sRGB from 0 to 1, \"#rrggbb\", \"#rgb\", or a CSS name; \
+         or `{ map = { … } }` for a color that follows a value",
     )
     .default("white, or that of the `like` material")
     .also(&["colour", "rgb", "pigment", "diffuse"]),

@@ -19,7 +19,7 @@ use super::expression::Program;
 pub struct MeasureFormula {
     /// The compiled formula. Its inputs are the values of the measures in `inputs`.
     pub program: Program,
-    /// The measures that the formula can name, in the order of the program's inputs: all of the run, and the named ones of other things.
+    /// The measures that the formula names, in the order of the program's inputs.
     pub inputs: Vec<Measure>,
     /// The measure that the formula consists of, if it is the name of a single one.
     pub single: Option<Measure>,

@@ -35,7 +35,10 @@ impl Reader<'_, '_, '_> {
             Some([first, last]) => format!("its copies are `{first}` to `{last}`"),
             None => label,
         };
-        if is_repeated {
+        let is_each = self.own.is_some_and(|own| own.body == Subject::Each);
+        if is_repeated && is_each {
+            error = error.help("write `speed` alone for the speed of the body that gets the color");
+        } else if is_repeated {
             error = error.help(format!(
                 "`sum(…)`, `mean(…)`, `max(…)` and `min(…)` make one value of all: `mean({name}.speed)`"
             ));

@@ -19,7 +19,7 @@ const DEFAULT_COLORS: [(&str, Color); 8] = [
 
 /// The materials that the scene does not declare. Each material is made when a body first needs it.
 #[derive(Default)]
-pub(super) struct Palette {
+pub(super) struct DefaultLooks {
     /// The number of bodies that have advanced the sequence of default colors. Copies count as well.
     turns: usize,
     /// The index of the material for each default color. `None` if no body has needed the color yet.
@@ -38,7 +38,7 @@ pub(super) enum DefaultLook {
     Checkered,
 }
 
-impl Palette {
+impl DefaultLooks {
     /// Returns the default look of the next body in the order of the file. If a user adds a body at the end of the file, the colors of the
     /// other bodies stay the same.
     pub(super) fn next(&mut self, shape: &Shape) -> DefaultLook {
@@ -56,7 +56,11 @@ impl Palette {
         materials: &mut Vec<Material>,
     ) -> usize {
         *self.by_name.entry(material.name).or_insert_with(|| {
-            materials.push(Material { name: material.name.to_owned(), look: material.look(None) });
+            materials.push(Material {
+                name: material.name.to_owned(),
+                look: material.look(None),
+                color_map: None,
+            });
             materials.len() - 1
         })
     }
@@ -76,10 +80,13 @@ impl Palette {
 
 fn material(usual: DefaultLook) -> Material {
     match usual {
-        DefaultLook::Checkered => Material { name: "checkered".to_owned(), look: Look::Checkered },
+        DefaultLook::Checkered => {
+            Material { name: "checkered".to_owned(), look: Look::Checkered, color_map: None }
+        }
         DefaultLook::Color(number) => {
             let (name, color) = DEFAULT_COLORS[number];
-            Material { name: format!("palette {name}"), look: Look::Plain { color, finish: Finish::Glossy } }
+            let look = Look::Plain { color, finish: Finish::Glossy };
+            Material { name: format!("palette {name}"), look, color_map: None }
         }
     }
 }
