@@ -8,7 +8,7 @@ use crate::physics::Method;
 use crate::scene::color_names;
 use crate::scene::expression::{CONSTANTS, FUNCTIONS};
 use crate::scene::grammar::{KeySpec, Kind, Rule, SCENE, TableSpec};
-use crate::scene::{ContactLaw, Finish, ListedMeasure, MATERIALS, Measure, Preset};
+use crate::scene::{ContactLaw, Finish, ListedMeasure, MATERIALS, Measure, Palette, Preset};
 use crate::starter::Example;
 
 /// A name, with a one-line description.
@@ -40,11 +40,12 @@ pub static CATEGORIES: &[Category] = &[
     Category { name: "lights", place: "[light.NAME]", entries: || variants(&["light"]) },
     Category { name: "finishes", place: "`finish` of [material.NAME]", entries: finishes },
     Category { name: "materials", place: "`material` of [body.NAME]", entries: materials },
+    Category { name: "palettes", place: "`palette` of `color.map` in [material.NAME]", entries: palettes },
     Category { name: "environments", place: "`environment`", entries: environments },
     Category { name: "functions", place: "formulas, wherever a number stands", entries: functions },
     Category {
         name: "measures",
-        place: "`text` of [label.NAME], `x` and `y` of [plot.NAME]",
+        place: "`text` of [label.NAME], `x` and `y` of [plot.NAME], `of` of `color.map`",
         entries: measures,
     },
     Category { name: "scenes", place: "`jabuka new NAME --like SCENE`", entries: scenes },
@@ -78,6 +79,10 @@ fn scenes() -> Vec<NamedLine> {
 
 fn materials() -> Vec<NamedLine> {
     MATERIALS.iter().map(|material| (material.name.into(), material.meaning.to_owned())).collect()
+}
+
+fn palettes() -> Vec<NamedLine> {
+    Palette::NAMED.iter().map(|(name, _, meaning)| ((*name).into(), (*meaning).to_owned())).collect()
 }
 
 fn environments() -> Vec<NamedLine> {

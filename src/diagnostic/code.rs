@@ -38,6 +38,7 @@ codes! {
     BadColorMap = "bad-color-map",
     BadContacts = "bad-contacts",
     BadEmitter = "bad-emitter",
+    BadField = "bad-field",
     BadFilmName = "bad-film-name",
     BadFilmRate = "bad-film-rate",
     BadFilmSize = "bad-film-size",

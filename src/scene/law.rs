@@ -98,6 +98,11 @@ impl fmt::Debug for FormulaLaw {
 }
 
 impl FormulaLaw {
+    /// Returns whether the scene gives the potential of the force.
+    pub fn has_potential(&self) -> bool {
+        self.potential.is_some()
+    }
+
     /// Compiles the formulas of a force and its potential.
     ///
     /// # Errors

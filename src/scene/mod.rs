@@ -80,6 +80,7 @@ mod color_names;
 mod contact;
 mod default_looks;
 pub mod drawn;
+mod drawn_field;
 mod emitter;
 mod expand;
 pub mod expression;
@@ -115,6 +116,7 @@ pub use color::Color;
 pub(crate) use color::names as color_names;
 pub use color_map::{ColorMap, Palette};
 pub use contact::{Collider, ContactLaw, is_by_moreau};
+pub use drawn_field::{DrawnField, FieldStyle};
 pub use emitter::Emitter;
 pub(crate) use expand::in_string;
 pub use force::{Force, ForceKind};
@@ -192,6 +194,8 @@ pub struct Scene {
     pub angles: Vec<Angle>,
     /// The dimension lines in the picture, in the order of the file.
     pub distances: Vec<Distance>,
+    /// The drawings of fields, in the order of the file.
+    pub fields: Vec<DrawnField>,
     /// The texts and components of arrows: first those of bodies, then those of joints.
     pub arrow_marks: Vec<ArrowMark>,
     /// The scale bar in the picture. `None` if the scene has no scale bar.

@@ -252,7 +252,7 @@ fn fields(scene: &Scene, emitter: usize) -> Vec<Field> {
 }
 
 /// Converts a force into a field that acts on particles with this radius (m). `None` for forces that act on bodies only.
-fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
+pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> {
     let sources = |bodies: &[BodyId]| -> Vec<(BodyId, RigidBody)> {
         bodies.iter().map(|body| (*body, scene.bodies[body.index()].start)).collect()
     };

@@ -102,3 +102,37 @@ fn a_material_can_stand_in_the_body() {
     let image = render(&script(&format!("{ball}{inside}{}", front().toml())), SIZE);
     assert_eq!(image.at(middle_and_crown().0), [0, 255, 0]);
 }
+
+/// Luminous balls show the colors of the map unchanged: the ends of viridis for the slowest and the fastest ball. A ball of patterned wood
+/// takes the color as its tint. The color bar shows the same colors from left to right.
+#[test]
+fn colors_follow_values() {
+    let text = format!(
+        "[simulation]\nduration = 1\n[defaults.body]\nshape.sphere.radius = 0.8\n\
+         [body.slow]\nlocation = [-1.2, 0.5, 0]\nmaterial = 'hot'\n\
+         [body.fast]\nlocation = [1.2, 0.5, 0]\nvelocity = [0, 0, 10]\nmaterial = 'hot'\n\
+         [material.hot]\nfinish = 'luminous'\ncolor.map = {{ of = 'speed', title = 'v' }}\n\
+         [body.tinted]\nlocation = [0, 2.2, 0]\nmaterial = {{ like = 'striped', color.map = {{ of = 'y', palette = ['blue', 'red'], range = [0, 1], bar = false }} }}\n{}",
+        front().toml()
+    );
+    let image = render(&script(&text), SIZE);
+    let at = |x: f64, y: f64| image.at(front().sees(DVec3::new(x, y, 0.0)));
+    let near = |found: [u8; 3], known: [f64; 3]| {
+        found.iter().zip(known).all(|(found, known)| (f64::from(*found) - 255.0 * known).abs() < 6.0)
+    };
+    // Source of the colors: matplotlib, `_cm_listed.py`.
+    let (slow, fast) = ([0.267, 0.005, 0.329], [0.993, 0.906, 0.144]);
+    assert!(near(at(-1.2, 0.5), slow), "{:?}", at(-1.2, 0.5));
+    assert!(near(at(1.2, 0.5), fast), "{:?}", at(1.2, 0.5));
+    assert!((0..20).any(|k| is_red(at(0.0, 1.5 + 0.07 * f64::from(k)))), "a red stripe");
+    assert!((0..20).all(|k| !is_blue(at(0.0, 1.5 + 0.07 * f64::from(k)))), "no blue stripe");
+    let [width, height] = SIZE.map(f64::from);
+    let pixels = |known: [f64; 3]| {
+        let corner =
+            (0..SIZE[0]).flat_map(|x| (0..SIZE[1]).map(move |y| DVec2::new(f64::from(x), f64::from(y))));
+        let mut corner = corner.filter(|at| at.x > 0.5 * width && at.y > 0.6 * height);
+        corner.find(|at| near(image.at(*at), known)).map(|at| at.x)
+    };
+    let ends = [pixels(slow), pixels([0.128, 0.567, 0.551]), pixels(fast)];
+    assert!(ends.iter().all(Option::is_some) && ends.is_sorted(), "{ends:?}");
+}

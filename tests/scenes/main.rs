@@ -1,6 +1,7 @@
 //! Tests that lead from the text of a scene to its frames, scripts, tables and reports.
 #![allow(clippy::unwrap_used, clippy::panic, unreachable_pub, reason = "these are tests")]
 
+mod color_maps;
 mod coming_and_going;
 mod contacts;
 mod first;

@@ -1,8 +1,10 @@
-//! Each measure has the same value wherever it is said: in a label, in a plot, and in the tables that have it.
+//! Each measure has the same value wherever it is said: in a label, in a plot, in the colors of bodies, and in the tables that have it.
+
+use std::collections::BTreeSet;
 
 use jabuka::Run;
 use jabuka::export::{write_csv, write_joints};
-use jabuka::scene::{BodyMeasure, JointMeasure, Measure, Scene};
+use jabuka::scene::{BodyMeasure, ColorMap, JointMeasure, Measure, Scene};
 use jabuka::simulate::Selection;
 
 /// A crate hangs on a hinge, a bead slides on a rod, a ball falls onto the ground and rebounds, a bob hangs on a spring, and three atoms fly
@@ -98,6 +100,11 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
     let mut text = SCENE.to_owned();
     for (number, name) in names.iter().enumerate() {
         text += &format!("[label.l{number}]\ntext = '${{{name}:.9}}'\n[plot.p{number}]\ny = '{name}'\n");
+        text += &format!(
+            "[body.c{number}]\nshape.sphere.radius = 0.1\nfixed = true\nlocation = [50, {number}, 0]\n\
+             material.color.map = {{ of = '{}', range = [-50, 50], bar = false }}\n",
+            name
+        );
     }
     let scene = Scene::parse(&text).unwrap();
     let run = Run::new(&scene).unwrap();
@@ -119,6 +126,15 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
             said(number)
         );
     }
+    let colors = plan.colors(&last);
+    // A name such as `kinetic` alone means the body that gets the color.
+    let is_of_colored_body = |name: &str| BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
+    for (number, name) in names.iter().enumerate().filter(|(_, name)| !is_of_colored_body(name)) {
+        let body = scene.bodies.iter().position(|body| *body.name == *format!("c{number}")).unwrap();
+        let expected = ColorMap::color_of(said(number), [-50.0, 50.0]).unwrap();
+        assert_eq!(usize::from(colors[body]), expected, "the color of {name}, {}", said(number));
+    }
+    assert!(colors.iter().collect::<BTreeSet<_>>().len() > 10, "{colors:?}");
     assert!(names.len() > 120, "{}", names.len());
     // The values are no accident: the ball has fallen 0.3 m, has rebounded once, and still turns.
     assert_eq!(value("ball.impacts"), 1.0);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::BodyId;
+use super::super::{BodyId, BodySnapshot, find};
 use super::pairs;
 use super::{Force, Loads, Moment};
 
@@ -41,6 +41,19 @@ struct Dipole {
 impl Dipoles {
     /// The magnetic constant μ₀/4π, N/A². Source: CODATA 2022.
     pub const CONSTANT: f64 = 9.999_999_998_7e-8;
+
+    /// Returns the magnetic field of all dipoles and the uniform field at a point (m), T. `bodies` are the present bodies, in ascending order of
+    /// their ids.
+    pub fn field_at(&self, point: DVec3, bodies: &[BodySnapshot]) -> DVec3 {
+        let all = self.bodies.iter().chain(self.against.iter().flatten()).zip(&self.moments);
+        let of_dipole = |(body, own): (&BodyId, &DVec3)| {
+            let at = find(bodies, body.index())?;
+            let way = point - at.location;
+            let r = way.length();
+            (r > 0.0).then(|| self.constant * field(at.orientation * *own, way / r, r))
+        };
+        self.field + all.filter_map(of_dipole).sum::<DVec3>()
+    }
 
     /// Returns the dipoles of all present bodies, and the number of these that belong to the first group.
     fn present(&self, moment: &Moment) -> (Vec<Dipole>, usize) {

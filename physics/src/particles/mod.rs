@@ -12,6 +12,7 @@
 //! | the motion of bodies that emit, attract or stop particles | [`RecordedMotion`] |
 //! | the living particles and their motion | [`Cloud`] |
 //! | the bodies that stop particles | [`Scenery`] |
+//! | the force at any point of space | [`TestParticle`] |
 //! | impacts, and lasting contact | `bounce.rs`, `hold.rs` |
 //!
 //! # How a cloud moves
@@ -38,6 +39,7 @@ mod recorded_motion;
 mod source;
 mod stepper;
 mod surface;
+mod test_particle;
 #[cfg(test)]
 mod tests;
 mod triangles;
@@ -50,4 +52,5 @@ pub use recorded_motion::RecordedMotion;
 pub use source::{Draw, ParticleSource};
 pub use stepper::Field;
 pub use surface::has_surface;
+pub use test_particle::TestParticle;
 pub use triangles::Triangles;

@@ -34,6 +34,16 @@ impl Field {
     ) -> Field {
         Field { make: Arc::new(make), sources }
     }
+
+    /// Returns the bodies that cause the force, with their masses and charges.
+    pub(super) fn sources(&self) -> &[(BodyId, RigidBody)] {
+        &self.sources
+    }
+
+    /// Makes the force on particles, given the indices of the particles and of the bodies that cause the force.
+    pub(super) fn force(&self, particles: Vec<BodyId>, sources: Vec<BodyId>) -> Arc<dyn Force> {
+        (self.make)(particles, sources)
+    }
 }
 
 /// The division of an interval into steps. All steps have the same length, except the last one, which ends at `end`.

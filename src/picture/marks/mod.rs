@@ -6,6 +6,7 @@
 mod angle;
 mod arrow;
 mod distance;
+mod field;
 mod note;
 
 use std::fmt::Debug;
@@ -59,9 +60,14 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Plans the marks of a scene. `ink` is their default color.
-    pub(super) fn new(scene: &Scene, measures: &Arc<Measures>, ink: Color) -> Marks {
-        let mut marks: Vec<Arc<dyn Mark>> = Vec::new();
+    /// Plans the marks of a scene, as a camera with this width of view (m) sees the start of the run. `ink` is their default color.
+    pub(super) fn new(
+        scene: &Scene,
+        measures: &Arc<Measures>,
+        (camera, view): (&Placed, f64),
+        ink: Color,
+    ) -> Marks {
+        let mut marks: Vec<Arc<dyn Mark>> = field::marks(scene, camera, view);
         marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
         Marks { marks }

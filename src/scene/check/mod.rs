@@ -12,6 +12,7 @@ mod counts;
 mod effect;
 mod emitter;
 mod end;
+mod field;
 mod force;
 mod geometry;
 mod joint;
@@ -218,6 +219,7 @@ struct Names {
     bodies: HashMap<Arc<str>, usize>,
     materials: HashMap<Arc<str>, usize>,
     joints: HashMap<Arc<str>, usize>,
+    forces: HashMap<Arc<str>, usize>,
     emitters: HashSet<Arc<str>>,
 }
 
@@ -228,12 +230,12 @@ impl Names {
             let names = table.into_iter().flat_map(|table| &table.entries);
             names.enumerate().map(|(number, entry)| (entry.name.text.clone(), number)).collect()
         };
-        let [bodies, materials, joints] =
-            [Collection::Body, Collection::Material, Collection::Joint].map(collect);
+        let [bodies, materials, joints, forces] =
+            [Collection::Body, Collection::Material, Collection::Joint, Collection::Force].map(collect);
         let table = root.get("emitter").and_then(|entry| entry.node.as_table());
         let emitters = table.into_iter().flat_map(|table| &table.entries);
         let emitters = emitters.map(|entry| entry.name.text.clone()).collect();
-        Names { bodies, materials, joints, emitters }
+        Names { bodies, materials, joints, forces, emitters }
     }
 
     fn get(&self, collection: Collection) -> &HashMap<Arc<str>, usize> {
@@ -241,6 +243,7 @@ impl Names {
             Collection::Body | Collection::Target => &self.bodies,
             Collection::Material => &self.materials,
             Collection::Joint => &self.joints,
+            Collection::Force => &self.forces,
         }
     }
 }
@@ -356,6 +359,7 @@ fn build(
     let known = marks::Known { root: &root, things, simulation: &simulation };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
+    let fields = field::read(&root, &forces, context);
     let arrow_marks = marks::arrow_marks(known, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
     let has_labels = !labels.is_empty()
@@ -379,6 +383,7 @@ fn build(
         plots,
         angles,
         distances,
+        fields,
         arrow_marks,
         scale_bar,
         grid,

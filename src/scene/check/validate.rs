@@ -371,7 +371,7 @@ fn reference(
     };
     let names = context.names.get(collection);
     let library: Vec<&str> = match collection {
-        Collection::Body | Collection::Target | Collection::Joint => Vec::new(),
+        Collection::Body | Collection::Target | Collection::Joint | Collection::Force => Vec::new(),
         Collection::Material => MATERIALS.iter().map(|material| material.name).collect(),
     };
     let is_body = matches!(collection, Collection::Body | Collection::Target);
@@ -423,7 +423,7 @@ fn reference(
         None => error.help(format!("names of the library need no table: {}", quoted(&library))),
     };
     context.diagnostics.push(match collection {
-        Collection::Body | Collection::Target | Collection::Joint => error,
+        Collection::Body | Collection::Target | Collection::Joint | Collection::Force => error,
         Collection::Material => corrections::color_for_material(error, word, node, entry),
     });
 }

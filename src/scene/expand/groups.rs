@@ -58,7 +58,7 @@ impl Groups {
                 self.bodies.get(original).map(|group| group.counts.as_slice())
             }
             Collection::Joint => self.joints.get(original).map(<[usize; 1]>::as_slice),
-            Collection::Material => None,
+            Collection::Material | Collection::Force => None,
         }
     }
 

@@ -103,6 +103,8 @@ pub enum Collection {
     Material,
     /// A joint, defined by `[joint.NAME]`.
     Joint,
+    /// A force, defined by `[force.NAME]`.
+    Force,
     /// A body (`[body.NAME]`), or the particles of an emitter (`[emitter.NAME]`).
     Target,
 }
@@ -137,6 +139,7 @@ impl Collection {
             Collection::Body | Collection::Target => "body",
             Collection::Material => "material",
             Collection::Joint => "joint",
+            Collection::Force => "force",
         }
     }
 
@@ -146,6 +149,7 @@ impl Collection {
             Collection::Body | Collection::Target => "bodies",
             Collection::Material => "materials",
             Collection::Joint => "joints",
+            Collection::Force => "forces",
         }
     }
 }

@@ -1,10 +1,11 @@
 //! The grammar of the marks that name what is measured: angles and dimension lines.
 
-use super::Kind::{Color, Either, List, Named, Reference, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Named, Reference, Table, Text};
 use super::forces::end;
 use super::key::table;
 use super::kind::{AXIS, POSITIVE, VECTOR};
 use super::{Collection, KeySpec, Kind, Rule};
+use crate::scene::FieldStyle;
 
 pub(super) const ANGLE: KeySpec =
     KeySpec::new("angle", Named(&angle::TABLE), "Angles, drawn as arcs between two directions")
@@ -15,6 +16,17 @@ pub(super) const DISTANCE: KeySpec = KeySpec::new(
     "Dimension lines: distances, drawn as lines with their length",
 )
 .also(&["distances", "dimension", "dimensions", "length"]);
+
+pub(super) const FIELD: KeySpec = KeySpec::new(
+    "field",
+    Named(&field::TABLE),
+    "The fields of forces, drawn in a plane as arrows, as field lines or as lines of equal potential",
+)
+.also(&["fields", "vector_field"]);
+
+fn styles() -> Vec<&'static str> {
+    FieldStyle::ALL.iter().map(|style| style.name()).collect()
+}
 
 /// A point: the center of a body, a point of a body, or a point of the world.
 static POINT_KINDS: [Kind; 3] = [Reference(Collection::Body), VECTOR, Table(&end::TABLE)];
@@ -98,4 +110,46 @@ table! {
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("that of texts")
         .also(&["colour"]),
+}
+
+table! {
+    field: "a field", Rule::Any;
+    FORCE: Option<value::Text> = KeySpec::new(
+        "force",
+        Reference(Collection::Force),
+        "The force whose field is drawn: the force on a body of 1 kg and 1 C at rest; of magnets, their magnetic field",
+    )
+    .required()
+    .also(&["of", "from", "source"]),
+    SHOW: value::Text = KeySpec::new(
+        "show",
+        Choice(styles),
+        "How it is drawn: as arrows on a grid, as field lines, or as lines of equal potential",
+    )
+    .default_word("arrows")
+    .also(&["as", "draw", "kind", "style", "type"]),
+    MAGNETIC: bool = KeySpec::new("magnetic", Boolean, "Whether the magnetic field of a `lorentz` force is drawn instead of the electric one")
+        .default_flag(false)
+        .also(&["part"]),
+    NORMAL: Option<value::Axis> = KeySpec::new("normal", super::AXIS, "The normal of the plane in which it is drawn")
+        .default("the axis nearest to the view of the camera")
+        .also(&["plane", "axis"]),
+    AT: Option<DVec3> = KeySpec::new("at", VECTOR, "A point of the plane")
+        .unit("m")
+        .default("the middle of the bodies that cause the force")
+        .also(&["location", "point", "through"]),
+    SPACING: Option<f64> = KeySpec::new("spacing", POSITIVE, "The distance between arrows")
+        .unit("m")
+        .default("an eighteenth of the picture's width")
+        .also(&["step", "every"]),
+    SCALE: Option<f64> = KeySpec::new("scale", POSITIVE, "The length of an arrow for a field of 1 N, or of 1 T, in m")
+        .default("lengths grow with the root of the field, so that weak parts are seen, too"),
+    COUNT: i64 = KeySpec::new(
+        "count",
+        Integer(1, 200),
+        "The number of field lines at the strongest source; of a field without sources, the number of lines across the picture",
+    )
+    .default_number(16.0)
+    .also(&["lines", "number", "density"]),
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color").default("one of the palette of plots").also(&["colour"]),
 }

@@ -12,6 +12,8 @@ pub(super) const TABLES_THAT_DRAW: &[&str] = &[
     "a camera's keyframe",
     "a camera's keyframes",
     "a coil",
+    "a color map",
+    "a color that follows a value",
     "a disc",
     "a distance",
     "a joint's arrows",

@@ -1,0 +1,219 @@
+//! The drawings of fields: arrows on a grid, field lines, and lines of equal potential, in a plane.
+
+mod arrows;
+mod levels;
+mod lines;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use self::levels::spacing_of_levels;
+use super::{HELPING_LINE_RADIUS, Mark, Scale, Sketch};
+use crate::physics::BodySnapshot;
+use crate::picture::camera::Placed;
+use crate::picture::thing::{Form, Line, Thing};
+use crate::scene::{Color, DrawnField, FieldStyle, Scene};
+use crate::simulate::FieldSampler;
+
+/// The number of arrows across the picture.
+const ARROWS: f64 = 18.0;
+/// The part of the picture that drawings fill.
+const FILLED: f64 = 0.96;
+/// The smallest cosine between the view of the camera and the normal of a plane. A flatter plane is drawn as if it had this one.
+const MIN_TILT: f64 = 0.3;
+
+/// The part of a plane in which a field is drawn.
+#[derive(Clone, Copy, Debug)]
+struct Region {
+    /// The middle of the region, m.
+    middle: DVec3,
+    /// The directions across and up, unit vectors.
+    axes: [DVec3; 2],
+    /// Half the width and half the height, m.
+    half: [f64; 2],
+}
+
+/// A field of the scene.
+#[derive(Debug)]
+struct FieldMark {
+    drawn: DrawnField,
+    name: String,
+    color: Color,
+    sampler: FieldSampler,
+    region: Region,
+    /// The radius of each body, m, by its index in the scene. Lines begin and end at the bodies that cause the field.
+    radii: Vec<f64>,
+    /// The strength of the field at which arrows are longest.
+    strongest: f64,
+    /// The difference between two levels of the potential, J.
+    spacing_of_levels: f64,
+}
+
+/// Plans the fields of a scene, as a camera with this width of view (m) sees the start of the run.
+pub(super) fn marks(scene: &Scene, camera: &Placed, view: f64) -> Vec<Arc<dyn Mark>> {
+    let start: Vec<BodySnapshot> =
+        scene.bodies.iter().enumerate().map(|(id, body)| at_start(id, &body.start)).collect();
+    let mark = |(number, drawn): (usize, &DrawnField)| {
+        let mut sampler = FieldSampler::new(scene, drawn)?;
+        sampler.follow(0.0, &start);
+        let region = Region::new(scene, drawn, &sampler, &start, (camera, view));
+        let radius = |body: &crate::scene::Body| body.drawn().bounding_radius().unwrap_or(0.0);
+        let mut mark = FieldMark {
+            drawn: drawn.clone(),
+            name: format!("field {}", drawn.name),
+            color: drawn.color.unwrap_or(Color::OF_CURVES[number % Color::OF_CURVES.len()]),
+            region,
+            radii: scene.bodies.iter().map(radius).collect(),
+            strongest: 0.0,
+            spacing_of_levels: 0.0,
+            sampler,
+        };
+        match drawn.style {
+            FieldStyle::Arrows => mark.strongest = arrows::strongest(&mut mark.sampler.clone(), &mark.grid()),
+            FieldStyle::Levels => {
+                mark.spacing_of_levels = spacing_of_levels(&mut mark.sampler.clone(), &region);
+            }
+            FieldStyle::Lines => {}
+        }
+        Some(Arc::new(mark) as Arc<dyn Mark>)
+    };
+    scene.fields.iter().enumerate().filter_map(mark).collect()
+}
+
+/// The snapshot of a body at the start of the run.
+fn at_start(id: usize, body: &crate::physics::RigidBody) -> BodySnapshot {
+    BodySnapshot {
+        id,
+        location: body.location,
+        orientation: body.orientation,
+        velocity: body.velocity,
+        angular_velocity: body.angular_velocity,
+        force: DVec3::ZERO,
+    }
+}
+
+impl Region {
+    /// Chooses the part of the plane that the camera sees.
+    fn new(
+        scene: &Scene,
+        drawn: &DrawnField,
+        sampler: &FieldSampler,
+        start: &[BodySnapshot],
+        (camera, view): (&Placed, f64),
+    ) -> Region {
+        let towards = (camera.location() - camera.look_at()).normalize_or(DVec3::Z);
+        let normal = drawn.normal.unwrap_or_else(|| nearest_axis(towards));
+        let sources: Vec<DVec3> =
+            sampler.sources().iter().map(|source| start[source.body].location).collect();
+        #[allow(clippy::cast_precision_loss, reason = "there are few sources")]
+        let of_sources = (!sources.is_empty()).then(|| sources.iter().sum::<DVec3>() / sources.len() as f64);
+        let at = drawn.at.or(of_sources).unwrap_or(camera.look_at());
+        // The camera looks at a point in front of the plane or behind it.
+        let along = (camera.look_at() - at).dot(normal) / towards.dot(normal);
+        let middle = match along.is_finite() && towards.dot(normal).abs() > MIN_TILT {
+            true => camera.look_at() - towards * along,
+            false => camera.look_at() - normal * (camera.look_at() - at).dot(normal),
+        };
+        let right = camera.screen().right();
+        let across = (right - normal * right.dot(normal)).normalize_or(normal.any_orthonormal_vector());
+        let up = normal.cross(across);
+        let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
+        let tilt = towards.dot(normal).abs().max(MIN_TILT);
+        let half = [FILLED * view / 2.0, FILLED * view / 2.0 * aspect / tilt];
+        Region { middle, axes: [across, up], half }
+    }
+
+    /// The point at a position in the region: from −1 to 1 across and up.
+    fn point(&self, [across, up]: [f64; 2]) -> DVec3 {
+        self.middle + self.axes[0] * (across * self.half[0]) + self.axes[1] * (up * self.half[1])
+    }
+
+    /// The position of a point: from −1 to 1 inside of the region.
+    fn position(&self, point: DVec3) -> [f64; 2] {
+        [0, 1].map(|k| (point - self.middle).dot(self.axes[k]) / self.half[k])
+    }
+
+    /// The part of a vector in the plane.
+    fn within(&self, vector: DVec3) -> DVec3 {
+        self.axes[0] * vector.dot(self.axes[0]) + self.axes[1] * vector.dot(self.axes[1])
+    }
+}
+
+/// The axis of the world that is nearest to a direction.
+fn nearest_axis(direction: DVec3) -> DVec3 {
+    let [x, y, z] = direction.abs().to_array();
+    if z >= x && z >= y {
+        DVec3::Z
+    } else if x >= y {
+        DVec3::X
+    } else {
+        DVec3::Y
+    }
+}
+
+impl FieldMark {
+    /// The distance between two arrows, m.
+    fn spacing(&self) -> f64 {
+        self.drawn.spacing.unwrap_or(2.0 * self.region.half[0] / ARROWS)
+    }
+
+    /// The points of a grid that fills the region, symmetric about its middle.
+    #[allow(clippy::cast_possible_truncation, reason = "the number of arrows is limited")]
+    fn grid(&self) -> Vec<DVec3> {
+        /// The largest number of arrows from the middle to an edge.
+        const MAX_ARROWS: f64 = 100.0;
+        let spacing = self.spacing();
+        let count = |half: f64| (half / spacing).min(MAX_ARROWS).floor() as i32;
+        let [across, up] = self.region.half.map(count);
+        let axes = self.region.axes;
+        let point = |i: i32, k: i32| {
+            self.region.middle + axes[0] * (f64::from(i) * spacing) + axes[1] * (f64::from(k) * spacing)
+        };
+        (-up..=up).flat_map(|k| (-across..=across).map(move |i| point(i, k))).collect()
+    }
+
+    /// The sources with their places at a frame, and their radii, m. Absent ones are left out.
+    fn sources(&self, bodies: &[BodySnapshot]) -> Vec<Source> {
+        let source = |source: &crate::simulate::FieldSource| {
+            let at = crate::physics::find(bodies, source.body)?;
+            Some(Source { at: at.location, radius: self.radii[source.body], strength: source.strength })
+        };
+        self.sampler.sources().iter().filter_map(source).collect()
+    }
+
+    fn thing(&self, lines: Vec<Line>) -> Thing<'_> {
+        Thing { name: self.name.as_str().into(), form: Form::Lines { lines }, color: self.color }
+    }
+
+    fn arrow(&self, from: DVec3, to: DVec3, radius: f64) -> Thing<'_> {
+        Thing { name: self.name.as_str().into(), form: Form::Arrow { from, to, radius }, color: self.color }
+    }
+}
+
+/// A body that causes the field, at a frame.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    at: DVec3,
+    radius: f64,
+    strength: f64,
+}
+
+impl Mark for FieldMark {
+    fn draw<'a>(&'a self, scale: &Scale<'_>, sketch: &mut Sketch<'a>) {
+        let mut sampler = self.sampler.clone();
+        sampler.follow(scale.frame.time, &scale.frame.bodies);
+        let sources = self.sources(&scale.frame.bodies);
+        match self.drawn.style {
+            FieldStyle::Arrows => self.draw_arrows(&mut sampler, &sources, scale, sketch),
+            FieldStyle::Lines => self.draw_lines(&mut sampler, &sources, scale, sketch),
+            FieldStyle::Levels => {
+                let radius = HELPING_LINE_RADIUS * scale.stroke;
+                let lines = levels::lines(&mut sampler, &self.region, self.spacing_of_levels, radius);
+                sketch.things.push(self.thing(lines));
+            }
+        }
+    }
+}
