@@ -36,7 +36,7 @@ pub(super) struct Showing {
 /// The POV-Ray macros that a scene needs, as values for templates.
 #[derive(Serialize)]
 pub(super) struct NeededMacros {
-    /// True if bodies or joints have arrows.
+    /// True if bodies, joints or fields have arrows.
     arrows: bool,
     /// True if springs are drawn as coils.
     coils: bool,
@@ -57,7 +57,8 @@ impl NeededMacros {
         let has_color_bars = scene.color_maps.iter().any(|map| map.bar.is_some());
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
-                || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
+                || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some))
+                || !scene.fields.is_empty(),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             plots: !scene.plots.is_empty() || has_color_bars,

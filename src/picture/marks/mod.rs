@@ -18,6 +18,7 @@ pub(super) use self::note::{Note, Says, place};
 
 use super::camera::Placed;
 use super::screen::Screen;
+use super::stage::Stage;
 use super::thing::Thing;
 use crate::scene::{Color, Scene};
 use crate::simulate::{Frame, Measures};
@@ -60,14 +61,15 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// Plans the marks of a scene, as a camera with this width of view (m) sees the start of the run. `ink` is their default color.
+    /// Plans the marks of a scene, on a stage. `camera` is the camera at the start, with the width of its view (m); `ink` is their default color.
     pub(super) fn new(
         scene: &Scene,
         measures: &Arc<Measures>,
-        (camera, view): (&Placed, f64),
+        stage: &Stage,
+        camera: (&Placed, f64),
         ink: Color,
     ) -> Marks {
-        let mut marks: Vec<Arc<dyn Mark>> = field::marks(scene, camera, view);
+        let mut marks: Vec<Arc<dyn Mark>> = field::marks(scene, stage, camera);
         marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
         Marks { marks }

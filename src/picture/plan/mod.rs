@@ -155,7 +155,7 @@ impl Plan {
             labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
             plots,
             color_maps: ColorMaps::new(scene, survey, measures.clone()),
-            marks: Marks::new(scene, &measures, (placed, early), ink),
+            marks: Marks::new(scene, &measures, &stage, (placed, early), ink),
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
             largest: Largest::seen(scene, camera, survey, &eye),

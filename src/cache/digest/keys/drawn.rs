@@ -16,6 +16,7 @@ pub(super) const TABLES_THAT_DRAW: &[&str] = &[
     "a color that follows a value",
     "a disc",
     "a distance",
+    "a field",
     "a joint's arrows",
     "a label",
     "a leg of an angle",

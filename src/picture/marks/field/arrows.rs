@@ -41,6 +41,8 @@ impl FieldMark {
         sketch: &mut Sketch<'a>,
     ) {
         let spacing = self.spacing();
+        // The same for all arrows: in a uniform field, all are alike.
+        let to_camera = (scale.camera.location() - scale.camera.look_at()).normalize_or(DVec3::Z);
         for point in self.grid() {
             if sources.iter().any(|source| source.at.distance(point) < source.radius) {
                 continue;
@@ -55,7 +57,6 @@ impl FieldMark {
             let Some(direction) = field.try_normalize().filter(|_| length > SHORTEST * spacing) else {
                 continue;
             };
-            let to_camera = (scale.camera.location() - point).normalize_or(DVec3::Z);
             let along = direction.dot(to_camera);
             if along.abs() > END_ON {
                 sketch.things.extend(self.sign(point, along > 0.0, length / LONGEST, scale));

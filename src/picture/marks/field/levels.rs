@@ -14,8 +14,17 @@ const CELLS: [usize; 2] = [120, 68];
 const EXTREME: f64 = 0.06;
 /// The number of levels between these potentials.
 const LEVELS: f64 = 14.0;
-/// The largest number of levels of one cell.
-const MAX_IN_CELL: f64 = 3.0;
+/// The part of the points whose potential is lower, and the part whose potential is higher, than all levels. The lines of higher potentials
+/// could not be told apart.
+const BEYOND_LEVELS: f64 = 0.012;
+
+/// The levels of a potential: multiples of a spacing within bounds, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Levels {
+    spacing: f64,
+    low: f64,
+    high: f64,
+}
 
 /// The potentials at the corners of all cells, row by row.
 #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
@@ -30,21 +39,26 @@ fn potentials(sampler: &mut FieldSampler, region: &Region) -> Vec<f64> {
     values
 }
 
-/// The difference between two levels: 1, 2 or 5 times a power of ten, J. 0 if the potential is the same everywhere.
+/// Chooses the levels of a potential. They are 1, 2 or 5 times a power of ten apart. There are none if the potential is the same everywhere.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the index is that of a point")]
 #[allow(clippy::cast_precision_loss, reason = "there are few points")]
-pub(super) fn spacing_of_levels(sampler: &mut FieldSampler, region: &Region) -> f64 {
+pub(super) fn levels(sampler: &mut FieldSampler, region: &Region) -> Levels {
     let mut values = potentials(sampler, region);
     values.retain(|value| value.is_finite());
     values.sort_by(f64::total_cmp);
     let at = |part: f64| values.get((part * values.len() as f64) as usize).copied();
-    let range = at(EXTREME).zip(at(1.0 - EXTREME)).map_or(0.0, |(low, high)| high - low);
-    if range > 0.0 { round_above(range / LEVELS) } else { 0.0 }
+    let range = |part: f64| at(part).zip(at(1.0 - part));
+    let [Some((low, high)), Some((lowest, highest))] = [EXTREME, BEYOND_LEVELS].map(range) else {
+        return Levels::default();
+    };
+    let spacing = if high > low { round_above((high - low) / LEVELS) } else { 0.0 };
+    Levels { spacing, low: lowest, high: highest }
 }
 
-/// The lines of all levels, which are multiples of `spacing`.
+/// The lines of all levels.
 #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
-pub(super) fn lines(sampler: &mut FieldSampler, region: &Region, spacing: f64, radius: f64) -> Vec<Line> {
+pub(super) fn lines(sampler: &mut FieldSampler, region: &Region, levels: Levels, radius: f64) -> Vec<Line> {
+    let spacing = levels.spacing;
     if spacing <= 0.0 {
         return Vec::new();
     }
@@ -59,12 +73,8 @@ pub(super) fn lines(sampler: &mut FieldSampler, region: &Region, spacing: f64, r
             let cell = corners.map(|(i, k)| (place(i, k), values[k * (CELLS[0] + 1) + i]));
             let [low, high] = [f64::min, f64::max]
                 .map(|end| cell.iter().map(|(_, value)| *value).reduce(end).unwrap_or(f64::NAN));
-            let (first, last) = (libm::ceil(low / spacing), libm::floor(high / spacing));
-            // In a steep cell, the lines could not be told apart.
-            if !(last - first < MAX_IN_CELL) {
-                continue;
-            }
-            let mut number = first;
+            let last = libm::floor(high.min(levels.high) / spacing);
+            let mut number = libm::ceil(low.max(levels.low) / spacing);
             while number <= last {
                 lines.extend(crossing(&cell, number * spacing, radius));
                 number += 1.0;

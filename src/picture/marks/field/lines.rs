@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::{FieldMark, Region, Scale, Sketch, Source};
-use crate::picture::marks::HELPING_LINE_RADIUS;
+use super::{FieldMark, LINE_RADIUS, Region, Scale, Sketch, Source};
 use crate::picture::thing::Line;
 use crate::simulate::FieldSampler;
 
@@ -37,7 +36,7 @@ impl FieldMark {
         scale: &Scale<'_>,
         sketch: &mut Sketch<'a>,
     ) {
-        let radius = HELPING_LINE_RADIUS * scale.stroke;
+        let radius = LINE_RADIUS * scale.stroke;
         let size = self.region.half[0];
         let mut lines = Vec::new();
         for path in self.paths(sampler, sources) {
@@ -58,7 +57,7 @@ impl FieldMark {
     }
 
     fn is_inside(&self, point: DVec3) -> bool {
-        self.region.position(point).iter().all(|part| part.abs() <= 1.0)
+        point.y >= self.ground && self.region.position(point).iter().all(|part| part.abs() <= 1.0)
     }
 
     /// All lines of the field at a moment.

@@ -10,14 +10,17 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use self::levels::spacing_of_levels;
-use super::{HELPING_LINE_RADIUS, Mark, Scale, Sketch};
+use self::levels::Levels;
+use super::{Mark, Scale, Sketch};
 use crate::physics::BodySnapshot;
 use crate::picture::camera::Placed;
+use crate::picture::stage::Stage;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Color, DrawnField, FieldStyle, Scene};
 use crate::simulate::FieldSampler;
 
+/// The radius of field lines and levels, in strokes.
+const LINE_RADIUS: f64 = 0.3;
 /// The number of arrows across the picture.
 const ARROWS: f64 = 18.0;
 /// The part of the picture that drawings fill.
@@ -48,12 +51,15 @@ struct FieldMark {
     radii: Vec<f64>,
     /// The strength of the field at which arrows are longest.
     strongest: f64,
-    /// The difference between two levels of the potential, J.
-    spacing_of_levels: f64,
+    /// The levels of the potential.
+    levels: Levels,
+    /// The height of the ground, m. What is below is not drawn.
+    ground: f64,
 }
 
-/// Plans the fields of a scene, as a camera with this width of view (m) sees the start of the run.
-pub(super) fn marks(scene: &Scene, camera: &Placed, view: f64) -> Vec<Arc<dyn Mark>> {
+/// Plans the fields of a scene, as a camera with this width of view (m) sees the start of the run, above a ground.
+pub(super) fn marks(scene: &Scene, stage: &Stage, (camera, view): (&Placed, f64)) -> Vec<Arc<dyn Mark>> {
+    let ground = stage.ground.map_or(f64::NEG_INFINITY, |ground| ground.height);
     let start: Vec<BodySnapshot> =
         scene.bodies.iter().enumerate().map(|(id, body)| at_start(id, &body.start)).collect();
     let mark = |(number, drawn): (usize, &DrawnField)| {
@@ -68,14 +74,13 @@ pub(super) fn marks(scene: &Scene, camera: &Placed, view: f64) -> Vec<Arc<dyn Ma
             region,
             radii: scene.bodies.iter().map(radius).collect(),
             strongest: 0.0,
-            spacing_of_levels: 0.0,
+            levels: Levels::default(),
+            ground,
             sampler,
         };
         match drawn.style {
             FieldStyle::Arrows => mark.strongest = arrows::strongest(&mut mark.sampler.clone(), &mark.grid()),
-            FieldStyle::Levels => {
-                mark.spacing_of_levels = spacing_of_levels(&mut mark.sampler.clone(), &region);
-            }
+            FieldStyle::Levels => mark.levels = levels::levels(&mut mark.sampler.clone(), &region),
             FieldStyle::Lines => {}
         }
         Some(Arc::new(mark) as Arc<dyn Mark>)
@@ -172,7 +177,8 @@ impl FieldMark {
         let point = |i: i32, k: i32| {
             self.region.middle + axes[0] * (f64::from(i) * spacing) + axes[1] * (f64::from(k) * spacing)
         };
-        (-up..=up).flat_map(|k| (-across..=across).map(move |i| point(i, k))).collect()
+        let points = (-up..=up).flat_map(|k| (-across..=across).map(move |i| point(i, k)));
+        points.filter(|point| point.y >= self.ground).collect()
     }
 
     /// The sources with their places at a frame, and their radii, m. Absent ones are left out.
@@ -210,8 +216,9 @@ impl Mark for FieldMark {
             FieldStyle::Arrows => self.draw_arrows(&mut sampler, &sources, scale, sketch),
             FieldStyle::Lines => self.draw_lines(&mut sampler, &sources, scale, sketch),
             FieldStyle::Levels => {
-                let radius = HELPING_LINE_RADIUS * scale.stroke;
-                let lines = levels::lines(&mut sampler, &self.region, self.spacing_of_levels, radius);
+                let radius = LINE_RADIUS * scale.stroke;
+                let mut lines = levels::lines(&mut sampler, &self.region, self.levels, radius);
+                lines.retain(|line| line.from.y.min(line.to.y) >= self.ground);
                 sketch.things.push(self.thing(lines));
             }
         }
