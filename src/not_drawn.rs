@@ -116,6 +116,17 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
             let [low, high] = fit.map(rounded);
             warning.help(format!("write `range = [{low}, {high}]`, or leave `range` out"))
         }
+        UnseenPlot::NotPositive { plot: of, curve: number, left_out } => {
+            let values = match (left_out.frames, left_out.of) {
+                (frames, all) if frames == all => "is not drawn: none of its values is positive".to_owned(),
+                (1, all) => format!("has a gap: 1 of its {all} values is not positive"),
+                (frames, all) => format!("has gaps: {frames} of its {all} values are not positive"),
+            };
+            let message = format!("{} {values}", curve(of, number));
+            warning(message)
+                .at(curve_at(of, number), "a logarithmic axis has a place for positive values only")
+                .help("draw a positive formula, such as `abs(…)`, or leave `log` out")
+        }
         UnseenPlot::NeverThere { plot: of, curve: number, body } => {
             let name = &scene.bodies[body].name;
             warning(format!("{} is not drawn: `{name}` is never there", curve(of, number)))

@@ -1,6 +1,6 @@
 //! The plots of a scene: curves of measures, drawn in the picture.
 
-use super::{Color, Corner, MeasureFormula};
+use super::{Color, Corner, Measure, MeasureFormula, RunMeasure};
 
 /// A plot in the picture: curves of measures against the time, or against another measure.
 #[derive(Clone, Debug)]
@@ -21,6 +21,8 @@ pub struct Plot {
     pub width: Option<f64>,
     /// The lowest and the highest value of the vertical axis. `None` for the values of the curves.
     pub range: Option<[f64; 2]>,
+    /// Whether the horizontal and the vertical axis are logarithmic.
+    pub is_logarithmic: [bool; 2],
     /// Whether the future part of each curve is drawn in a pale color.
     pub ahead: bool,
 }
@@ -46,10 +48,23 @@ pub struct Curve {
 }
 
 impl Plot {
+    /// Returns whether a point has a place on the axes: a logarithmic axis has none for zero and negative values.
+    pub fn has_place(&self, at: [f64; 2]) -> bool {
+        self.is_logarithmic.into_iter().zip(at).all(|(is_logarithmic, value)| !is_logarithmic || value > 0.0)
+    }
+
+    /// Returns whether the measure across is the time.
+    pub fn is_over_time(&self) -> bool {
+        self.x.single == Some(Measure::Run(RunMeasure::Time))
+    }
+
     /// The maximum number of curves in a plot. More could not be told apart.
     pub const MAX_CURVES: usize = Color::OF_CURVES.len();
     /// The largest value that an axis can have.
     pub const MAX_VALUE: f64 = 1e290;
+    /// The words for logarithmic axes, each with whether the horizontal and the vertical axis are.
+    pub const LOGARITHMIC: [(&'static str, [bool; 2]); 3] =
+        [("x", [true, false]), ("y", [false, true]), ("xy", [true, true])];
     /// The largest width of a plot at a side of the picture, as a fraction of the picture's width.
     pub const MAX_WIDTH_AT_SIDE: f64 = 0.4;
 }

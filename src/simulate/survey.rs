@@ -12,8 +12,8 @@ mod tests;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
-pub use curves::CurvePoint;
 use curves::Curves;
+pub use curves::{CurvePoint, LeftOut};
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
@@ -61,6 +61,8 @@ pub struct Survey {
     /// The points of each curve of all plots, in the order of the scene. In long runs, only the points with the lowest and the highest
     /// values of neighboring frames.
     pub curves: Vec<Vec<CurvePoint>>,
+    /// How many values of each of these curves a logarithmic axis leaves out.
+    pub left_out: Vec<LeftOut>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -257,6 +259,7 @@ impl<'a> Surveyor<'a> {
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let law = scene.simulation.contacts;
         let (drift_scale, drift_energy) = error.scale(law);
+        let (curves, left_out) = curves.finish();
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
@@ -268,7 +271,8 @@ impl<'a> Surveyor<'a> {
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             laws,
             stretched: gaps.finish(scene),
-            curves: curves.finish(),
+            curves,
+            left_out,
             drift: error.drift(law),
             drift_scale,
             drift_energy,

@@ -187,3 +187,59 @@ fn a_camera_that_follows_looks_at_its_body() {
     let spot = plan.screen(&frame).unwrap().project(frame.bodies[0].location).unwrap();
     assert!(spot.x.abs() < 1e-12 && spot.y.abs() < 1e-12);
 }
+
+/// On a logarithmic axis, a decay is a straight line: exp(−2 t) is 0.1 at t = ln 10 / 2. On two logarithmic axes, a power is: t² is 0.01
+/// at t = 0.1.
+#[test]
+fn decays_and_powers_are_straight_on_logarithmic_axes() {
+    let text = "simulation = { duration = 4, frame_rate = 100 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['exp(-2*t)', 't^2', '0']
+        [plot.decay]\ny = 'ball.x'\nlog = true\nrange = [1e-4, 1]\n[plot.power]\ny = 'ball.y'\nlog = 'xy'\nrange = [1e-4, 100]\nahead = true";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let [decay, power] = plan.planned_plots() else { panic!("two plots") };
+    let ends = |plot: &PlannedPlot| {
+        let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+        let [level, upright] = [axes[axes.len() - 2], axes[axes.len() - 1]];
+        (level.from, [level.to[0], upright.to[1]])
+    };
+    let is_near = |one: [f64; 2], other: [f64; 2]| (0..2).all(|k| (one[k] - other[k]).abs() < 1e-6);
+    let (origin, end) = ends(decay);
+    let points: Vec<[f64; 2]> = decay.curves[0].points.iter().filter_map(|point| point.at).collect();
+    let [first, last] = points[..] else { panic!("{points:?}") };
+    // The curve falls by 8 / ln 10 of 4 decades in the whole run.
+    let bottom = end[1] + (origin[1] - end[1]) * 8.0 / std::f64::consts::LN_10 / 4.0;
+    assert!(is_near(first, [origin[0], end[1]]) && is_near(last, [end[0], bottom]), "{first:?} {last:?}");
+    let (origin, end) = ends(power);
+    let points: Vec<[f64; 2]> = power.curves[0].points.iter().filter_map(|point| point.at).collect();
+    let [first, last] = points[..] else { panic!("{points:?}") };
+    // Time 0 has no place. The axis of the time goes from the first frame after it, 0.01 s, to 4 s; there, the power is 16.
+    let top = origin[1] + (end[1] - origin[1]) * (libm::log10(16.0) + 4.0) / 6.0;
+    assert!(is_near(first, origin) && is_near(last, [end[0], top]), "{first:?} {last:?}");
+    let said: Vec<&str> = decay.texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(["10⁻⁴", "10⁻²", "1"].iter().all(|power| said.contains(power)), "{said:?}");
+    // A frame shows its own value on the same line. At time 0, it has none.
+    let now = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[1][0];
+    assert_eq!((now(0.0).here, now(0.0).count), (None, 1));
+    let [x, y] = now(0.4).here.unwrap();
+    let slope = |[x, y]: [f64; 2]| (y - first[1]) / (x - first[0]);
+    assert!((slope([x, y]) / slope(last) - 1.0).abs() < 1e-9);
+}
+
+/// In a run of more frames than a curve has points, the lowest positive value and the gaps between positive values are kept.
+#[test]
+fn long_curves_keep_their_lowest_positive_values() {
+    let text = "simulation = { duration = 30, frame_rate = 100 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['exp(-((t - 12)/0.02)^2)*(-1) + 1.001', 'sin(t)', '0']
+        [plot.peak]\ny = ['ball.x', 'ball.y']\nlog = true";
+    let scene = Scene::parse(text).unwrap();
+    let survey = survey(&scene, |_| {}).unwrap();
+    let values = |curve: usize| survey.curves[curve].iter().map(|point| point.at.map(|at| at[1]));
+    let lowest = values(0).flatten().fold(f64::INFINITY, f64::min);
+    assert!((lowest - 0.001).abs() < 1e-9, "{lowest}");
+    assert!(values(1).flatten().all(|value| value > 0.0) && values(1).filter(Option::is_none).count() > 3);
+    assert_eq!(survey.left_out[0].frames, 0);
+    // sin(t) is positive in 16 of the 30 seconds: 5 half-periods of π.
+    let positive = survey.left_out[1].of - survey.left_out[1].frames;
+    assert!((positive as f64 - 500.0 * std::f64::consts::PI).abs() < 6.0, "{positive}");
+}

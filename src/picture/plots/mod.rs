@@ -6,13 +6,14 @@
 mod axis;
 mod clip;
 mod colors;
+mod decades;
 mod panel;
 mod room;
 mod unseen;
 
 use std::sync::Arc;
 
-use self::axis::{Axis, Range};
+use self::axis::{Axis, Range, Scale};
 use self::clip::{clipped, simplified};
 use self::colors::mixed;
 use self::panel::{Legend, Panel};
@@ -20,7 +21,7 @@ use self::room::{Room, column};
 use super::colors::ink;
 use super::occupancy::Rectangle;
 use super::text::{Text, Vertical};
-use crate::scene::{Color, Corner, Measure, MeasureFormula, Plot, PlotPlace, RunMeasure, Scene};
+use crate::scene::{Color, Corner, MeasureFormula, Plot, PlotPlace, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
 pub(super) use self::room::free;
@@ -28,6 +29,8 @@ pub use self::unseen::UnseenPlot;
 
 /// The height of a line of text in a picture of a plot alone, where the picture has a width of 2.
 const LINE_ALONE: f64 = 0.04;
+/// The ends of a linear axis without values, and those of a logarithmic one.
+const UNKNOWN: [[f64; 2]; 2] = [[0.0, 1.0], [0.1, 1.0]];
 /// The radius of the dots at the present values, relative to the height of a line of text.
 const DOT: f64 = 0.17;
 
@@ -183,24 +186,31 @@ fn plan(
         units: [x_unit, unit(plot)],
         sign: scene.output.decimal,
     };
-    let is_time = plot.x.single == Some(Measure::Run(RunMeasure::Time));
     let is_count = |formula: &MeasureFormula| formula.is_count;
+    let unknown = |axis: usize| UNKNOWN[usize::from(plot.is_logarithmic[axis])];
+    let end = scene.simulation.timeline.end() / plot.x.unit_size();
     let level = Range {
         // The whole run, even if the curves begin later or end earlier.
-        span: if is_time {
-            [0.0, scene.simulation.timeline.end() / plot.x.unit_size()]
-        } else {
-            span(curves, 0).unwrap_or([0.0, 1.0])
+        span: match (plot.is_over_time(), plot.is_logarithmic[0]) {
+            (true, false) => [0.0, end],
+            // The first frame is at time 0, which has no place.
+            (true, true) => [span(curves, 0).map_or(end / 10.0, |[begin, _]| begin), end],
+            (false, _) => span(curves, 0).unwrap_or(unknown(0)),
         },
-        is_wider: !is_time,
+        is_wider: !plot.is_over_time(),
         is_count: is_count(&plot.x),
     };
     let upright = Range {
-        span: plot.range.or_else(|| span(curves, 1)).unwrap_or([0.0, 1.0]),
+        span: plot.range.or_else(|| span(curves, 1)).unwrap_or(unknown(1)),
         is_wider: plot.range.is_none(),
         is_count: plot.curves.iter().all(|curve| is_count(&curve.y)),
     };
-    let (panel, axes) = Panel::new(plot, &legend, &[level, upright], room);
+    let scale = |is_logarithmic, range| match is_logarithmic {
+        true => Scale::Logarithmic(range),
+        false => Scale::Linear(range),
+    };
+    let [across, up] = plot.is_logarithmic;
+    let (panel, axes) = Panel::new(plot, &legend, &[scale(across, level), scale(up, upright)], room);
     let area = panel.area;
     let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
     let planned_curves = curves.iter().zip(&colors).map(|(points, color)| PlannedCurve {
@@ -214,7 +224,7 @@ fn plan(
         bottom: panel.bottom,
         size: panel.size,
         paper,
-        lines: panel.lines(&axes, mixed(ink, paper, 0.82), mixed(ink, paper, 0.25)),
+        lines: panel.lines(&axes, [0.92, 0.82, 0.25].map(|part| mixed(ink, paper, part))),
         texts: panel.texts(&axes, &legend, mixed(ink, paper, 0.1)),
         curves: planned_curves.collect(),
         dot: DOT * room.line,

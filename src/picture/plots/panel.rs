@@ -3,7 +3,7 @@
 use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{Text, Vertical, width};
-use super::axis::{Axis, Range, Tick};
+use super::axis::{Axis, Scale, Tick};
 use super::room::Room;
 use super::{Axes, PlotLine};
 use crate::lettering::closed;
@@ -74,8 +74,8 @@ pub(super) struct Panel {
 
 impl Panel {
     /// Lays out a plot. If its words need more room than there is, its letters get smaller, and its longest words are cut.
-    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, ranges: &[Range; 2], room: &Room) -> (Panel, Axes) {
-        let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, ranges, room);
+    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, scales: &[Scale; 2], room: &Room) -> (Panel, Axes) {
+        let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, scales, room);
         let [usual, smaller @ ..] = LETTERS;
         let (mut panel, mut axes, mut fits) = with(usual);
         for scale in smaller {
@@ -92,7 +92,7 @@ impl Panel {
         line: f64,
         plot: &Plot,
         legend: &Legend<'_>,
-        ranges: &[Range; 2],
+        scales: &[Scale; 2],
         room: &Room,
     ) -> (Panel, Axes, bool) {
         let (wide, most) = (room.panel_width(), room.max_height());
@@ -102,7 +102,7 @@ impl Panel {
         let foot = pad + NUMBERS_ROW * line + name_row;
         // The numbers of the vertical axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
-        let mut upright = Axis::new(&ranges[1], 1.0);
+        let mut upright = scales[1].axis(1.0);
         let (mut numbers, mut names, mut rows, mut high, mut least) =
             (width("0.00", line), Vec::new(), 0.0, 0.0, 0.0);
         for _ in 0..2 {
@@ -117,12 +117,12 @@ impl Panel {
             };
             high = usual.max(least).min(most.max(head + foot + MIN_AXIS_WITHOUT_ROOM * line));
             let intervals = (high - head - foot) / (BETWEEN_NUMBERS[1] * line);
-            upright = Axis::new(&ranges[1], intervals.clamp(1.0, MAX_INTERVALS[1]));
+            upright = scales[1].axis(intervals.clamp(1.0, MAX_INTERVALS[1]));
             numbers = upright.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
         }
         let left = pad + numbers + beside_axis;
         let across = wide - left - 2.0 * pad;
-        let level = |interval: f64| Axis::new(&ranges[0], (across / interval).clamp(1.0, MAX_INTERVALS[0]));
+        let level = |interval: f64| scales[0].axis((across / interval).clamp(1.0, MAX_INTERVALS[0]));
         let narrow = BETWEEN_NUMBERS[0] * line;
         let ticks = level(narrow).ticks();
         let widest = ticks.iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
@@ -151,21 +151,25 @@ impl Panel {
         (panel, [level, upright], fits)
     }
 
-    /// The lines of the grid, then the axes.
-    pub(super) fn lines(&self, axes: &Axes, grid: Color, axis: Color) -> Vec<PlotLine> {
+    /// The faint lines between those of the grid, then the grid, then the axes.
+    pub(super) fn lines(&self, axes: &Axes, [faint, grid, axis]: [Color; 3]) -> Vec<PlotLine> {
         let Rectangle { left, right, bottom, top } = self.area;
-        let across = |tick: Tick| left + tick.at * (right - left);
-        let up = |tick: Tick| bottom + tick.at * (top - bottom);
-        let line =
-            |from, to, is_axis| PlotLine { from, to, color: if is_axis { axis } else { grid }, is_axis };
-        let upright = |x: f64, is_axis| line([x, bottom], [x, top], is_axis);
-        let level = |y: f64, is_axis| line([left, y], [right, y], is_axis);
+        let across = |at: f64| left + at * (right - left);
+        let up = |at: f64| bottom + at * (top - bottom);
+        let line = |from, to, color| PlotLine { from, to, color, is_axis: color == axis };
+        let upright = |x: f64, color| line([x, bottom], [x, top], color);
+        let level = |y: f64, color| line([left, y], [right, y], color);
+        let [x_between, y_between] = axes.each_ref().map(Axis::between);
         let [x_ticks, y_ticks] = axes.each_ref().map(Axis::ticks);
-        let mut lines: Vec<PlotLine> = x_ticks.into_iter().map(|tick| upright(across(tick), false)).collect();
-        let zero = y_ticks.iter().find(|tick| tick.value == 0.0 && tick.at > 1e-9).cloned();
-        lines.extend(y_ticks.into_iter().map(|tick| level(up(tick), false)));
-        lines.extend(zero.map(|tick| level(up(tick), true)));
-        lines.extend([level(bottom, true), upright(left, true)]);
+        let zero = y_ticks.iter().find(|tick| tick.value == 0.0 && tick.at > 1e-9).map(|tick| tick.at);
+        let places = |ticks: Vec<Tick>| ticks.into_iter().map(|tick| tick.at).collect::<Vec<f64>>();
+        let mut lines = Vec::new();
+        for (x, y, color) in [(x_between, y_between, faint), (places(x_ticks), places(y_ticks), grid)] {
+            lines.extend(x.into_iter().map(|at| upright(across(at), color)));
+            lines.extend(y.into_iter().map(|at| level(up(at), color)));
+        }
+        lines.extend(zero.map(|at| level(up(at), axis)));
+        lines.extend([level(bottom, axis), upright(left, axis)]);
         lines
     }
 

@@ -4,7 +4,7 @@ use super::super::occupancy::Rectangle;
 use super::{Plots, column};
 use crate::decimal::decimal_step;
 use crate::scene::{Measure, Scene, Subject};
-use crate::simulate::{CurvePoint, Survey};
+use crate::simulate::{CurvePoint, LeftOut, Survey};
 
 /// A plot without room in the picture, or a curve of which no picture shows a point. The numbers of plots and bodies are their indices in
 /// the scene, those of curves their indices in the plot.
@@ -35,6 +35,15 @@ pub enum UnseenPlot {
         /// A range that contains these values and the given range.
         fit: [f64; 2],
     },
+    /// A logarithmic axis has no place for some values of a curve.
+    NotPositive {
+        /// The plot of the curve.
+        plot: usize,
+        /// The curve.
+        curve: usize,
+        /// How many of its values are left out.
+        left_out: LeftOut,
+    },
     /// A body that a curve names is never there.
     NeverThere {
         /// The plot of the curve.
@@ -61,11 +70,17 @@ impl Plots {
     pub(in super::super) fn unseen(&self, scene: &Scene, survey: &Survey) -> Vec<UnseenPlot> {
         let areas: Vec<Rectangle> = self.areas().collect();
         let mut unseen = Vec::new();
-        let mut points = survey.curves.iter();
+        let mut points = survey.curves.iter().zip(&survey.left_out);
         for (plot, planned) in self.planned.iter().enumerate() {
             unseen.extend(self.without_room(plot, &areas));
             for (curve, drawn) in planned.curves.iter().enumerate() {
-                let points = points.next().map_or(&[][..], Vec::as_slice);
+                let Some((points, left_out)) = points.next() else { continue };
+                if left_out.frames > 0 {
+                    unseen.push(UnseenPlot::NotPositive { plot, curve, left_out: *left_out });
+                    if left_out.frames == left_out.of {
+                        continue;
+                    }
+                }
                 if drawn.points.iter().all(|point| point.at.is_none()) {
                     unseen.push(self.without_points(scene, [plot, curve], points));
                 }

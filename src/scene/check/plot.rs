@@ -71,6 +71,11 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                 "the lower value comes first",
             );
         }
+        let is_logarithmic = logarithmic(view);
+        if is_logarithmic[1] && range.is_some_and(|[low, _]| low <= 0.0) {
+            let message = "a logarithmic axis has no zero and no negative numbers".to_owned();
+            self.report(view.span(&plot::RANGE), message, "both values must be greater than 0");
+        }
         let place = match view.get(&plot::SIDE) {
             Some("left") => PlotPlace::Left,
             Some("right") => PlotPlace::Right,
@@ -110,6 +115,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             place,
             width,
             range,
+            is_logarithmic,
             ahead: view.get(&plot::AHEAD),
         };
         (!plot.curves.is_empty()).then_some((plot, spans))
@@ -160,6 +166,15 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     fn report(&mut self, span: Option<Span>, message: String, label: &str) {
         let error = Diagnostic::error(Code::BadPlot, message);
         self.context.diagnostics.extend(span.map(|span| error.at(span, label)));
+    }
+}
+
+/// Returns whether the horizontal and the vertical axis of a plot are logarithmic.
+fn logarithmic(view: &View<'_>) -> [bool; 2] {
+    let named = |word: &str| Plot::LOGARITHMIC.into_iter().find(|(axes, _)| *axes == word);
+    match view.get_as::<Text>(&plot::LOG).and_then(named) {
+        Some((_, axes)) => axes,
+        None => [false, view.get_as::<bool>(&plot::LOG) == Some(true)],
     }
 }
 

@@ -96,6 +96,11 @@ table! {
         .also(&["end", "to", "vanishes", "disappears", "t1"]),
 }
 
+fn logarithmic_axes() -> Vec<&'static str> {
+    Plot::LOGARITHMIC.iter().map(|(axes, _)| *axes).collect()
+}
+
+static LOG_KINDS: [Kind; 2] = [Boolean, Choice(logarithmic_axes)];
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
 const NUMBER: Kind = Number(Bound::Any);
 
@@ -133,6 +138,9 @@ table! {
     RANGE: Option<Vec<f64>> = KeySpec::new("range", List { of: &NUMBER, min: 2, max: 2 }, "The lowest and the highest value of its vertical axis")
         .default("that of the curves")
         .also(&["y_range", "ylim", "limits"]),
+    LOG: Any = KeySpec::new("log", Either(&LOG_KINDS), "Whether the vertical axis is logarithmic, or which axes are; values that are not positive are left out")
+        .default_flag(false)
+        .also(&["logarithmic", "log_scale", "logscale", "scale"]),
     AHEAD: bool = KeySpec::new("ahead", Boolean, "Whether the rest of each curve is drawn, too, in a pale color")
         .default_flag(false)
         .also(&["whole", "future"]),

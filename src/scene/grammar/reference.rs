@@ -490,6 +490,23 @@ gap. A unit stands at an axis if all of its curves are single measures of one un
 body that its formula names, if it names only one. In runs of more than 600 frames, a curve is drawn through the lowest and highest values of neighboring
 frames, so no peak is lost. `output.layout = \"shared\"` writes the curves once for all frames, which saves space in long runs.
 
+```toml
+[body.bob]
+shape.sphere.radius = 0.2
+velocity = [3, 0, 0]
+
+[force.air.drag]
+linear = 0.7
+
+[plot.decay]
+y = \"bob.speed\"
+log = true
+```
+
+`log = true` makes the vertical axis logarithmic: a decay is a straight line. `log = \"x\"` and `log = \"xy\"` do so for the axis across, and for both: a power
+of `x` is a straight line. A logarithmic axis has no place for zero and negative values. There, a curve has a gap, and a warning says how
+many values are left out.
+
 A plot in a corner stands in front of the bodies. Several plots at the same place stand below each other and share the height of the picture.
 If words have too little room, the letters get smaller, and the longest words are cut. A plot that leaves the picture or covers another one
 gets a warning, and so does a curve of which no picture shows a point. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
