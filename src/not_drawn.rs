@@ -84,7 +84,8 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
     let warning = |message: String| Diagnostic::warning(Code::NotDrawn, message);
     let plot = |plot: usize| format!("the plot `{}`", scene.plots[plot].name);
     let curve = |of: usize, curve: usize| {
-        format!("the curve `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
+        let noun = scene.plots[of].kind.noun();
+        format!("the {noun} `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
     };
     let curve_at = |of: usize, curve: usize| scene.places.plots[of].curves[curve];
     match *unseen {

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use super::ExportError;
 use super::format::{Contents, DRAWING, FileKind, Format};
-use crate::picture::{PlannedPlot, plot_alone};
+use crate::picture::{PlannedPlot, PlotBar, PlotLine, plot_alone};
 use crate::scene::{Color, Scene};
 use crate::simulate::{Recorded, Selection};
 use crate::svg::{Anchor, HALF_OF_LETTERS, Svg};
@@ -61,21 +61,32 @@ impl Format for PlotDrawing {
     ) -> Result<Contents, ExportError> {
         let scene = run.scene();
         let unknown = || io::Error::new(io::ErrorKind::NotFound, self.unknown(scene));
-        let plot = plot_alone(scene, run.survey(), self.number(scene).ok_or_else(unknown)?);
-        let curves = plot.curves.len();
-        out.write_all(svg(&plot).as_bytes())?;
-        let noun = if curves == 1 { "curve" } else { "curves" };
-        Ok(Contents { words: format!("{curves} {noun}"), bytes: None, faster: 1.0 })
+        let number = self.number(scene).ok_or_else(unknown)?;
+        let (plot, bars) = plot_alone(scene, run.survey(), number);
+        out.write_all(svg(&plot, &bars).as_bytes())?;
+        let noun = scene.plots[number].kind.noun();
+        let words = match scene.plots[number].curves.len() {
+            1 => format!("1 {noun}"),
+            count => format!("{count} {noun}s"),
+        };
+        Ok(Contents { words, bytes: None, faster: 1.0 })
     }
 }
 
 /// Returns a plot as the text of an SVG file.
-fn svg(plot: &PlannedPlot) -> String {
+fn svg(plot: &PlannedPlot, bars: &[PlotBar]) -> String {
     let scale = WIDTH / plot.size[0];
     let high = plot.size[1] * scale;
     let at = |[x, y]: [f64; 2]| [x * scale, high - y * scale];
     let mut svg = Svg::new([WIDTH, high], Color::WHITE.bytes(), FONTS);
-    for line in &plot.lines {
+    let (axes, grid): (Vec<&PlotLine>, Vec<&PlotLine>) = plot.lines.iter().partition(|line| line.is_axis);
+    for line in grid {
+        svg.line([line.from, line.to].map(at), LINE_WIDTH, line.color.bytes());
+    }
+    for bar in bars {
+        svg.rectangle([bar.from, bar.to].map(at), bar.color.bytes());
+    }
+    for line in axes {
         svg.line([line.from, line.to].map(at), LINE_WIDTH, line.color.bytes());
     }
     for curve in &plot.curves {

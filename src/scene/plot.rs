@@ -13,7 +13,9 @@ pub struct Plot {
     pub x: MeasureFormula,
     /// The name of the horizontal axis, such as `t` or `ball.x`.
     pub x_name: String,
-    /// The curves, at least one.
+    /// What the plot draws.
+    pub kind: PlotKind,
+    /// The curves, at least one. Each bar is the present value of one of them.
     pub curves: Vec<Curve>,
     /// The position of the plot in the picture.
     pub place: PlotPlace,
@@ -25,6 +27,15 @@ pub struct Plot {
     pub is_logarithmic: [bool; 2],
     /// Whether the future part of each curve is drawn in a pale color.
     pub ahead: bool,
+}
+
+/// What a plot draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotKind {
+    /// Curves of measures, against the time or another measure.
+    Curves,
+    /// A bar for each measure, as high as its present value.
+    Bars,
 }
 
 /// The position of a plot in the picture.
@@ -45,6 +56,16 @@ pub struct Curve {
     pub name: String,
     /// The measure upwards.
     pub y: MeasureFormula,
+}
+
+impl PlotKind {
+    /// The noun for one of the things that the plot draws.
+    pub fn noun(self) -> &'static str {
+        match self {
+            PlotKind::Curves => "curve",
+            PlotKind::Bars => "bar",
+        }
+    }
 }
 
 impl Plot {

@@ -18,7 +18,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::picture::{Plan, Thing, Written, has_texts};
-use crate::scene::{Color, ForceKind, Layout, Scene, SpringLine, SpringLook};
+use crate::scene::{Color, ForceKind, Layout, PlotKind, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
@@ -44,6 +44,8 @@ pub(super) struct NeededMacros {
     labels: bool,
     /// True if the pictures contain plots.
     plots: bool,
+    /// True if plots contain bars.
+    bars: bool,
     /// True if bodies have trails.
     trails: bool,
 }
@@ -58,6 +60,7 @@ impl NeededMacros {
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             plots: !scene.plots.is_empty(),
+            bars: scene.plots.iter().any(|plot| plot.kind != PlotKind::Curves),
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
     }

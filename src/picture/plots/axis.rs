@@ -42,6 +42,8 @@ enum Numbers {
     },
     /// Values of a logarithmic axis.
     Decades(Decades),
+    /// No numbers: names stand there.
+    Names,
 }
 
 /// What an axis must show, and how its values are spaced.
@@ -51,6 +53,8 @@ pub(super) enum Scale {
     Linear(Range),
     /// Equal distances are equal ratios. All values are positive.
     Logarithmic(Range),
+    /// Names in equal distances, each in the middle of its room. The number is that of the names.
+    Names(u8),
 }
 
 /// A number beside an axis.
@@ -79,6 +83,12 @@ impl Scale {
         match self {
             Scale::Linear(range) => Axis::new(range, count),
             Scale::Logarithmic(range) => Axis::logarithmic(range, count),
+            Scale::Names(names) => Axis {
+                low: 0.0,
+                high: f64::from(*names).max(1.0),
+                is_logarithmic: false,
+                numbers: Numbers::Names,
+            },
         }
     }
 }
@@ -140,6 +150,7 @@ impl Axis {
     pub(super) fn ticks(&self) -> Vec<Tick> {
         let (step, exponent) = match self.numbers {
             Numbers::Even { step, exponent } => (step, exponent),
+            Numbers::Names => return Vec::new(),
             Numbers::Decades(decades) => {
                 let values = decades.values([self.low, self.high]).into_iter();
                 return values.map(|(value, says)| Tick { at: self.place(value), value, says }).collect();
@@ -164,7 +175,7 @@ impl Axis {
     /// Returns the positions of the faint lines between the numbers of a logarithmic axis.
     pub(super) fn between(&self) -> Vec<f64> {
         match self.numbers {
-            Numbers::Even { .. } => Vec::new(),
+            Numbers::Even { .. } | Numbers::Names => Vec::new(),
             Numbers::Decades(decades) => {
                 decades.between([self.low, self.high]).into_iter().map(|value| self.place(value)).collect()
             }
@@ -175,7 +186,7 @@ impl Axis {
     pub(super) fn unit(&self, symbol: &str) -> String {
         let exponent = match self.numbers {
             Numbers::Even { exponent, .. } => exponent,
-            Numbers::Decades(_) => 0,
+            Numbers::Decades(_) | Numbers::Names => 0,
         };
         let power = typeset(&format!("1e{exponent}"));
         match (exponent, symbol) {

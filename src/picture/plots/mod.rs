@@ -1,9 +1,10 @@
-//! Plots: curves of measures, on a panel in a corner of the picture.
+//! Plots: curves and bars of measures, on a panel in a corner of the picture.
 //!
 //! A plot is planned once for a run: its panel, axes, numbers, legend and curves lie in the image plane, where the picture has a width of 2.
 //! Of a curve, a frame shows the points up to its time, and a dot at its own values.
 
 mod axis;
+mod bars;
 mod clip;
 mod colors;
 mod decades;
@@ -21,9 +22,10 @@ use self::room::{Room, column};
 use super::colors::ink;
 use super::occupancy::Rectangle;
 use super::text::{Text, Vertical};
-use crate::scene::{Color, Corner, MeasureFormula, Plot, PlotPlace, Scene};
+use crate::scene::{Color, Corner, MeasureFormula, Plot, PlotKind, PlotPlace, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
+pub use self::bars::PlotBar;
 pub(super) use self::room::free;
 pub use self::unseen::UnseenPlot;
 
@@ -51,7 +53,7 @@ pub struct PlannedPlot {
     pub lines: Vec<PlotLine>,
     /// The title, the legend and the numbers, in positions of the image plane.
     pub texts: Vec<Text<'static>>,
-    /// The curves.
+    /// The curves. Empty if the plot draws bars.
     pub curves: Vec<PlannedCurve>,
     /// The radius of the dots at the present values.
     pub dot: f64,
@@ -90,6 +92,15 @@ pub struct CurveNow {
     pub here: Option<[f64; 2]>,
 }
 
+/// What a frame shows of a plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlotNow {
+    /// What it shows of each curve.
+    pub curves: Vec<CurveNow>,
+    /// The bars.
+    pub bars: Vec<PlotBar>,
+}
+
 /// The plots of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Plots {
@@ -97,6 +108,8 @@ pub(super) struct Plots {
     plots: Vec<Plot>,
     /// The axes of each plot, and the rectangle that they span in its panel.
     axes: Vec<(Axes, Rectangle)>,
+    /// The color of each curve or bar of each plot.
+    colors: Vec<Vec<Color>>,
     measures: Arc<Measures>,
     aspect: f64,
 }
@@ -109,15 +122,24 @@ impl Plots {
     pub(super) fn new(scene: &Scene, survey: &Survey, measures: Arc<Measures>) -> Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
         let mut points = survey.curves.iter();
-        let mut plots =
-            Plots { planned: Vec::new(), plots: scene.plots.clone(), axes: Vec::new(), measures, aspect };
+        let mut plots = Plots {
+            planned: Vec::new(),
+            plots: scene.plots.clone(),
+            axes: Vec::new(),
+            colors: Vec::new(),
+            measures,
+            aspect,
+        };
         for plot in &scene.plots {
             let curves: Vec<&[CurvePoint]> =
                 points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect();
             let room = Room::in_picture(scene, plot, &plots.planned);
-            let (planned, axes) = plan(scene, plot, &curves, &room, scene.environment.is_dark());
+            let dark = scene.environment.is_dark();
+            let colors = colors::of_curves(scene, plot, dark);
+            let (planned, axes) = plan(scene, plot, (&curves, &colors), &room, dark);
             plots.planned.push(planned);
             plots.axes.push(axes);
+            plots.colors.push(colors);
         }
         plots
     }
@@ -134,11 +156,18 @@ impl Plots {
         })
     }
 
-    /// What a frame shows of the curves of each plot.
-    pub(super) fn at(&self, frame: &Frame) -> Vec<Vec<CurveNow>> {
+    /// What a frame shows of each plot.
+    pub(super) fn at(&self, frame: &Frame) -> Vec<PlotNow> {
         let moment = MomentState::now(frame);
         let mut now = Vec::with_capacity(self.plots.len());
-        for ((plot, planned), (axes, area)) in self.plots.iter().zip(&self.planned).zip(&self.axes) {
+        let plots = self.plots.iter().zip(&self.planned).zip(&self.axes).zip(&self.colors);
+        for (((plot, planned), (axes, area)), colors) in plots {
+            if plot.kind == PlotKind::Bars {
+                let values = plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment));
+                let bars = bars::beside_each_other(values.zip(colors.iter().copied()), axes, area);
+                now.push(PlotNow { bars, ..PlotNow::default() });
+                continue;
+            }
             let x = self.measures.value(&plot.x, &moment);
             let curve = |(curve, drawn): (&crate::scene::Curve, &PlannedCurve)| {
                 let y = self.measures.value(&curve.y, &moment);
@@ -149,41 +178,54 @@ impl Plots {
                     here: is_inside.then(|| inside(area, [across, up])),
                 }
             };
-            now.push(plot.curves.iter().zip(&planned.curves).map(curve).collect());
+            let curves = plot.curves.iter().zip(&planned.curves).map(curve).collect();
+            now.push(PlotNow { curves, ..PlotNow::default() });
         }
         now
     }
 }
 
-/// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, and curves over the whole run. `number` is its
-/// index in the scene.
-pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> PlannedPlot {
+/// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, with curves over the whole run, and bars of its last
+/// moment. `number` is its index in the scene.
+pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> (PlannedPlot, Vec<PlotBar>) {
     let before: usize = scene.plots[..number].iter().map(|plot| plot.curves.len()).sum();
     let plot = Plot { place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
     let curves: Vec<&[CurvePoint]> =
         survey.curves.iter().skip(before).take(plot.curves.len()).map(Vec::as_slice).collect();
-    plan(scene, &plot, &curves, &Room::alone(LINE_ALONE), false).0
+    let colors = colors::of_curves(scene, &plot, false);
+    let (planned, (axes, area)) = plan(scene, &plot, (&curves, &colors), &Room::alone(LINE_ALONE), false);
+    let bars = match plot.kind {
+        PlotKind::Curves => Vec::new(),
+        PlotKind::Bars => {
+            let last = curves
+                .iter()
+                .map(|points| points.last().and_then(|last| last.at).map_or(f64::NAN, |at| at[1]));
+            bars::beside_each_other(last.zip(colors), &axes, &area)
+        }
+    };
+    (planned, bars)
 }
 
-/// Plans a plot, given the points of its curves. `dark` says whether the background of the picture is dark.
+/// Plans a plot, given the points and the colors of its curves. `dark` says whether the background of the picture is dark.
 fn plan(
     scene: &Scene,
     plot: &Plot,
-    curves: &[&[CurvePoint]],
+    (curves, colors): (&[&[CurvePoint]], &[Color]),
     room: &Room,
     dark: bool,
 ) -> (PlannedPlot, (Axes, Rectangle)) {
     let (ink, paper) =
         (ink(dark), if dark { Color([0.10, 0.11, 0.13]) } else { Color([0.985, 0.985, 0.98]) });
-    let colors = colors::of_curves(scene, plot, dark);
     let names: Vec<(&str, Color)> =
-        plot.curves.iter().zip(&colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
+        plot.curves.iter().zip(colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
     let x_unit = plot.x.unit().unwrap_or_default();
+    let is_bars = plot.kind == PlotKind::Bars;
     let legend = Legend {
         title: plot.title.as_deref(),
-        names: &names,
-        x_name: &plot.x_name,
-        units: [x_unit, unit(plot)],
+        names: if is_bars { &[] } else { &names },
+        below: if is_bars { &names } else { &[] },
+        x_name: if is_bars { "" } else { &plot.x_name },
+        units: [if is_bars { "" } else { x_unit }, unit(plot)],
         sign: scene.output.decimal,
     };
     let is_count = |formula: &MeasureFormula| formula.is_count;
@@ -200,8 +242,12 @@ fn plan(
         is_wider: !plot.is_over_time(),
         is_count: is_count(&plot.x),
     };
+    let of_values = span(curves, 1).map(|[low, high]| match is_bars {
+        true => [low.min(0.0), high.max(0.0)],
+        false => [low, high],
+    });
     let upright = Range {
-        span: plot.range.or_else(|| span(curves, 1)).unwrap_or(unknown(1)),
+        span: plot.range.or(of_values).unwrap_or(unknown(1)),
         is_wider: plot.range.is_none(),
         is_count: plot.curves.iter().all(|curve| is_count(&curve.y)),
     };
@@ -210,10 +256,15 @@ fn plan(
         false => Scale::Linear(range),
     };
     let [across, up] = plot.is_logarithmic;
-    let (panel, axes) = Panel::new(plot, &legend, &[scale(across, level), scale(up, upright)], room);
+    let level = match is_bars {
+        true => Scale::Names(u8::try_from(names.len()).unwrap_or(u8::MAX)),
+        false => scale(across, level),
+    };
+    let (panel, axes) = Panel::new(plot, &legend, &[level, scale(up, upright)], room);
     let area = panel.area;
     let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
-    let planned_curves = curves.iter().zip(&colors).map(|(points, color)| PlannedCurve {
+    let drawn = if is_bars { &[] } else { curves };
+    let planned_curves = drawn.iter().zip(colors).map(|(points, color)| PlannedCurve {
         color: *color,
         pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
         points: simplified(clipped(points, place, |part| inside(&area, part))),

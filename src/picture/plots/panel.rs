@@ -40,6 +40,8 @@ const NAME_ROW: f64 = 1.1;
 /// The distance between two numbers of the horizontal axis, and between two of the vertical one, in lines of text. Numbers of the horizontal axis may be
 /// farther apart, if they are wide.
 const BETWEEN_NUMBERS: [f64; 2] = [2.8, 2.0];
+/// The smallest distance between two names below bars, in lines of text.
+const BETWEEN_NAMES: f64 = 0.5;
 /// The largest number of intervals between the numbers of the level and of the vertical axis.
 const MAX_INTERVALS: [f64; 2] = [8.0, 6.0];
 
@@ -48,6 +50,8 @@ pub(super) struct Legend<'a> {
     pub(super) title: Option<&'a str>,
     /// The names of the curves, in their colors.
     pub(super) names: &'a [(&'a str, Color)],
+    /// The names below the bars, in their colors. They stand in place of the numbers and the name of the horizontal axis.
+    pub(super) below: &'a [(&'a str, Color)],
     pub(super) x_name: &'a str,
     /// The units of both axes.
     pub(super) units: [&'a str; 2],
@@ -66,6 +70,8 @@ pub(super) struct Panel {
     line: f64,
     /// The height of the row with the name of the horizontal axis. 0 if the name stands beside its numbers.
     name_row: f64,
+    /// The room of each name below a bar.
+    room_of_name: f64,
     /// The position of each name of the legend: from the left, and the number of the row.
     names: Vec<(f64, f64)>,
     /// The distance from the upper edge of the panel to the base line of the first row of the legend.
@@ -99,6 +105,13 @@ impl Panel {
         let (pad, beside_axis) = (PADDING * line, BESIDE_AXIS * line);
         let name_row = if width(legend.x_name, line) > LONG_NAME * wide { NAME_ROW * line } else { 0.0 };
         let title_row = if legend.title.is_some() { TITLE_ROW * line } else { 0.0 };
+        // Names that are too wide to stand beside each other stand in two rows in turn.
+        let room_of_name =
+            (wide - 3.0 * pad - width("0.00", line) - beside_axis) / count_of(legend.below).max(1.0);
+        let widest_name = legend.below.iter().map(|(name, _)| width(name, line)).fold(0.0, f64::max);
+        let in_turn = legend.below.len() > 1 && widest_name + BETWEEN_NAMES * line > room_of_name;
+        let room_of_name = room_of_name * if in_turn { 2.0 } else { 1.0 } - BETWEEN_NAMES * line;
+        let name_row = if in_turn { NAME_ROW * line } else { name_row };
         let foot = pad + NUMBERS_ROW * line + name_row;
         // The numbers of the vertical axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
@@ -137,7 +150,10 @@ impl Panel {
         let (left_edge, bottom) = room.corner_of(plot.place, [wide, high]);
         let words = legend.names.iter().map(|(name, _)| *name).chain([legend.x_name]).chain(legend.title);
         let longest = words.map(|words| width(words, line)).fold(0.0, f64::max);
-        let fits = least <= most && longest <= wide - 2.0 * pad && across > MIN_LEVEL_AXIS * wide;
+        let fits = least <= most
+            && widest_name <= room_of_name
+            && longest <= wide - 2.0 * pad
+            && across > MIN_LEVEL_AXIS * wide;
         let panel = Panel {
             left: left_edge,
             bottom,
@@ -145,6 +161,7 @@ impl Panel {
             area,
             line,
             name_row,
+            room_of_name,
             names,
             legend: legend_begin,
         };
@@ -209,6 +226,18 @@ impl Panel {
             texts.push(text(says, [left - BESIDE_AXIS * line, y], 1.0, ink));
         }
         let base = bottom - 1.05 * line;
+        let mut middle = 0.5;
+        for (number, (name, color)) in legend.below.iter().enumerate() {
+            let x = left + axes[0].place(middle) * (right - left);
+            let row = if number % 2 == 1 { self.name_row } else { 0.0 };
+            // Beside the edges of the panel, a name has less room.
+            let most = 2.0 * (x - pad).min(self.size[0] - pad - x);
+            texts.push(text(cut(name, self.room_of_name.min(most), line), [x, base - row], 0.5, *color));
+            middle += 1.0;
+        }
+        if !legend.below.is_empty() {
+            return texts;
+        }
         let unit = axes[0].unit(legend.units[0]);
         let name =
             if unit.is_empty() { legend.x_name.to_owned() } else { format!("{} ({unit})", legend.x_name) };
@@ -224,6 +253,11 @@ impl Panel {
         texts.push(text(cut(&name, room, line), [end, base - self.name_row], 1.0, ink));
         texts
     }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "there are few names")]
+fn count_of(names: &[(&str, Color)]) -> f64 {
+    names.len() as f64
 }
 
 /// Places the names of the curves in rows from `begin` to `end`; rows after the first, and a first name without room, start at `margin`.
@@ -270,8 +304,14 @@ mod tests {
     #[test]
     fn names_stand_in_rows_within_the_panel() {
         let names = [("first", Color::WHITE), ("second", Color::WHITE), ("a much longer name", Color::WHITE)];
-        let legend =
-            Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
+        let legend = Legend {
+            title: None,
+            names: &names,
+            below: &[],
+            x_name: "t",
+            units: ["s", "J"],
+            sign: DecimalSign::Point,
+        };
         let (places, rows) = placed(&legend, (1.0, 0.4, 10.0), 1.0);
         assert_eq!(rows, 2.0);
         assert!(places[0] == (1.0, 0.0) && places[1].1 == 0.0 && places[2] == (0.4, 1.0), "{places:?}");

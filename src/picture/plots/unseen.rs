@@ -73,7 +73,7 @@ impl Plots {
         let mut points = survey.curves.iter().zip(&survey.left_out);
         for (plot, planned) in self.planned.iter().enumerate() {
             unseen.extend(self.without_room(plot, &areas));
-            for (curve, drawn) in planned.curves.iter().enumerate() {
+            for curve in 0..self.plots[plot].curves.len() {
                 let Some((points, left_out)) = points.next() else { continue };
                 if left_out.frames > 0 {
                     unseen.push(UnseenPlot::NotPositive { plot, curve, left_out: *left_out });
@@ -81,7 +81,8 @@ impl Plots {
                         continue;
                     }
                 }
-                if drawn.points.iter().all(|point| point.at.is_none()) {
+                let drawn = planned.curves.get(curve).map_or(&points[..], |drawn| &drawn.points);
+                if drawn.iter().all(|point| point.at.is_none()) {
                     unseen.push(self.without_points(scene, [plot, curve], points));
                 }
             }

@@ -7,10 +7,10 @@ use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::labels::plot;
 use crate::scene::grammar::scene::scene;
-use crate::scene::grammar::{Any, Key};
+use crate::scene::grammar::{Any, Key, KeySpec};
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Curve, MeasureFormula, Plot, PlotPlace, PlotSpans};
+use crate::scene::{Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
@@ -39,21 +39,24 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<(Plot, PlotSpans)> {
         let x_formula = view.get(&plot::X);
         let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
-        let written = texts(view, &plot::Y);
+        let kind = if view.has(&plot::BARS) { PlotKind::Bars } else { PlotKind::Curves };
+        self.check_keys(kind, (name, span), view);
+        let written = texts(view, if kind == PlotKind::Bars { &plot::BARS } else { &plot::Y });
         let formulas: Vec<Option<MeasureFormula>> = written.iter().map(|text| self.formula(*text)).collect();
         let names = texts(view, &plot::NAMES);
         let set_names: Vec<Option<String>> = names.iter().map(|name| self.set(*name)).collect();
         let [title, x_name] =
             [&plot::TITLE, &plot::X_NAME].map(|key| self.set(view.get(key).zip(view.span(key))?));
         if !names.is_empty() && names.len() != written.len() {
+            let noun = kind.noun();
             let counted =
                 |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
             let message = format!(
                 "the plot has {}, and {}",
-                counted(written.len(), "curve"),
+                counted(written.len(), noun),
                 counted(names.len(), "name")
             );
-            self.report(view.span(&plot::NAMES), message, "each curve has one name");
+            self.report(view.span(&plot::NAMES), message, &format!("each {noun} has one name"));
         }
         let range = view.get(&plot::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
         let is_extreme = |[low, high]: [f64; 2]| {
@@ -111,6 +114,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             title,
             x: x?,
             x_name: x_name.unwrap_or_else(|| without_unit(x_formula).to_owned()).trim().to_owned(),
+            kind,
             curves,
             place,
             width,
@@ -119,6 +123,24 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             ahead: view.get(&plot::AHEAD),
         };
         (!plot.curves.is_empty()).then_some((plot, spans))
+    }
+
+    /// Reports a plot that draws nothing, and the keys that have no meaning for what it draws.
+    fn check_keys(&mut self, kind: PlotKind, (name, span): (&str, Span), view: &View<'_>) {
+        if !view.has(&plot::Y) && !view.has(&plot::BARS) && !view.has_unknown() {
+            let message = "a plot needs one of `y`, `bars`".to_owned();
+            let error = Diagnostic::error(Code::MissingKey, message);
+            let error = error.at(span, format!("`plot.{name}` says none of them"));
+            self.context.diagnostics.push(error.help("`y = \"ball.speed\"` draws a curve"));
+        }
+        let meaningless: &[&KeySpec] = match kind {
+            PlotKind::Curves => &[],
+            PlotKind::Bars => &[&plot::X.spec, &plot::X_NAME.spec, &plot::LOG.spec, &plot::AHEAD.spec],
+        };
+        for key in meaningless {
+            let message = format!("`{key}` has no meaning for bars, which begin at 0 and show one moment");
+            self.report(view.key_span(key), message, "leave it out");
+        }
     }
 
     /// Reads a formula of measures. Reports its mistakes at their source positions.

@@ -105,14 +105,21 @@ static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES
 const NUMBER: Kind = Number(Bound::Any);
 
 table! {
-    plot: "a plot", Rule::AtMostOne(&[&["corner", "side"]]);
+    plot: "a plot", Rule::AtMostOne(&[&["y", "bars"], &["corner", "side"]]);
     Y: Any = KeySpec::new(
         "y",
         Either(&TEXTS),
         "The measures to draw, each a curve: `\"ball.speed\"`, or a formula of measures, or a list of them",
     )
-    .required()
+    .default("none: `bars` stands in its place")
     .also(&["ys", "curves", "series", "values", "of"]),
+    BARS: Any = KeySpec::new(
+        "bars",
+        Either(&TEXTS),
+        "The measures to draw as bars, as high as their values at the moment of the picture",
+    )
+    .default("none: `y` stands in its place")
+    .also(&["bar", "columns", "bar_chart"]),
     X: value::Text = KeySpec::new("x", Text, "The measure across: the time, or any other for a phase plot").default_word("t"),
     X_NAME: Option<value::Text> = KeySpec::new("x_name", Text, "The name of the measure across")
         .default("the formula")
