@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use super::ExportError;
 use super::format::{Contents, DRAWING, FileKind, Format};
 use crate::picture::{PlannedPlot, PlotBar, PlotLine, plot_alone};
-use crate::scene::{Color, Scene};
+use crate::scene::{Color, PlotKind, Scene};
 use crate::simulate::{Recorded, Selection};
 use crate::svg::{Anchor, HALF_OF_LETTERS, Svg};
 
@@ -64,8 +64,12 @@ impl Format for PlotDrawing {
         let number = self.number(scene).ok_or_else(unknown)?;
         let (plot, bars) = plot_alone(scene, run.survey(), number);
         out.write_all(svg(&plot, &bars).as_bytes())?;
-        let noun = scene.plots[number].kind.noun();
-        let words = match scene.plots[number].curves.len() {
+        let plot = &scene.plots[number];
+        let (count, noun) = match plot.kind {
+            PlotKind::Histogram { bins, .. } => (usize::from(bins), "bin"),
+            PlotKind::Curves | PlotKind::Bars => (plot.curves.len(), plot.kind.noun()),
+        };
+        let words = match count {
             1 => format!("1 {noun}"),
             count => format!("{count} {noun}s"),
         };

@@ -1,8 +1,10 @@
-//! The plots of a scene: curves of measures, drawn in the picture.
+//! The plots of a scene: curves, bars and histograms of measures, drawn in the picture.
+
+use std::sync::Arc;
 
 use super::{Color, Corner, Measure, MeasureFormula, RunMeasure};
 
-/// A plot in the picture: curves of measures against the time, or against another measure.
+/// A plot in the picture: curves of measures against the time or another measure, or bars of their present values.
 #[derive(Clone, Debug)]
 pub struct Plot {
     /// The name of the plot, unique among plots.
@@ -30,12 +32,19 @@ pub struct Plot {
 }
 
 /// What a plot draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlotKind {
     /// Curves of measures, against the time or another measure.
     Curves,
     /// A bar for each measure, as high as its present value.
     Bars,
+    /// How many of several bodies have values within equal ranges, at the present moment. The only curve of the plot has the formula.
+    Histogram {
+        /// The indices of the bodies in the scene, in ascending order.
+        bodies: Arc<[usize]>,
+        /// The number of ranges.
+        bins: u8,
+    },
 }
 
 /// The position of a plot in the picture.
@@ -60,10 +69,11 @@ pub struct Curve {
 
 impl PlotKind {
     /// The noun for one of the things that the plot draws.
-    pub fn noun(self) -> &'static str {
+    pub fn noun(&self) -> &'static str {
         match self {
             PlotKind::Curves => "curve",
             PlotKind::Bars => "bar",
+            PlotKind::Histogram { .. } => "histogram",
         }
     }
 }
@@ -81,6 +91,8 @@ impl Plot {
 
     /// The maximum number of curves in a plot. More could not be told apart.
     pub const MAX_CURVES: usize = Color::OF_CURVES.len();
+    /// The largest number of bins of a histogram.
+    pub const MAX_BINS: u8 = 200;
     /// The largest value that an axis can have.
     pub const MAX_VALUE: f64 = 1e290;
     /// The words for logarithmic axes, each with whether the horizontal and the vertical axis are.

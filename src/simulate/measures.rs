@@ -212,6 +212,13 @@ impl Measures {
             return *known;
         }
         let Aggregate { how, bodies, formula } = &self.aggregates[number];
+        let value = how.of(self.of_each(bodies, formula, moment).into_iter());
+        moment.computed.aggregates.borrow_mut().insert(number, value);
+        value
+    }
+
+    /// Returns the values that a formula has for each of several bodies, in the unit that the scene asks for. Absent bodies are left out.
+    pub fn of_each(&self, bodies: &[usize], formula: &MeasureFormula, moment: &MomentState<'_>) -> Vec<f64> {
         // What is the same for all bodies is computed once.
         let mut inputs: Vec<f64> = formula
             .inputs
@@ -221,14 +228,14 @@ impl Measures {
         let of_each = formula.inputs.iter().enumerate().filter(|(_, measure)| measure.is_of_each());
         let of_each: Vec<(usize, Measure)> = of_each.map(|(slot, measure)| (slot, *measure)).collect();
         let present = bodies.iter().filter(|body| find(moment.bodies, **body).is_some());
-        let value = how.of(present.map(|body| {
+        let value = |body: &usize| {
             for (slot, measure) in &of_each {
                 inputs[*slot] = self.measure(measure.of_one(*body), moment);
             }
-            formula.program.eval(&inputs)
-        }));
-        moment.computed.aggregates.borrow_mut().insert(number, value);
-        value
+            let value = formula.program.eval(&inputs);
+            formula.asked_unit.as_ref().map_or(value, |asked| value / asked.size)
+        };
+        present.map(value).collect()
     }
 
     /// Returns the loads of a named force on all bodies. `None` if the force is not shown.

@@ -5,6 +5,7 @@
 mod corrected;
 mod crossing;
 mod curves;
+mod spreads;
 mod stretched;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,8 @@ pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
 use curves::Curves;
 pub use curves::{CurvePoint, LeftOut};
+pub use spreads::Spread;
+use spreads::Spreads;
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
@@ -63,6 +66,8 @@ pub struct Survey {
     pub curves: Vec<Vec<CurvePoint>>,
     /// How many values of each of these curves a logarithmic axis leaves out.
     pub left_out: Vec<LeftOut>,
+    /// The values of the bodies in each histogram, in the order of the scene.
+    pub spreads: Vec<Spread>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -141,6 +146,7 @@ pub struct Surveyor<'a> {
     /// The largest energy error so far.
     error: EnergyError,
     curves: Curves<'a>,
+    spreads: Spreads<'a>,
 }
 
 impl Survey {
@@ -176,6 +182,7 @@ impl<'a> Surveyor<'a> {
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
             curves: Curves::new(scene),
+            spreads: Spreads::new(scene),
         }
     }
 
@@ -234,6 +241,7 @@ impl<'a> Surveyor<'a> {
         self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
         self.curves.see(frame);
+        self.spreads.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -252,6 +260,7 @@ impl<'a> Surveyor<'a> {
             gaps,
             error,
             curves,
+            spreads,
             ..
         } = self;
         let interval = scene.simulation.timeline.interval();
@@ -273,6 +282,7 @@ impl<'a> Surveyor<'a> {
             stretched: gaps.finish(scene),
             curves,
             left_out,
+            spreads: spreads.finish(),
             drift: error.drift(law),
             drift_scale,
             drift_energy,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::picture::Form;
+use crate::picture::{Form, PlotBar};
 use crate::scene::ArrowOwner;
 use crate::simulate::{Frames, survey};
 
@@ -242,4 +242,65 @@ fn long_curves_keep_their_lowest_positive_values() {
     // sin(t) is positive in 16 of the 30 seconds: 5 half-periods of π.
     let positive = survey.left_out[1].of - survey.left_out[1].frames;
     assert!((positive as f64 - 500.0 * std::f64::consts::PI).abs() < 6.0, "{positive}");
+}
+
+/// The heights of bars are as their values: those of 2 and −1 have the ratio 2 : 1, and begin at the same zero. No frame moves the axis.
+#[test]
+fn bars_are_as_high_as_their_values() {
+    let text = "simulation = { duration = 2, frame_rate = 50 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['t', '-t/2', '0']\n[body.late]\nshape.sphere.radius = 0.1\nstart = 1.5
+        [plot.p]\nbars = ['ball.x', 'ball.y', 'late.x + 1']\nnames = ['right', 'down', 'late']";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let bars = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[0].bars.clone();
+    // Nothing of the bars is seen at first, and `late` is not there.
+    assert_eq!((bars(0.0), bars(1.0).len(), bars(2.0).len()), (vec![], 2, 3));
+    let (middle, end) = (bars(1.0), bars(2.0));
+    let height = |bar: PlotBar| bar.to[1] - bar.from[1];
+    for (one, other, ratio) in [(end[0], end[1], 2.0), (end[0], middle[0], 2.0), (end[0], end[2], 2.0)] {
+        assert!((height(one) / height(other) - ratio).abs() < 1e-9, "{one:?} {other:?}");
+    }
+    assert!(end[0].from[1] == end[1].to[1] && end[0].from[1] == middle[1].to[1], "zero stays in its place");
+    // A line of the axis stands at zero, and the names stand below the bars in their colors.
+    let plot = &plan.planned_plots()[0];
+    assert!(plot.lines.iter().any(|line| line.is_axis && line.from[1] == end[0].from[1]));
+    for (name, bar) in ["right", "down", "late"].into_iter().zip(end) {
+        let text = plot.texts.iter().find(|text| text.says == name).unwrap();
+        let place = text.x - plot.left;
+        assert!((place - (bar.from[0] + bar.to[0]) / 2.0).abs() < 1e-9 && text.align == 0.5);
+        assert!(
+            text.color == bar.color
+                && text.y.above_middle(0.5625) < plot.bottom.above_middle(0.5625) + bar.from[1]
+        );
+    }
+}
+
+/// 100 copies at the squares from 0 to 99², which keep their places: of n bins, the k-th has those from √(k/n) to √((k+1)/n) of 99.
+#[test]
+fn a_histogram_counts_the_copies_in_each_bin() {
+    let text = "simulation = { duration = 2, frame_rate = 10, gravity = [0, -1, 0] }\n[body.ball]\nshape.sphere.radius = 0.1
+        repeat = { count = 100 }\nlocation = ['i^2', 0, 0]\n[plot.p]\nhistogram = 'ball.x'\nbins = 9\n[plot.q]\nhistogram = 'ball.speed:km/h'";
+    let scene = Scene::parse(text).unwrap();
+    let survey = survey(&scene, |_| {}).unwrap();
+    assert_eq!(survey.spreads[0].span, Some([0.0, 9801.0]));
+    assert_eq!(survey.spreads[1].span.map(|[low, high]| [low, (high * 1e6).round()]), Some([0.0, 7.2e6]));
+    let plan = Plan::new(&scene, &scene.camera, &survey);
+    let bars = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[0].bars.clone();
+    let expected: Vec<f64> = (0..9_u32)
+        .map(|bin| (0..100_u32).filter(|i| i * i * 9 / 9801 == bin || (*i == 99 && bin == 8)).count() as f64)
+        .collect();
+    assert_eq!(expected.iter().sum::<f64>(), 100.0);
+    assert_eq!(expected[0], 33.0, "those below 99/3");
+    let now = bars(1.0);
+    assert_eq!(now.len(), 9);
+    let height = |bar: PlotBar| bar.to[1] - bar.from[1];
+    for (bar, count) in now.iter().zip(&expected) {
+        assert!((height(*bar) / height(now[0]) - count / 33.0).abs() < 1e-9, "{count}: {bar:?}");
+    }
+    assert_eq!(bars(0.0), bars(2.0), "the axes hold for the whole run");
+    // All copies fall alike: all of them are in one of the 10 bins at any time.
+    let falling = plan.plots(&Frames::at(&scene, 1.5).unwrap())[1].bars.clone();
+    assert_eq!(falling.len(), 1);
+    let said: Vec<&str> = plan.planned_plots()[1].texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(["ball", "ball.speed (km/h)", "100"].iter().all(|word| said.contains(word)), "{said:?}");
 }

@@ -1,4 +1,4 @@
-//! Plots: curves and bars of measures, on a panel in a corner of the picture.
+//! Plots: curves, bars and histograms of measures, on a panel in a corner of the picture.
 //!
 //! A plot is planned once for a run: its panel, axes, numbers, legend and curves lie in the image plane, where the picture has a width of 2.
 //! Of a curve, a frame shows the points up to its time, and a dot at its own values.
@@ -9,20 +9,22 @@ mod clip;
 mod colors;
 mod decades;
 mod panel;
+mod ranges;
 mod room;
 mod unseen;
 
 use std::sync::Arc;
 
-use self::axis::{Axis, Range, Scale};
+use self::axis::Axis;
 use self::clip::{clipped, simplified};
 use self::colors::mixed;
 use self::panel::{Legend, Panel};
+use self::ranges::{Values, scales};
 use self::room::{Room, column};
 use super::colors::ink;
 use super::occupancy::Rectangle;
 use super::text::{Text, Vertical};
-use crate::scene::{Color, Corner, MeasureFormula, Plot, PlotKind, PlotPlace, Scene};
+use crate::scene::{Color, Corner, Plot, PlotKind, PlotPlace, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
 pub use self::bars::PlotBar;
@@ -31,8 +33,6 @@ pub use self::unseen::UnseenPlot;
 
 /// The height of a line of text in a picture of a plot alone, where the picture has a width of 2.
 const LINE_ALONE: f64 = 0.04;
-/// The ends of a linear axis without values, and those of a logarithmic one.
-const UNKNOWN: [[f64; 2]; 2] = [[0.0, 1.0], [0.1, 1.0]];
 /// The radius of the dots at the present values, relative to the height of a line of text.
 const DOT: f64 = 0.17;
 
@@ -121,7 +121,6 @@ impl Plots {
     /// Plans the plots of a run. `measures` are those of its scene.
     pub(super) fn new(scene: &Scene, survey: &Survey, measures: Arc<Measures>) -> Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-        let mut points = survey.curves.iter();
         let mut plots = Plots {
             planned: Vec::new(),
             plots: scene.plots.clone(),
@@ -130,13 +129,11 @@ impl Plots {
             measures,
             aspect,
         };
-        for plot in &scene.plots {
-            let curves: Vec<&[CurvePoint]> =
-                points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect();
+        for (plot, values) in scene.plots.iter().zip(Values::of_plots(scene, survey)) {
             let room = Room::in_picture(scene, plot, &plots.planned);
             let dark = scene.environment.is_dark();
             let colors = colors::of_curves(scene, plot, dark);
-            let (planned, axes) = plan(scene, plot, (&curves, &colors), &room, dark);
+            let (planned, axes) = plan(scene, plot, (&values, &colors), &room, dark);
             plots.planned.push(planned);
             plots.axes.push(axes);
             plots.colors.push(colors);
@@ -162,12 +159,17 @@ impl Plots {
         let mut now = Vec::with_capacity(self.plots.len());
         let plots = self.plots.iter().zip(&self.planned).zip(&self.axes).zip(&self.colors);
         for (((plot, planned), (axes, area)), colors) in plots {
-            if plot.kind == PlotKind::Bars {
-                let values = plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment));
-                let bars = bars::beside_each_other(values.zip(colors.iter().copied()), axes, area);
-                now.push(PlotNow { bars, ..PlotNow::default() });
-                continue;
-            }
+            let values: Vec<f64> = match &plot.kind {
+                PlotKind::Curves => Vec::new(),
+                PlotKind::Bars => {
+                    plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment)).collect()
+                }
+                PlotKind::Histogram { bodies, .. } => plot
+                    .curves
+                    .first()
+                    .map_or(Vec::new(), |curve| self.measures.of_each(bodies, &curve.y, &moment)),
+            };
+            let bars = drawn_bars(&plot.kind, &values, colors, (axes, area));
             let x = self.measures.value(&plot.x, &moment);
             let curve = |(curve, drawn): (&crate::scene::Curve, &PlannedCurve)| {
                 let y = self.measures.value(&curve.y, &moment);
@@ -179,7 +181,7 @@ impl Plots {
                 }
             };
             let curves = plot.curves.iter().zip(&planned.curves).map(curve).collect();
-            now.push(PlotNow { curves, ..PlotNow::default() });
+            now.push(PlotNow { curves, bars });
         }
         now
     }
@@ -188,29 +190,43 @@ impl Plots {
 /// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, with curves over the whole run, and bars of its last
 /// moment. `number` is its index in the scene.
 pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> (PlannedPlot, Vec<PlotBar>) {
-    let before: usize = scene.plots[..number].iter().map(|plot| plot.curves.len()).sum();
     let plot = Plot { place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
-    let curves: Vec<&[CurvePoint]> =
-        survey.curves.iter().skip(before).take(plot.curves.len()).map(Vec::as_slice).collect();
+    let values = &Values::of_plots(scene, survey)[number];
     let colors = colors::of_curves(scene, &plot, false);
-    let (planned, (axes, area)) = plan(scene, &plot, (&curves, &colors), &Room::alone(LINE_ALONE), false);
-    let bars = match plot.kind {
-        PlotKind::Curves => Vec::new(),
-        PlotKind::Bars => {
-            let last = curves
-                .iter()
-                .map(|points| points.last().and_then(|last| last.at).map_or(f64::NAN, |at| at[1]));
-            bars::beside_each_other(last.zip(colors), &axes, &area)
+    let (planned, (axes, area)) = plan(scene, &plot, (values, &colors), &Room::alone(LINE_ALONE), false);
+    let last: Vec<f64> = match values.spread {
+        Some(spread) => spread.frames.last().cloned().unwrap_or_default(),
+        None => {
+            let last = values.curves.iter().map(|points| points.last().and_then(|last| last.at));
+            last.map(|at| at.map_or(f64::NAN, |at| at[1])).collect()
         }
     };
-    (planned, bars)
+    (planned, drawn_bars(&plot.kind, &last, &colors, (&axes, &area)))
 }
 
-/// Plans a plot, given the points and the colors of its curves. `dark` says whether the background of the picture is dark.
+/// Returns the bars of a plot at a moment, given its values then: one for each bar, or one for each body of a histogram.
+fn drawn_bars(
+    kind: &PlotKind,
+    values: &[f64],
+    colors: &[Color],
+    (axes, area): (&Axes, &Rectangle),
+) -> Vec<PlotBar> {
+    match (kind, colors) {
+        (PlotKind::Curves, _) | (PlotKind::Histogram { .. }, []) => Vec::new(),
+        (PlotKind::Bars, colors) => {
+            bars::beside_each_other(values.iter().copied().zip(colors.iter().copied()), axes, area)
+        }
+        (PlotKind::Histogram { bins, .. }, [color, ..]) => {
+            bars::of_counts(&bars::counts(values, &axes[0], *bins), *color, axes, area)
+        }
+    }
+}
+
+/// Plans a plot, given its values and the colors of its curves or bars. `dark` says whether the background of the picture is dark.
 fn plan(
     scene: &Scene,
     plot: &Plot,
-    (curves, colors): (&[&[CurvePoint]], &[Color]),
+    (values, colors): (&Values<'_>, &[Color]),
     room: &Room,
     dark: bool,
 ) -> (PlannedPlot, (Axes, Rectangle)) {
@@ -218,52 +234,24 @@ fn plan(
         (ink(dark), if dark { Color([0.10, 0.11, 0.13]) } else { Color([0.985, 0.985, 0.98]) });
     let names: Vec<(&str, Color)> =
         plot.curves.iter().zip(colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
-    let x_unit = plot.x.unit().unwrap_or_default();
+    let units = match plot.kind {
+        PlotKind::Curves => [plot.x.unit().unwrap_or_default(), unit(plot)],
+        PlotKind::Bars => ["", unit(plot)],
+        PlotKind::Histogram { .. } => [unit(plot), ""],
+    };
     let is_bars = plot.kind == PlotKind::Bars;
     let legend = Legend {
         title: plot.title.as_deref(),
         names: if is_bars { &[] } else { &names },
         below: if is_bars { &names } else { &[] },
         x_name: if is_bars { "" } else { &plot.x_name },
-        units: [if is_bars { "" } else { x_unit }, unit(plot)],
+        units,
         sign: scene.output.decimal,
     };
-    let is_count = |formula: &MeasureFormula| formula.is_count;
-    let unknown = |axis: usize| UNKNOWN[usize::from(plot.is_logarithmic[axis])];
-    let end = scene.simulation.timeline.end() / plot.x.unit_size();
-    let level = Range {
-        // The whole run, even if the curves begin later or end earlier.
-        span: match (plot.is_over_time(), plot.is_logarithmic[0]) {
-            (true, false) => [0.0, end],
-            // The first frame is at time 0, which has no place.
-            (true, true) => [span(curves, 0).map_or(end / 10.0, |[begin, _]| begin), end],
-            (false, _) => span(curves, 0).unwrap_or(unknown(0)),
-        },
-        is_wider: !plot.is_over_time(),
-        is_count: is_count(&plot.x),
-    };
-    let of_values = span(curves, 1).map(|[low, high]| match is_bars {
-        true => [low.min(0.0), high.max(0.0)],
-        false => [low, high],
-    });
-    let upright = Range {
-        span: plot.range.or(of_values).unwrap_or(unknown(1)),
-        is_wider: plot.range.is_none(),
-        is_count: plot.curves.iter().all(|curve| is_count(&curve.y)),
-    };
-    let scale = |is_logarithmic, range| match is_logarithmic {
-        true => Scale::Logarithmic(range),
-        false => Scale::Linear(range),
-    };
-    let [across, up] = plot.is_logarithmic;
-    let level = match is_bars {
-        true => Scale::Names(u8::try_from(names.len()).unwrap_or(u8::MAX)),
-        false => scale(across, level),
-    };
-    let (panel, axes) = Panel::new(plot, &legend, &[level, scale(up, upright)], room);
+    let (panel, axes) = Panel::new(plot, &legend, &scales(scene, plot, values), room);
     let area = panel.area;
     let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
-    let drawn = if is_bars { &[] } else { curves };
+    let drawn: &[_] = if plot.kind == PlotKind::Curves { &values.curves } else { &[] };
     let planned_curves = drawn.iter().zip(colors).map(|(points, color)| PlannedCurve {
         color: *color,
         pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
@@ -286,15 +274,6 @@ fn plan(
 /// The position in a panel of a point in its plot, which is given from 0 to 1.
 fn inside(area: &Rectangle, [across, up]: [f64; 2]) -> [f64; 2] {
     [area.left + across * (area.right - area.left), area.bottom + up * (area.top - area.bottom)]
-}
-
-/// The lowest and the highest value of a measure in all curves. `None` if there are none.
-fn span(curves: &[&[CurvePoint]], measure: usize) -> Option<[f64; 2]> {
-    let values = curves.iter().copied().flatten().filter_map(|point| Some(point.at?[measure]));
-    values.fold(None, |span: Option<[f64; 2]>, value| {
-        let [low, high] = span.unwrap_or([value; 2]);
-        Some([low.min(value), high.max(value)])
-    })
 }
 
 /// The unit of all curves. Empty if they differ, or are formulas.

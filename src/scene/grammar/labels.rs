@@ -1,6 +1,6 @@
 //! The grammar of the keys that draw measurements into the image: labels, plots, the scale bar and the grid.
 
-use super::Kind::{Boolean, Choice, Color, Either, List, Named, Number, Reference, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Named, Number, Reference, Table, Text};
 use super::key::table;
 use super::kind::{ANY, POSITIVE};
 use super::{Bound, Collection, KeySpec, Kind, Rule};
@@ -105,21 +105,31 @@ static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES
 const NUMBER: Kind = Number(Bound::Any);
 
 table! {
-    plot: "a plot", Rule::AtMostOne(&[&["y", "bars"], &["corner", "side"]]);
+    plot: "a plot", Rule::AtMostOne(&[&["y", "bars", "histogram"], &["corner", "side"]]);
     Y: Any = KeySpec::new(
         "y",
         Either(&TEXTS),
         "The measures to draw, each a curve: `\"ball.speed\"`, or a formula of measures, or a list of them",
     )
-    .default("none: `bars` stands in its place")
+    .default("none: `bars` or `histogram` stands in its place")
     .also(&["ys", "curves", "series", "values", "of"]),
     BARS: Any = KeySpec::new(
         "bars",
         Either(&TEXTS),
         "The measures to draw as bars, as high as their values at the moment of the picture",
     )
-    .default("none: `y` stands in its place")
+    .default("none: `y` or `histogram` stands in its place")
     .also(&["bar", "columns", "bar_chart"]),
+    HISTOGRAM: Option<value::Text> = KeySpec::new(
+        "histogram",
+        Text,
+        "The measure of copies whose distribution to draw: how many of them have values within equal ranges at the moment of the picture",
+    )
+    .default("none: `y` or `bars` stands in its place")
+    .also(&["hist", "distribution"]),
+    BINS: Option<i64> = KeySpec::new("bins", Integer(1, Plot::MAX_BINS as i64), "With `histogram`, the number of ranges")
+        .default("the square root of the number of copies, from 5 to 30")
+        .also(&["bin_count", "buckets", "classes"]),
     X: value::Text = KeySpec::new("x", Text, "The measure across: the time, or any other for a phase plot").default_word("t"),
     X_NAME: Option<value::Text> = KeySpec::new("x_name", Text, "The name of the measure across")
         .default("the formula")
