@@ -27,6 +27,8 @@ pub struct Plot {
     pub range: Option<[f64; 2]>,
     /// Whether the horizontal and the vertical axis are logarithmic.
     pub is_logarithmic: [bool; 2],
+    /// Whether the names of the curves stand at their ends, where they have room.
+    pub has_names_at_ends: bool,
     /// Whether the future part of each curve is drawn in a pale color.
     pub ahead: bool,
 }
@@ -95,6 +97,8 @@ impl Plot {
     pub const MAX_BINS: u8 = 200;
     /// The largest value that an axis can have.
     pub const MAX_VALUE: f64 = 1e290;
+    /// The word for names at the ends of curves, and that for names above the plot.
+    pub const PLACES_OF_NAMES: [&'static str; 2] = ["ends", "top"];
     /// The words for logarithmic axes, each with whether the horizontal and the vertical axis are.
     pub const LOGARITHMIC: [(&'static str, [bool; 2]); 3] =
         [("x", [true, false]), ("y", [false, true]), ("xy", [true, true])];

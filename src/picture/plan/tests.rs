@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::*;
+use crate::lettering;
 use crate::picture::{Form, PlotBar};
 use crate::scene::ArrowOwner;
 use crate::simulate::{Frames, survey};
@@ -303,4 +304,42 @@ fn a_histogram_counts_the_copies_in_each_bin() {
     assert_eq!(falling.len(), 1);
     let said: Vec<&str> = plan.planned_plots()[1].texts.iter().map(|text| text.says.as_ref()).collect();
     assert!(["ball", "ball.speed (km/h)", "100"].iter().all(|word| said.contains(word)), "{said:?}");
+}
+
+/// Names at the ends of curves stand at the heights of these ends, or as near to them as their letters allow.
+#[test]
+fn names_stand_at_the_ends_of_curves() {
+    let plan = |keys: &str| {
+        let text = format!(
+            "simulation = {{ duration = 2, frame_rate = 10 }}\n[body.ball]\nshape.sphere.radius = 0.1\n[plot.p]\nlegend = 'ends'\n{keys}"
+        );
+        let scene = Scene::parse(&text).unwrap();
+        Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap()).planned_plots()[0].clone()
+    };
+    let names = |plot: &PlannedPlot, names: &[&str]| -> Vec<[f64; 2]> {
+        let place = |name: &&str| {
+            let text = plot.texts.iter().find(|text| text.says == **name).unwrap();
+            let middle = text.y.above_middle(0.5625) - plot.bottom.above_middle(0.5625) + 0.27 * text.height;
+            [(text.x - plot.left), middle]
+        };
+        names.iter().map(place).collect()
+    };
+    let line = |plot: &PlannedPlot| plot.texts[0].height;
+    let plot = plan("y = ['t', '-t', '0.01*t', '0*t']\nnames = ['up', 'down', 'one', 'other']");
+    let ends: Vec<[f64; 2]> =
+        plot.curves.iter().map(|curve| curve.points.last().and_then(|point| point.at).unwrap()).collect();
+    let places = names(&plot, &["up", "down", "one", "other"]);
+    assert!(places.iter().zip(&ends).all(|(name, end)| name[0] > end[0] && name[0] < end[0] + line(&plot)));
+    assert!((places[1][1] - ends[1][1]).abs() < 0.5 * line(&plot));
+    // The two in the middle would cover each other: each moves half of the way.
+    assert!((places[2][1] - places[3][1] - line(&plot)).abs() < 1e-9, "{places:?}");
+    let middle = |both: [[f64; 2]; 2]| (both[0][1] + both[1][1]) / 2.0;
+    assert!((middle([places[2], places[3]]) - middle([ends[2], ends[3]])).abs() < 1e-9);
+    let (left, right) = (plot.size[0], places[0][0] + lettering::width("other") * line(&plot));
+    assert!(right <= left, "the longest name is inside of the panel");
+    // Without room, they stand above the plot.
+    let long = "a name that is far too long for the end of a curve in any plot";
+    let plot = plan(&format!("y = 't'\nnames = '{long}'\nwidth = 0.2"));
+    let above = plot.texts.iter().find(|text| text.says.starts_with("a name")).unwrap();
+    assert!(above.x - plot.left < 0.3 * plot.size[0], "{above:?}");
 }

@@ -8,6 +8,7 @@ mod bars;
 mod clip;
 mod colors;
 mod decades;
+mod ends;
 mod panel;
 mod ranges;
 mod room;
@@ -243,20 +244,38 @@ fn plan(
     let legend = Legend {
         title: plot.title.as_deref(),
         names: if is_bars { &[] } else { &names },
+        at_ends: plot.has_names_at_ends,
         below: if is_bars { &names } else { &[] },
         x_name: if is_bars { "" } else { &plot.x_name },
         units,
         sign: scene.output.decimal,
     };
-    let (panel, axes) = Panel::new(plot, &legend, &scales(scene, plot, values), room);
-    let area = panel.area;
-    let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
-    let drawn: &[_] = if plot.kind == PlotKind::Curves { &values.curves } else { &[] };
-    let planned_curves = drawn.iter().zip(colors).map(|(points, color)| PlannedCurve {
-        color: *color,
-        pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
-        points: simplified(clipped(points, place, |part| inside(&area, part))),
-    });
+    let scales = scales(scene, plot, values);
+    let drawn = |(panel, axes): &(Panel, Axes)| -> Vec<PlannedCurve> {
+        let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
+        let drawn: &[_] = if plot.kind == PlotKind::Curves { &values.curves } else { &[] };
+        let curve = |(points, color): (&&[CurvePoint], &Color)| PlannedCurve {
+            color: *color,
+            pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
+            points: simplified(clipped(points, place, |part| inside(&panel.area, part))),
+        };
+        drawn.iter().zip(colors).map(curve).collect()
+    };
+    let mut laid_out = Panel::new(plot, &legend, &scales, room);
+    let mut curves = drawn(&laid_out);
+    let names_at_ends = match legend.at_ends {
+        true => laid_out.0.names_at_ends(&names, &ends::heights(&curves)),
+        false => Some(Vec::new()),
+    };
+    // Names without room at the ends of the curves stand above the plot.
+    let legend = Legend { at_ends: legend.at_ends && names_at_ends.is_some(), ..legend };
+    if names_at_ends.is_none() {
+        laid_out = Panel::new(plot, &legend, &scales, room);
+        curves = drawn(&laid_out);
+    }
+    let (panel, axes) = laid_out;
+    let mut texts = panel.texts(&axes, &legend, mixed(ink, paper, 0.1));
+    texts.extend(names_at_ends.into_iter().flatten());
     let planned = PlannedPlot {
         name: plot.name.clone(),
         left: panel.left,
@@ -264,10 +283,11 @@ fn plan(
         size: panel.size,
         paper,
         lines: panel.lines(&axes, [0.92, 0.82, 0.25].map(|part| mixed(ink, paper, part))),
-        texts: panel.texts(&axes, &legend, mixed(ink, paper, 0.1)),
-        curves: planned_curves.collect(),
+        texts,
+        curves,
         dot: DOT * room.line,
     };
+    let area = panel.area;
     (planned, (axes, area))
 }
 

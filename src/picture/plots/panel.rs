@@ -4,6 +4,7 @@ use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{Text, Vertical, width};
 use super::axis::{Axis, Scale, Tick};
+use super::ends::apart;
 use super::room::Room;
 use super::{Axes, PlotLine};
 use crate::lettering::closed;
@@ -40,6 +41,8 @@ const NAME_ROW: f64 = 1.1;
 /// The distance between two numbers of the horizontal axis, and between two of the vertical one, in lines of text. Numbers of the horizontal axis may be
 /// farther apart, if they are wide.
 const BETWEEN_NUMBERS: [f64; 2] = [2.8, 2.0];
+/// Half of the height of a name at the end of a curve, in lines of text.
+const HALF_OF_NAME: f64 = 0.4;
 /// The smallest distance between two names below bars, in lines of text.
 const BETWEEN_NAMES: f64 = 0.5;
 /// The largest number of intervals between the numbers of the level and of the vertical axis.
@@ -50,6 +53,8 @@ pub(super) struct Legend<'a> {
     pub(super) title: Option<&'a str>,
     /// The names of the curves, in their colors.
     pub(super) names: &'a [(&'a str, Color)],
+    /// Whether the names of the curves stand at their right ends, and not above the plot.
+    pub(super) at_ends: bool,
     /// The names below the bars, in their colors. They stand in place of the numbers and the name of the horizontal axis.
     pub(super) below: &'a [(&'a str, Color)],
     pub(super) x_name: &'a str,
@@ -112,6 +117,8 @@ impl Panel {
         let in_turn = legend.below.len() > 1 && widest_name + BETWEEN_NAMES * line > room_of_name;
         let room_of_name = room_of_name * if in_turn { 2.0 } else { 1.0 } - BETWEEN_NAMES * line;
         let name_row = if in_turn { NAME_ROW * line } else { name_row };
+        let widest_at_end = legend.names.iter().map(|(name, _)| width(name, line)).fold(0.0, f64::max);
+        let beside = if legend.at_ends { widest_at_end + BESIDE_AXIS * line - pad } else { 0.0 };
         let foot = pad + NUMBERS_ROW * line + name_row;
         // The numbers of the vertical axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
@@ -121,7 +128,10 @@ impl Panel {
         for _ in 0..2 {
             let unit = width(&upright.unit(legend.units[1]), line);
             let begin = (pad + numbers + beside_axis).max(pad + unit + 0.9 * line);
-            (names, rows) = placed(legend, (begin, pad, wide - pad), line);
+            (names, rows) = match legend.at_ends {
+                true => (Vec::new(), 1.0),
+                false => placed(legend, (begin, pad, wide - pad), line),
+            };
             let head = pad + title_row + (ROW * rows + 0.5) * line;
             least = head + foot + MIN_AXIS * line;
             let usual = match plot.place {
@@ -134,7 +144,7 @@ impl Panel {
             numbers = upright.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
         }
         let left = pad + numbers + beside_axis;
-        let across = wide - left - 2.0 * pad;
+        let across = wide - left - 2.0 * pad - beside;
         let level = |interval: f64| scales[0].axis((across / interval).clamp(1.0, MAX_INTERVALS[0]));
         let narrow = BETWEEN_NUMBERS[0] * line;
         let ticks = level(narrow).ticks();
@@ -143,7 +153,7 @@ impl Panel {
         let legend_begin = pad + title_row + 0.8 * line;
         let area = Rectangle {
             left,
-            right: wide - 2.0 * pad,
+            right: wide - 2.0 * pad - beside,
             bottom: foot,
             top: high - legend_begin - (ROW * (rows - 1.0) + 0.85) * line,
         };
@@ -190,6 +200,32 @@ impl Panel {
         lines
     }
 
+    /// The names of curves beside their right ends, given the heights of these ends. `None` if they have no room.
+    pub(super) fn names_at_ends(
+        &self,
+        names: &[(&str, Color)],
+        heights: &[Option<f64>],
+    ) -> Option<Vec<Text<'static>>> {
+        if self.area.right - self.area.left < MIN_LEVEL_AXIS * self.size[0] {
+            return None;
+        }
+        let known: Vec<f64> = heights.iter().copied().flatten().collect();
+        let half = HALF_OF_NAME * self.line;
+        let at = apart(&known, self.line, [self.area.bottom + half, self.area.top - half])?;
+        let known = names.iter().zip(heights).filter(|(_, height)| height.is_some());
+        let text = |((name, color), y): (&(&str, Color), f64)| Text {
+            name: "plot",
+            says: (*name).to_owned().into(),
+            x: self.left + self.area.right + BESIDE_AXIS * self.line,
+            y: self.bottom.raised(y - 0.27 * self.line),
+            height: self.line,
+            align: 0.0,
+            color: *color,
+            anchor: None,
+        };
+        Some(known.map(|(name, _)| name).zip(at).map(text).collect())
+    }
+
     /// The title, the legend, and the numbers and units of the axes.
     pub(super) fn texts(&self, axes: &Axes, legend: &Legend<'_>, ink: Color) -> Vec<Text<'static>> {
         let Rectangle { left, right, bottom, top } = self.area;
@@ -216,7 +252,8 @@ impl Panel {
         if !unit.is_empty() {
             texts.push(text(unit, [pad, row], 0.0, ink));
         }
-        for ((name, color), (x, number)) in legend.names.iter().zip(&self.names) {
+        let above = legend.names.iter().zip(&self.names).filter(|_| !legend.at_ends);
+        for ((name, color), (x, number)) in above {
             let name = cut(name, self.size[0] - pad - x, line);
             texts.push(text(name, [*x, row - ROW * number * line], 0.0, *color));
         }
@@ -307,6 +344,7 @@ mod tests {
         let legend = Legend {
             title: None,
             names: &names,
+            at_ends: false,
             below: &[],
             x_name: "t",
             units: ["s", "J"],

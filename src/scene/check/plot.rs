@@ -134,6 +134,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             width,
             range,
             is_logarithmic,
+            has_names_at_ends: view.get(&plot::LEGEND) == Plot::PLACES_OF_NAMES[0],
             ahead: view.get(&plot::AHEAD),
         };
         (!plot.curves.is_empty()).then_some((plot, spans))
@@ -168,10 +169,19 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             self.context.diagnostics.push(error.help("`y = \"ball.speed\"` draws a curve"));
         }
         let (drawn, meaningless): (_, &[&KeySpec]) = match (has_histogram, has_bars) {
-            (true, _) => ("a histogram", &[&plot::X.spec, &plot::LOG.spec, &plot::AHEAD.spec]),
+            (true, _) => {
+                ("a histogram", &[&plot::X.spec, &plot::LOG.spec, &plot::AHEAD.spec, &plot::LEGEND.spec])
+            }
             (_, true) => (
                 "bars",
-                &[&plot::X.spec, &plot::X_NAME.spec, &plot::LOG.spec, &plot::AHEAD.spec, &plot::BINS.spec],
+                &[
+                    &plot::X.spec,
+                    &plot::X_NAME.spec,
+                    &plot::LOG.spec,
+                    &plot::AHEAD.spec,
+                    &plot::LEGEND.spec,
+                    &plot::BINS.spec,
+                ],
             ),
             _ => ("curves", &[&plot::BINS.spec]),
         };

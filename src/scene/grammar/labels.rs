@@ -100,6 +100,10 @@ fn logarithmic_axes() -> Vec<&'static str> {
     Plot::LOGARITHMIC.iter().map(|(axes, _)| *axes).collect()
 }
 
+fn places_of_names() -> Vec<&'static str> {
+    Plot::PLACES_OF_NAMES.to_vec()
+}
+
 static LOG_KINDS: [Kind; 2] = [Boolean, Choice(logarithmic_axes)];
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
 const NUMBER: Kind = Number(Bound::Any);
@@ -136,7 +140,14 @@ table! {
         .also(&["xlabel", "x_label"]),
     NAMES: Any = KeySpec::new("names", Either(&TEXTS), "The names of the curves, one for each")
         .default("the formulas")
-        .also(&["name", "labels", "legend"]),
+        .also(&["name", "labels"]),
+    LEGEND: value::Text = KeySpec::new(
+        "legend",
+        Choice(places_of_names),
+        "Where the names of curves stand: above the plot, or at their right ends if there is room for all of them",
+    )
+        .default_word("top")
+        .also(&["key", "legend_position"]),
     TITLE: Option<value::Text> = KeySpec::new("title", Text, "Its title")
         .default("none")
         .also(&["caption", "text"]),
