@@ -234,10 +234,10 @@ mod tests {
         let scene =
             Scene::parse(&format!("[body.b]\nshape.sphere.radius = 1\n[plot.a]\n{plot}[plot.b]\n{plot}"))
                 .unwrap();
-        let lack = drawing_of("c", PlotFile::Pdf).lack(&scene);
-        assert_eq!(lack.as_deref(), Some("the scene has no plot `c`: it has `a`, `b`"));
+        let lack = drawing_of("speed", PlotFile::Pdf).lack(&scene);
+        assert_eq!(lack.as_deref(), Some("the scene has no plot `speed`: it has `a`, `b`"));
         let run = Recorded::new(&scene).unwrap();
-        let written = drawing_of("c", PlotFile::Pdf).write(&run, &Selection::first(1), &mut Vec::new());
+        let written = drawing_of("speed", PlotFile::Pdf).write(&run, &Selection::first(1), &mut Vec::new());
         assert!(matches!(written, Err(ExportError::Io(error)) if error.kind() == io::ErrorKind::NotFound));
     }
 
