@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use ttf_parser::Face;
+use ttf_parser::{Face, OutlineBuilder};
 
 /// The name of the font's file.
 pub const FILE_NAME: &str = "DejaVuSans.ttf";
@@ -49,6 +49,70 @@ pub fn ink(text: &str) -> Option<[f64; 2]> {
     ink
 }
 
+/// A step of the outline of letters. Each closed line begins with a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// To the start of a closed line.
+    Move([f64; 2]),
+    /// Along a straight line.
+    Line([f64; 2]),
+    /// Along a quadratic Bézier curve.
+    Curve {
+        /// The control point of the curve.
+        control: [f64; 2],
+        /// The end of the curve.
+        to: [f64; 2],
+    },
+}
+
+/// Returns the outline of a text, relative to the size of the font, with x to the right and y upwards from where its first letter begins.
+pub fn outline(text: &str) -> Vec<Step> {
+    let Some(face) = FACE.as_ref() else { return Vec::new() };
+    let mut outline = Outline { steps: Vec::new(), left: 0.0, em: f64::from(face.units_per_em()) };
+    for letter in text.chars() {
+        let glyph = face.glyph_index(letter).unwrap_or_default();
+        face.outline_glyph(glyph, &mut outline);
+        outline.left += f64::from(face.glyph_hor_advance(glyph).unwrap_or_default());
+    }
+    outline.steps
+}
+
+/// An outline that is being read from the font.
+struct Outline {
+    steps: Vec<Step>,
+    /// Where the letter begins, in units of the font.
+    left: f64,
+    /// The size of the font, in its units.
+    em: f64,
+}
+
+impl Outline {
+    fn at(&self, x: f32, y: f32) -> [f64; 2] {
+        [(self.left + f64::from(x)) / self.em, f64::from(y) / self.em]
+    }
+}
+
+impl OutlineBuilder for Outline {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.steps.push(Step::Move(self.at(x, y)));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.steps.push(Step::Line(self.at(x, y)));
+    }
+
+    fn quad_to(&mut self, control_x: f32, control_y: f32, x: f32, y: f32) {
+        self.steps.push(Step::Curve { control: self.at(control_x, control_y), to: self.at(x, y) });
+    }
+
+    // The font has quadratic curves only.
+    fn curve_to(&mut self, _: f32, _: f32, _: f32, _: f32, x: f32, y: f32) {
+        self.line_to(x, y);
+    }
+
+    fn close(&mut self) {}
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,5 +124,21 @@ mod tests {
         for missing in ['漢', 'א', 'ب', '🙂', '\n'] {
             assert!(!has(missing), "{missing}");
         }
+    }
+
+    /// The outline of a letter is as wide as its ink.
+    #[test]
+    fn outlines_are_where_the_ink_is() {
+        for text in ["x", "Δφ = 30°", "10⁻³ m"] {
+            let points = outline(text).into_iter().map(|step| match step {
+                Step::Move(to) | Step::Line(to) | Step::Curve { to, .. } => to,
+            });
+            let (left, right) = points.fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), [x, _]| {
+                (left.min(x), right.max(x))
+            });
+            let [begin, end] = ink(text).unwrap();
+            assert!((left - begin).abs() < 0.01 && (right - end).abs() < 0.01, "{text}: {left} {right}");
+        }
+        assert_eq!(outline(" "), []);
     }
 }

@@ -70,6 +70,7 @@ pub mod catalog;
 mod decimal;
 pub mod diagnostic;
 
+mod drawing;
 pub mod emit;
 pub mod explain;
 pub mod export;

@@ -84,7 +84,8 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
     let warning = |message: String| Diagnostic::warning(Code::NotDrawn, message);
     let plot = |plot: usize| format!("the plot `{}`", scene.plots[plot].name);
     let curve = |of: usize, curve: usize| {
-        format!("the curve `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
+        let noun = scene.plots[of].kind.noun();
+        format!("the {noun} `{}` of {}", scene.plots[of].curves[curve].name, plot(of))
     };
     let curve_at = |of: usize, curve: usize| scene.places.plots[of].curves[curve];
     match *unseen {
@@ -115,6 +116,17 @@ pub(crate) fn of_plot(scene: &Scene, unseen: &UnseenPlot) -> Diagnostic {
             let warning = range.into_iter().fold(warning, |it, at| it.at(at, "this contains none of them"));
             let [low, high] = fit.map(rounded);
             warning.help(format!("write `range = [{low}, {high}]`, or leave `range` out"))
+        }
+        UnseenPlot::NotPositive { plot: of, curve: number, left_out } => {
+            let values = match (left_out.frames, left_out.of) {
+                (frames, all) if frames == all => "is not drawn: none of its values is positive".to_owned(),
+                (1, all) => format!("has a gap: 1 of its {all} values is not positive"),
+                (frames, all) => format!("has gaps: {frames} of its {all} values are not positive"),
+            };
+            let message = format!("{} {values}", curve(of, number));
+            warning(message)
+                .at(curve_at(of, number), "a logarithmic axis has a place for positive values only")
+                .help("draw a positive formula, such as `abs(…)`, or leave `log` out")
         }
         UnseenPlot::NeverThere { plot: of, curve: number, body } => {
             let name = &scene.bodies[body].name;

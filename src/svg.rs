@@ -49,6 +49,18 @@ impl Svg {
         );
     }
 
+    /// Adds a filled rectangle, given two opposite corners.
+    pub(crate) fn rectangle(&mut self, [one, other]: [[f64; 2]; 2], color: Rgb) {
+        let [x, y] = [0, 1].map(|axis| one[axis].min(other[axis]));
+        let [width, height] = [0, 1].map(|axis| (one[axis] - other[axis]).abs());
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            self.text,
+            "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{}\"/>",
+            hex(color)
+        );
+    }
+
     /// Adds a text in one line. `at` is the position of its anchor, at half the height of the letters. `size` is the size of the font.
     pub(crate) fn text(&mut self, [x, y]: [f64; 2], text: &str, anchor: Anchor, size: f64, color: Rgb) {
         let anchor = match anchor {

@@ -5,7 +5,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use jabuka::diagnostic::{Code, Diagnostic, Report, visible_path};
-use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawing};
+use jabuka::export::{Contents, ExportError, FORMATS, FileKind, Format, PlotDrawing, PlotFile};
 use jabuka::motion_warnings;
 use jabuka::output::OutputError;
 use jabuka::overwrite::ProtectedFiles;
@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     /// The scene file
     #[arg(required_unless_present = "events")]
     scene: Option<PathBuf>,
-    /// The file to write: FILE.csv or FILE.glb
+    /// The file to write: FILE.csv or FILE.glb; with `--plot` FILE.svg, FILE.png or FILE.pdf
     #[arg(short, long, value_name = "FILE", required_unless_present = "events")]
     output: Option<PathBuf>,
     /// Write the forces and torques of the joints as a table, instead of the positions of the bodies
@@ -41,9 +41,13 @@ pub(super) struct Arguments {
     /// FILE.csv`
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["joints", "frames"])]
     events: Option<Option<PathBuf>>,
-    /// Write the plot `[plot.NAME]` of the scene as a drawing (SVG), with its curves over the whole run
+    /// Write the plot `[plot.NAME]` of the scene as a drawing (SVG or PDF) or an image (PNG), with its curves over the whole run, or with the bars
+    /// of its last moment
     #[arg(long, value_name = "NAME", conflicts_with_all = ["joints", "particles", "events", "frames"])]
     plot: Option<String>,
+    /// The width of the image of a plot, in pixels
+    #[arg(long, value_name = "PIXELS", requires = "plot", default_value_t = PlotFile::USUAL_WIDTH, value_parser = clap::value_parser!(u32).range(100..=i64::from(PlotFile::MAX_WIDTH)))]
+    width: u32,
     /// Select frames by number, as in 0,50,90-100
     #[arg(long, value_name = "LIST")]
     frames: Option<Selection>,
@@ -90,17 +94,17 @@ impl Arguments {
         let has_extension =
             |format: &dyn Format| extension.eq_ignore_ascii_case(format.file_kind().extension);
         let formats = formats.iter().copied();
-        if let Some(format) = formats.clone().find(|format| format.option().is_some_and(is_given)) {
-            let FileKind { noun, extension } = format.file_kind();
-            let option = format.option().unwrap_or_default();
-            let other = || Failure::Usage(format!("`--{option}` makes {noun}, `.{extension}`"));
-            return if has_extension(format) { Ok(format) } else { Err(other()) };
+        let given: Vec<&dyn Format> =
+            formats.clone().filter(|format| format.option().is_some_and(is_given)).collect();
+        if let Some(option) = given.first().and_then(|format| format.option()) {
+            let kinds: Vec<String> = given.iter().map(|format| in_words(format.file_kind())).collect();
+            let other = || Failure::Usage(format!("`--{option}` makes {}", kinds.join(", or ")));
+            return given.into_iter().find(|format| has_extension(*format)).ok_or_else(other);
         }
         let formats = formats.filter(|format| format.option().is_none());
         formats.clone().find(|format| has_extension(*format)).ok_or_else(|| {
             let kinds = formats.map(Format::file_kind);
-            let kinds: Vec<_> =
-                kinds.map(|FileKind { noun, extension }| format!("{noun}, `.{extension}`")).collect();
+            let kinds: Vec<_> = kinds.map(in_words).collect();
             Failure::Usage(format!(
                 "what is exported is {}, and `{}` ends in neither",
                 kinds.join(", or "),
@@ -110,14 +114,23 @@ impl Arguments {
     }
 }
 
+fn in_words(FileKind { noun, extension }: &FileKind) -> String {
+    format!("{noun}, `.{extension}`")
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let files = arguments.files()?;
     let output = files.output;
-    let drawing = arguments.plot.clone().map(PlotDrawing);
-    let drawing = drawing.iter().map(|drawing| drawing as &dyn Format);
-    let formats: Vec<&dyn Format> = FORMATS.into_iter().chain(drawing).collect();
+    let files_of_plot = [PlotFile::Svg, PlotFile::Png { width: arguments.width }, PlotFile::Pdf];
+    let drawing = |name: &String| files_of_plot.map(|file| PlotDrawing { name: name.clone(), file });
+    let drawings = arguments.plot.as_ref().map(drawing);
+    let of_plot = drawings.iter().flatten().map(|drawing| drawing as &dyn Format);
+    let formats: Vec<&dyn Format> = FORMATS.into_iter().chain(of_plot).collect();
     let format = arguments.format(&formats, output)?;
     let scene = arguments.of_scene.read_with(files.scene, &[])?;
+    if let Some(unknown) = drawings.iter().flatten().find_map(|drawing| drawing.unknown(&scene)) {
+        return Err(Failure::Usage(unknown));
+    }
     terminal::report_protected(ProtectedFiles::of_scene(&scene).check(output))?;
     if let Some(lack) = format.lack(&scene) {
         return Err(Failure::Scene(lack));

@@ -63,6 +63,10 @@ pub static MODEL: FileKind = FileKind { noun: "a model", extension: "glb" };
 
 /// Drawings of lines and letters in SVG.
 pub static DRAWING: FileKind = FileKind { noun: "a drawing", extension: "svg" };
+/// Drawings as images in PNG.
+pub static IMAGE: FileKind = FileKind { noun: "an image", extension: "png" };
+/// Drawings of lines and letters in PDF.
+pub static PAGE: FileKind = FileKind { noun: "a page", extension: "pdf" };
 
 /// What a written file contains.
 #[derive(Clone, Debug, PartialEq)]

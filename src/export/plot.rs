@@ -1,14 +1,16 @@
-//! Writes a plot of a scene as a drawing (SVG), with the curves of the whole run.
+//! Writes a plot of a scene as a drawing (SVG, PNG or PDF), with the curves of the whole run, or the bars of its last moment.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
 use super::ExportError;
-use super::format::{Contents, DRAWING, FileKind, Format};
-use crate::picture::{PlannedPlot, plot_alone};
-use crate::scene::{Color, Scene};
+use super::format::{Contents, DRAWING, FileKind, Format, IMAGE, PAGE};
+use crate::diagnostic::nearest;
+use crate::drawing::{Drawing, Item};
+use crate::picture::{PlannedPlot, PlotBar, PlotLine, plot_alone};
+use crate::scene::{Color, PlotKind, Scene};
 use crate::simulate::{Recorded, Selection};
-use crate::svg::{Anchor, HALF_OF_LETTERS, Svg};
+use crate::svg::{Anchor, HALF_OF_LETTERS};
 
 /// The width of the drawing, pixels.
 const WIDTH: f64 = 800.0;
@@ -19,30 +21,64 @@ const CURVE_WIDTH: f64 = 2.0;
 /// The fonts of the texts. Their letters are as wide as those in pictures.
 const FONTS: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// The drawing of the plot of a scene that has this name.
+/// The drawing of a plot of a scene.
 #[derive(Clone, Debug)]
-pub struct PlotDrawing(pub String);
+pub struct PlotDrawing {
+    /// The name of the plot.
+    pub name: String,
+    /// The kind of the file.
+    pub file: PlotFile,
+}
+
+/// A kind of file that a plot can be written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotFile {
+    /// Lines and letters in SVG.
+    Svg,
+    /// An image in PNG.
+    Png {
+        /// The width of the image, pixels.
+        width: u32,
+    },
+    /// Lines and letters on a page in PDF.
+    Pdf,
+}
+
+impl PlotFile {
+    /// The usual width of an image, pixels.
+    pub const USUAL_WIDTH: u32 = 1600;
+    /// The largest width of an image, pixels.
+    pub const MAX_WIDTH: u32 = 10_000;
+}
 
 impl PlotDrawing {
     /// Returns the index of the plot in a scene.
     fn number(&self, scene: &Scene) -> Option<usize> {
-        scene.plots.iter().position(|plot| plot.name == self.0)
+        scene.plots.iter().position(|plot| plot.name == self.name)
     }
 
-    /// Says that a scene does not have the plot, and which ones it has.
-    fn unknown(&self, scene: &Scene) -> String {
-        let names: Vec<&str> = scene.plots.iter().map(|plot| plot.name.as_str()).collect();
-        let known = match names.is_empty() {
-            true => "it has none".to_owned(),
-            false => format!("it has `{}`", names.join("`, `")),
+    /// Says that a scene does not have the plot, and which ones it has. `None` if it has the plot.
+    pub fn unknown(&self, scene: &Scene) -> Option<String> {
+        let names = || scene.plots.iter().map(|plot| plot.name.as_str());
+        if self.number(scene).is_some() {
+            return None;
+        }
+        let known = match nearest(&self.name, names()) {
+            _ if scene.plots.is_empty() => "it has none".to_owned(),
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("it has `{}`", names().collect::<Vec<_>>().join("`, `")),
         };
-        format!("the scene has no plot `{}`: {known}", self.0)
+        Some(format!("the scene has no plot `{}`: {known}", self.name))
     }
 }
 
 impl Format for PlotDrawing {
     fn file_kind(&self) -> &'static FileKind {
-        &DRAWING
+        match self.file {
+            PlotFile::Svg => &DRAWING,
+            PlotFile::Png { .. } => &IMAGE,
+            PlotFile::Pdf => &PAGE,
+        }
     }
 
     fn option(&self) -> Option<&'static str> {
@@ -50,7 +86,7 @@ impl Format for PlotDrawing {
     }
 
     fn lack(&self, scene: &Scene) -> Option<Cow<'static, str>> {
-        self.number(scene).is_none().then(|| self.unknown(scene).into())
+        self.unknown(scene).map(Cow::from)
     }
 
     fn write(
@@ -60,46 +96,76 @@ impl Format for PlotDrawing {
         out: &mut dyn Write,
     ) -> Result<Contents, ExportError> {
         let scene = run.scene();
-        let unknown = || io::Error::new(io::ErrorKind::NotFound, self.unknown(scene));
-        let plot = plot_alone(scene, run.survey(), self.number(scene).ok_or_else(unknown)?);
-        let curves = plot.curves.len();
-        out.write_all(svg(&plot).as_bytes())?;
-        let noun = if curves == 1 { "curve" } else { "curves" };
-        Ok(Contents { words: format!("{curves} {noun}"), bytes: None, faster: 1.0 })
+        let unknown = || io::Error::new(io::ErrorKind::NotFound, self.unknown(scene).unwrap_or_default());
+        let number = self.number(scene).ok_or_else(unknown)?;
+        let (plot, bars) = plot_alone(scene, run.survey(), number);
+        let drawing = drawing(&plot, &bars);
+        let bytes = match self.file {
+            PlotFile::Svg => drawing.svg(FONTS).into_bytes(),
+            PlotFile::Png { width } => drawing.png(width).map_err(io::Error::from)?,
+            PlotFile::Pdf => drawing.pdf(),
+        };
+        out.write_all(&bytes)?;
+        let plot = &scene.plots[number];
+        let (count, noun) = match plot.kind {
+            PlotKind::Histogram { bins, .. } => (usize::from(bins), "bin"),
+            PlotKind::Curves | PlotKind::Bars => (plot.curves.len(), plot.kind.noun()),
+        };
+        let words = match count {
+            1 => format!("1 {noun}"),
+            count => format!("{count} {noun}s"),
+        };
+        Ok(Contents { words, bytes: None, faster: 1.0 })
     }
 }
 
-/// Returns a plot as the text of an SVG file.
-fn svg(plot: &PlannedPlot) -> String {
+/// Returns a plot as a drawing.
+fn drawing(plot: &PlannedPlot, bars: &[PlotBar]) -> Drawing {
     let scale = WIDTH / plot.size[0];
     let high = plot.size[1] * scale;
     let at = |[x, y]: [f64; 2]| [x * scale, high - y * scale];
-    let mut svg = Svg::new([WIDTH, high], Color::WHITE.bytes(), FONTS);
-    for line in &plot.lines {
-        svg.line([line.from, line.to].map(at), LINE_WIDTH, line.color.bytes());
-    }
+    let rule = |line: &PlotLine| {
+        let points = vec![at(line.from), at(line.to)];
+        Item::Line { points, width: LINE_WIDTH, color: line.color.bytes() }
+    };
+    let (axes, grid): (Vec<&PlotLine>, Vec<&PlotLine>) = plot.lines.iter().partition(|line| line.is_axis);
+    let mut items: Vec<Item> = grid.into_iter().map(rule).collect();
+    items.extend(
+        bars.iter()
+            .map(|bar| Item::Rectangle { corners: [at(bar.from), at(bar.to)], color: bar.color.bytes() }),
+    );
+    items.extend(axes.into_iter().map(rule));
     for curve in &plot.curves {
         for part in curve.points.split(|point| point.at.is_none()).filter(|part| part.len() > 1) {
-            svg.line(part.iter().filter_map(|point| point.at.map(at)), CURVE_WIDTH, curve.color.bytes());
+            let points = part.iter().filter_map(|point| point.at.map(at)).collect();
+            items.push(Item::Line { points, width: CURVE_WIDTH, color: curve.color.bytes() });
         }
     }
     let bottom = plot.bottom.above_middle(1.0);
-    for text in &plot.texts {
+    items.extend(plot.texts.iter().map(|text| {
         let middle = text.y.above_middle(1.0) + HALF_OF_LETTERS * text.height;
-        let anchor = match text.align {
-            0.0 => Anchor::Start,
-            1.0 => Anchor::End,
-            _ => Anchor::Middle,
-        };
-        let place = at([text.x - plot.left, middle - bottom]);
-        svg.text(place, &text.says, anchor, text.height * scale, text.color.bytes());
-    }
-    svg.finish()
+        Item::Text {
+            at: at([text.x - plot.left, middle - bottom]),
+            says: text.says.to_string(),
+            anchor: match text.align {
+                0.0 => Anchor::Start,
+                1.0 => Anchor::End,
+                _ => Anchor::Middle,
+            },
+            size: text.height * scale,
+            color: text.color.bytes(),
+        }
+    }));
+    Drawing { size: [WIDTH, high], background: Color::WHITE.bytes(), items }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn drawing_of(name: &str, file: PlotFile) -> PlotDrawing {
+        PlotDrawing { name: name.to_owned(), file }
+    }
 
     /// Returns the value of an attribute of an element.
     fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
@@ -142,7 +208,7 @@ mod tests {
         let scene = Scene::parse(text).unwrap();
         let run = Recorded::new(&scene).unwrap();
         let mut bytes = Vec::new();
-        let fall = PlotDrawing("fall".to_owned());
+        let fall = drawing_of("fall", PlotFile::Svg);
         assert_eq!(fall.lack(&scene), None);
         let contents = fall.write(&run, &Selection::first(1), &mut bytes).unwrap();
         assert_eq!(contents.words, "1 curve");
@@ -168,10 +234,42 @@ mod tests {
         let scene =
             Scene::parse(&format!("[body.b]\nshape.sphere.radius = 1\n[plot.a]\n{plot}[plot.b]\n{plot}"))
                 .unwrap();
-        let lack = PlotDrawing("c".to_owned()).lack(&scene);
-        assert_eq!(lack.as_deref(), Some("the scene has no plot `c`: it has `a`, `b`"));
+        let lack = drawing_of("speed", PlotFile::Pdf).lack(&scene);
+        assert_eq!(lack.as_deref(), Some("the scene has no plot `speed`: it has `a`, `b`"));
         let run = Recorded::new(&scene).unwrap();
-        let written = PlotDrawing("c".to_owned()).write(&run, &Selection::first(1), &mut Vec::new());
+        let written = drawing_of("speed", PlotFile::Pdf).write(&run, &Selection::first(1), &mut Vec::new());
         assert!(matches!(written, Err(ExportError::Io(error)) if error.kind() == io::ErrorKind::NotFound));
+    }
+
+    /// The image and the page have what the drawing has: in the image, a pixel of the middle of each bar has its color, and the bar of −2
+    /// goes down from the same line as that of 4 goes up.
+    #[test]
+    fn bars_are_pixels_of_the_image() {
+        let text = "simulation.duration = 1\n[body.ball]\nshape.sphere.radius = 0.5
+            [plot.p]\nbars = ['4*t', '-2*t', '0*t']\nnames = ['up', 'down', 'none']\nrange = [-4, 4]";
+        let scene = Scene::parse(text).unwrap();
+        let run = Recorded::new(&scene).unwrap();
+        let mut bytes = Vec::new();
+        let contents =
+            drawing_of("p", PlotFile::Png { width: 400 }).write(&run, &Selection::first(1), &mut bytes);
+        assert_eq!(contents.unwrap().words, "3 bars");
+        let mut image = png::Decoder::new(io::Cursor::new(bytes)).read_info().unwrap();
+        let mut rgb = vec![0; image.output_buffer_size().unwrap()];
+        let size = image.next_frame(&mut rgb).unwrap();
+        let (plot, bars) = plot_alone(&scene, run.survey(), 0);
+        assert!(size.width == 400 && bars.len() == 2 && bars[0].from[1] == bars[1].to[1]);
+        let scale = 400.0 / plot.size[0];
+        for bar in bars {
+            let [x, y] = [0, 1].map(|axis| (bar.from[axis] + bar.to[axis]) / 2.0 * scale);
+            let place = 3 * (400 * (f64::from(size.height) - y) as usize + x as usize);
+            assert_eq!(rgb[place..place + 3], bar.color.bytes());
+        }
+        let mut page = Vec::new();
+        drawing_of("p", PlotFile::Pdf).write(&run, &Selection::first(1), &mut page).unwrap();
+        let page = String::from_utf8(page).unwrap();
+        assert!(
+            page.starts_with("%PDF-1.4\n")
+                && page.matches(" re\n").count() + page.matches(" re f\n").count() == 3
+        );
     }
 }

@@ -59,7 +59,7 @@ pub use pace::Pace;
 pub(crate) use plan::has_texts;
 pub use plan::{Largest, Plan, Written};
 pub(crate) use plots::plot_alone;
-pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotLine, Strip, UnseenPlot};
+pub use plots::{CurveNow, PlannedCurve, PlannedPlot, PlotBar, PlotLine, PlotNow, Strip, UnseenPlot};
 pub use scope::Part;
 pub use screen::{Screen, ScreenPoint};
 pub use stage::{Scenery, Stage, StageGround};

@@ -27,8 +27,8 @@ pub(super) struct Shown<'a> {
     things: Vec<Thing<'a>>,
     texts: Vec<Text>,
     bar: Option<Bar>,
-    /// What the frame shows of the curves of each plot.
-    plots: Vec<Vec<CurveNow>>,
+    /// What the frame shows of each plot.
+    plots: Vec<PlotNow>,
     /// The color of each body, as an index into the colors of its material's map. Empty if no color follows a value.
     colors: Vec<u16>,
 }
@@ -77,6 +77,21 @@ struct Text {
     in_world: bool,
 }
 
+/// What a frame shows of a plot.
+#[derive(Serialize)]
+struct PlotNow {
+    curves: Vec<CurveNow>,
+    bars: Vec<PlotBar>,
+}
+
+/// A bar of a plot: its lower left and its upper right corner.
+#[derive(Serialize)]
+struct PlotBar {
+    from: [f64; 2],
+    to: [f64; 2],
+    color: Vector,
+}
+
 /// What a frame shows of a curve: the number of points up to its time, and the position of its own values.
 #[derive(Serialize)]
 struct CurveNow {
@@ -113,6 +128,7 @@ struct PlotLine {
     from: [f64; 2],
     to: [f64; 2],
     color: Vector,
+    is_axis: bool,
 }
 
 #[derive(Serialize)]
@@ -189,7 +205,12 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
     let mut things = plan.links(frame);
     things.extend(plan.marks(frame));
     things.extend(plan.ghosts(frame).flat_map(|ghost| plan.ghost_marks(frame, ghost)));
-    let now = |now: &picture::CurveNow| CurveNow { count: now.count, here: now.here };
+    let curve = |now: &picture::CurveNow| CurveNow { count: now.count, here: now.here };
+    let of_plot = |bar: &picture::PlotBar| PlotBar { from: bar.from, to: bar.to, color: bar.color.0 };
+    let now = |now: &picture::PlotNow| PlotNow {
+        curves: now.curves.iter().map(curve).collect(),
+        bars: now.bars.iter().map(of_plot).collect(),
+    };
     let bar = |bar: picture::Bar| Bar {
         from: bar.from,
         to: bar.to,
@@ -205,7 +226,7 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
         things,
         texts: plan.texts(frame).iter().map(|each| text(scene, screen.as_ref(), each)).collect(),
         bar: plan.bar(frame).map(bar),
-        plots: plan.plots(frame).iter().map(|curves| curves.iter().map(now).collect()).collect(),
+        plots: plan.plots(frame).iter().map(now).collect(),
         colors: plan.colors(frame),
     }
 }
@@ -244,11 +265,16 @@ pub(super) fn plots(scene: &Scene, plan: &Plan) -> Vec<Plot> {
         pale: curve.pale.map(|color| color.0),
         points: curve.points.iter().map(|point| point.at).collect(),
     };
-    let line = |line: &picture::PlotLine| PlotLine { from: line.from, to: line.to, color: line.color.0 };
     let strip = |strip: &picture::Strip| Strip {
         from: strip.from,
         to: strip.to,
         colors: strip.colors.iter().map(|color| color.0).collect(),
+    };
+    let line = |line: &picture::PlotLine| PlotLine {
+        from: line.from,
+        to: line.to,
+        color: line.color.0,
+        is_axis: line.is_axis,
     };
     let plot = |plot: &picture::PlannedPlot| Plot {
         name: plot.name.clone(),

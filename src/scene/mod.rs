@@ -135,7 +135,7 @@ pub use measure::{
 pub(crate) use model::thinnest;
 pub use model::{Body, BodyLook, SimulationSettings};
 pub use places::{Places, PlotSpans};
-pub use plot::{Curve, Plot, PlotPlace};
+pub use plot::{Curve, Plot, PlotKind, PlotPlace};
 pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
 pub use source::Override;

@@ -232,14 +232,24 @@ impl Measures {
         })
     }
 
+    /// Returns the values that a formula has for each of several bodies, as [`of_each`](Self::of_each). Absent bodies are left out.
+    pub fn of_present<'a>(
+        &'a self,
+        formula: &'a MeasureFormula,
+        bodies: &'a [usize],
+        moment: &'a MomentState<'_>,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let present = bodies.iter().copied().filter(|body| find(moment.bodies, *body).is_some());
+        self.of_each(formula, present, moment)
+    }
+
     /// Returns the value of an aggregate of the scene. Absent bodies are left out.
     fn aggregate(&self, number: usize, moment: &MomentState<'_>) -> f64 {
         if let Some(known) = moment.computed.aggregates.borrow().get(&number) {
             return *known;
         }
         let Aggregate { how, bodies, formula } = &self.aggregates[number];
-        let present = bodies.iter().copied().filter(|body| find(moment.bodies, *body).is_some());
-        let value = how.of(self.of_each(formula, present, moment));
+        let value = how.of(self.of_present(formula, bodies, moment));
         moment.computed.aggregates.borrow_mut().insert(number, value);
         value
     }

@@ -130,7 +130,9 @@ pub use requested_sizes::{
 pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};
-pub use survey::{ContactTotals, Corrected, Crossing, CurvePoint, StretchedJoint, Survey, Surveyor, survey};
+pub use survey::{
+    ContactTotals, Corrected, Crossing, CurvePoint, LeftOut, Spread, StretchedJoint, Survey, Surveyor, survey,
+};
 pub use swarms::Swarms;
 pub(crate) use vectors::anchors;
 pub use vectors::{JointEnd, axis, root, shown, surface};

@@ -6,6 +6,7 @@ mod color_ranges;
 mod corrected;
 mod crossing;
 mod curves;
+mod spreads;
 mod stretched;
 #[cfg(test)]
 mod tests;
@@ -14,8 +15,10 @@ use color_ranges::ColorRanges;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
-pub use curves::CurvePoint;
 use curves::Curves;
+pub use curves::{CurvePoint, LeftOut};
+pub use spreads::Spread;
+use spreads::Spreads;
 use stretched::Gaps;
 pub use stretched::StretchedJoint;
 
@@ -65,6 +68,10 @@ pub struct Survey {
     pub curves: Vec<Vec<CurvePoint>>,
     /// The values of the first and the last color of each color map, in the order of the scene.
     pub color_ranges: Vec<[f64; 2]>,
+    /// How many values of each of these curves a logarithmic axis leaves out.
+    pub left_out: Vec<LeftOut>,
+    /// The values of the bodies in each histogram, in the order of the scene.
+    pub spreads: Vec<Spread>,
     /// The actual timestep, s: the interval between frames, divided into equal steps.
     pub timestep: f64,
     /// The number of timesteps from one frame to the next.
@@ -144,6 +151,7 @@ pub struct Surveyor<'a> {
     error: EnergyError,
     curves: Curves<'a>,
     color_ranges: ColorRanges<'a>,
+    spreads: Spreads<'a>,
 }
 
 impl Survey {
@@ -180,6 +188,7 @@ impl<'a> Surveyor<'a> {
             error: EnergyError::default(),
             curves: Curves::new(scene),
             color_ranges: ColorRanges::new(scene),
+            spreads: Spreads::new(scene),
         }
     }
 
@@ -239,6 +248,7 @@ impl<'a> Surveyor<'a> {
         self.error.add(&frame.balance);
         self.curves.see(frame);
         self.color_ranges.see(frame);
+        self.spreads.see(frame);
     }
 
     /// Returns the survey after the last frame.
@@ -258,6 +268,7 @@ impl<'a> Surveyor<'a> {
             error,
             curves,
             color_ranges,
+            spreads,
             ..
         } = self;
         let interval = scene.simulation.timeline.interval();
@@ -265,6 +276,7 @@ impl<'a> Surveyor<'a> {
         let steps_per_frame = world(scene).steps_within(interval).max(clouds.steps());
         let law = scene.simulation.contacts;
         let (drift_scale, drift_energy) = error.scale(law);
+        let (curves, left_out) = curves.finish();
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
@@ -276,7 +288,9 @@ impl<'a> Surveyor<'a> {
             contacts: contacts.map(|contacts| contacts.rounded(error.magnitude)),
             laws,
             stretched: gaps.finish(scene),
-            curves: curves.finish(),
+            curves,
+            left_out,
+            spreads: spreads.finish(),
             color_ranges: color_ranges.finish(),
             drift: error.drift(law),
             drift_scale,

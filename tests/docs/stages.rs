@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::root;
 
 /// The modules of the library, in an order in which each imports only those before it. A new module gets a line here.
-const STAGES: [&str; 27] = [
+const STAGES: [&str; 28] = [
     "physics",
     "threads",
     "system",
@@ -17,6 +17,7 @@ const STAGES: [&str; 27] = [
     "decimal",
     "lettering",
     "svg",
+    "drawing",
     "scene",
     "surface",
     "starter",

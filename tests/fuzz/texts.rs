@@ -9,6 +9,7 @@ use jabuka::Scene;
 use jabuka::catalog::Category;
 use jabuka::diagnostic::{Code, Diagnostic, Report, Sources, Span, nearest, visible, visible_lines};
 use jabuka::explain::Explanation;
+use jabuka::font::Step;
 use jabuka::lettering;
 use jabuka::physics::Method;
 use jabuka::report::plot::{Chart, Curve, Picture, png, svg};
@@ -37,6 +38,7 @@ const TRIED: [&str; 46] = [
     "diagnostic/visible.rs: visible_lines",
     "explain.rs: of",
     "font.rs: ink",
+    "font.rs: outline",
     "font.rs: width",
     "integrator/mod.rs: by_name",
     "lettering.rs: is_script",
@@ -207,6 +209,10 @@ proptest! {
         let width = jabuka::font::width(&text);
         prop_assert!(width.is_finite() && width >= 0.0, "{width}");
         prop_assert!(jabuka::font::ink(&text).is_none_or(|ends| ends.iter().all(|end| end.is_finite())));
+        let is_finite = |step| match step {
+            Step::Move(to) | Step::Line(to) | Step::Curve { to, .. } => to.iter().all(|part| part.is_finite()),
+        };
+        prop_assert!(jabuka::font::outline(&text).into_iter().all(is_finite));
         match lettering::set(&text, false) {
             Ok(set) => {
                 prop_assert!(lettering::width(&set).is_finite());

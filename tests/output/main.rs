@@ -16,6 +16,7 @@ mod kill;
 mod memory;
 mod meshes;
 mod models;
+mod plots;
 mod recording;
 mod sameness;
 mod shutter;

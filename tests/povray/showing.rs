@@ -382,6 +382,41 @@ fn a_curve_of_a_plot_is_where_its_values_are() {
     }
 }
 
+/// Bars are filled with their colors, from zero to their values, and nothing is filled beyond.
+#[test]
+fn bars_of_a_plot_are_as_high_as_their_values() {
+    let text = "simulation = { duration = 2, frame_rate = 10 }\n[output]\nsize = [640, 360]\n
+        [body.ball]\nshape.sphere.radius = 0.1\nmotion.formula.location = ['2*t', '-t', '0']\n
+        [plot.now]\nbars = ['ball.x', 'ball.y']\nrange = [-4, 4]\nside = 'right'\n";
+    let scene = Scene::parse(text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let frame = run.frames().nth(10).unwrap().unwrap();
+    let image = render(&run.emitter().script(&frame).unwrap(), [640, 360]);
+    let plan = run.emitter().plan();
+    let plot = &plan.planned_plots()[0];
+    let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+    let upright = axes[axes.len() - 1];
+    let color_at = |x: f64, value: f64| {
+        let y = upright.from[1] + (upright.to[1] - upright.from[1]) * (value + 4.0) / 8.0;
+        let up = plot.bottom.above_middle(360.0 / 640.0) + y;
+        image.at(DVec2::new(320.0 * (1.0 + plot.left + x), 180.0 - 320.0 * up))
+    };
+    let bars = plan.plots(&frame)[0].bars.clone();
+    for (bar, value) in bars.into_iter().zip([2.0, -1.0]) {
+        let middle = (bar.from[0] + bar.to[0]) / 2.0;
+        let is_filled = |value: f64| {
+            let wanted = bar.color.bytes();
+            color_at(middle, value).iter().zip(wanted).all(|(part, wanted)| part.abs_diff(wanted) < 40)
+        };
+        for part in [0.1, 0.5, 0.9] {
+            assert!(is_filled(part * value), "{part} of {value}: {:?}", color_at(middle, part * value));
+        }
+        for part in [-0.2, 1.15] {
+            assert!(!is_filled(part * value), "{part} of {value}");
+        }
+    }
+}
+
 /// A run of 20,000 frames has more frames than a curve has points. The speed of a body that jumps within one frame is a peak of this frame, and
 /// a pixel of the picture shows it.
 #[test]

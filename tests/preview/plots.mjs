@@ -51,6 +51,26 @@ await tests({
     }
   },
 
+  async bars_are_as_high_as_the_values_of_the_moment({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    const bars = () => page.evaluate(() => [...document.querySelectorAll(".plots rect.bar")].map((bar) => {
+      const [x, y, width, height] = ["x", "y", "width", "height"].map((key) => Number(bar.getAttribute(key)));
+      return { x, y, width, height, fill: bar.getAttribute("fill"), plot: bar.parentNode.dataset.plot };
+    }));
+    await seek(page, 50);
+    const [half, below] = await bars();
+    await seek(page, 100);
+    const [up, down, ...bins] = await bars();
+    assert.ok(Math.abs(up.height / half.height - 2) < 0.01 && Math.abs(up.height / down.height - 2) < 0.01, `${up.height} ${half.height} ${down.height}`);
+    const zero = up.y + up.height;
+    assert.ok(Math.abs(zero - down.y) < 0.1 && Math.abs(zero - below.y) < 0.1 && Math.abs(zero - half.y - half.height) < 0.1, "they begin at one line");
+    assert.ok(up.fill !== down.fill && up.x + up.width < down.x);
+    // 12 copies at 0, 1, … 11: four of them are in each of three bins.
+    assert.deepEqual(bins.map((bin) => bin.plot), ["spread", "spread", "spread"]);
+    for (const bin of bins) assert.ok(Math.abs(bin.height - bins[0].height) < 0.01 && bin.height > 10, `${bin.height}`);
+  },
+
   async labels_have_subscripts_lines_and_times({ open }) {
     const page = await open();
     await until(page, (jabuka) => jabuka.settled);

@@ -241,3 +241,21 @@ fn curves_of_which_no_picture_shows_a_point() {
           it has no finite value at any frame: correct the formula, or leave the curve out"]
     );
 }
+
+#[test]
+fn values_that_have_no_place_on_a_logarithmic_axis() {
+    let plot = |y: &str, keys: &str| format!("[plot.p]\ny = '{y}'\n{keys}\n");
+    let help = "draw a positive formula, such as `abs(…)`, or leave `log` out";
+    let said = |y: &str, values: &str| [format!("'{y}': the curve `{y}` of the plot `p` {values}: {help}")];
+    // The ball rises with 2 m/s in a gravity of 10 m/s²: it stands still after 0.2 s, the 6th of 26 frames.
+    let vy = of_plots(&plot("ball.vy - 1e-9", "log = true"));
+    assert_eq!(vy, said("ball.vy - 1e-9", "has gaps: 21 of its 26 values are not positive"));
+    let start = of_plots(&plot("t", "log = true"));
+    assert_eq!(start, said("t", "has a gap: 1 of its 26 values is not positive"));
+    let none = of_plots(&plot("0 - 1 - t", "log = 'xy'"));
+    assert_eq!(none, said("0 - 1 - t", "is not drawn: none of its values is positive"));
+    // Across, the start of the run at time 0 has no place, and nothing is amiss.
+    assert_eq!(of_plots(&plot("t", "log = 'xy'")), [""; 0]);
+    assert_eq!(of_plots(&plot("ball.vy", "log = 'x'")), [""; 0]);
+    assert_eq!(of_plots(&plot("ball.vy", "log = false")), [""; 0]);
+}

@@ -18,7 +18,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::picture::{Plan, Thing, Written, has_texts};
-use crate::scene::{Color, ForceKind, Layout, Scene, SpringLine, SpringLook};
+use crate::scene::{Color, ForceKind, Layout, PlotKind, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
@@ -46,6 +46,8 @@ pub(super) struct NeededMacros {
     plots: bool,
     /// True if the pictures contain color bars.
     color_bars: bool,
+    /// True if plots contain bars.
+    bars: bool,
     /// True if bodies have trails.
     trails: bool,
 }
@@ -63,6 +65,7 @@ impl NeededMacros {
             labels: has_texts(scene),
             plots: !scene.plots.is_empty() || has_color_bars,
             color_bars: has_color_bars,
+            bars: scene.plots.iter().any(|plot| plot.kind != PlotKind::Curves),
             trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
         }
     }

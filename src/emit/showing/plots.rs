@@ -1,14 +1,14 @@
 //! Writes plots in SDL.
 //!
 //! What all frames have in common, the panel with its numbers and the points of the curves, is a macro and arrays in the common part. A frame
-//! draws the panel, the curves up to its time, and a dot on each.
+//! draws the panel, the curves up to its time with a dot on each, and the bars of its values.
 
 use std::fmt::Write as _;
 
 use super::super::{sdl::Style, text};
 use super::color;
 use super::texts::{self, length, short};
-use crate::picture::{CurveNow, PlannedPlot, Strip};
+use crate::picture::{PlannedPlot, PlotNow, Strip};
 use crate::scene::Layout;
 use crate::simulate::CurvePoint;
 
@@ -42,17 +42,15 @@ pub(super) fn declare(out: &mut String, plots: &[PlannedPlot], layout: Layout, s
 }
 
 /// Appends the plots of a frame.
-pub(super) fn write(
-    out: &mut String,
-    plots: &[PlannedPlot],
-    now: &[Vec<CurveNow>],
-    layout: Layout,
-    style: Style,
-) {
+pub(super) fn write(out: &mut String, plots: &[PlannedPlot], now: &[PlotNow], layout: Layout, style: Style) {
     for (number, (plot, now)) in plots.iter().zip(now).enumerate() {
         let _ = writeln!(out, "Plot_{number}() // {}", text::comment(&plot.name));
         let corner = corner(plot);
-        for (k, (curve, now)) in plot.curves.iter().zip(now).enumerate() {
+        for bar in &now.bars {
+            let ([from, to], ink) = ([bar.from, bar.to].map(|at| point(Some(at))), color(bar.color, style));
+            let _ = writeln!(out, "Filled({corner}, {from}, {to}, {ink})");
+        }
+        for (k, (curve, now)) in plot.curves.iter().zip(&now.curves).enumerate() {
             let (layer, ink, all) = (k + 1, color(curve.color, style), curve.points.len());
             let mut curves = String::new();
             let mut draw = |count: usize, here: Option<[f64; 2]>, layer: usize, ink: &str| {

@@ -25,7 +25,7 @@ use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
 use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
-use super::plots::{CurveNow, PlannedPlot, Plots, UnseenPlot};
+use super::plots::{PlannedPlot, PlotNow, Plots, UnseenPlot};
 use super::scope::{Part, Scope};
 use super::screen::Screen;
 use super::sight::Sight;
@@ -307,8 +307,8 @@ impl Plan {
         self.plots.planned()
     }
 
-    /// What a frame shows of the curves of each plot.
-    pub fn plots(&self, frame: &Frame) -> Vec<Vec<CurveNow>> {
+    /// What a frame shows of each plot.
+    pub fn plots(&self, frame: &Frame) -> Vec<PlotNow> {
         self.plots.at(frame)
     }
 

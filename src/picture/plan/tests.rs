@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::*;
-use crate::picture::Form;
+use crate::lettering;
+use crate::picture::{Form, PlotBar};
 use crate::scene::ArrowOwner;
 use crate::simulate::{Frames, survey};
 
@@ -186,4 +187,159 @@ fn a_camera_that_follows_looks_at_its_body() {
     assert_eq!(plan.camera(&frame).look_at(), frame.bodies[0].location);
     let spot = plan.screen(&frame).unwrap().project(frame.bodies[0].location).unwrap();
     assert!(spot.x.abs() < 1e-12 && spot.y.abs() < 1e-12);
+}
+
+/// On a logarithmic axis, a decay is a straight line: exp(−2 t) is 0.1 at t = ln 10 / 2. On two logarithmic axes, a power is: t² is 0.01
+/// at t = 0.1.
+#[test]
+fn decays_and_powers_are_straight_on_logarithmic_axes() {
+    let text = "simulation = { duration = 4, frame_rate = 100 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['exp(-2*t)', 't^2', '0']
+        [plot.decay]\ny = 'ball.x'\nlog = true\nrange = [1e-4, 1]\n[plot.power]\ny = 'ball.y'\nlog = 'xy'\nrange = [1e-4, 100]\nahead = true";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let [decay, power] = plan.planned_plots() else { panic!("two plots") };
+    let ends = |plot: &PlannedPlot| {
+        let axes: Vec<_> = plot.lines.iter().filter(|line| line.is_axis).collect();
+        let [level, upright] = [axes[axes.len() - 2], axes[axes.len() - 1]];
+        (level.from, [level.to[0], upright.to[1]])
+    };
+    let is_near = |one: [f64; 2], other: [f64; 2]| (0..2).all(|k| (one[k] - other[k]).abs() < 1e-6);
+    let (origin, end) = ends(decay);
+    let points: Vec<[f64; 2]> = decay.curves[0].points.iter().filter_map(|point| point.at).collect();
+    let [first, last] = points[..] else { panic!("{points:?}") };
+    // The curve falls by 8 / ln 10 of 4 decades in the whole run.
+    let bottom = end[1] + (origin[1] - end[1]) * 8.0 / std::f64::consts::LN_10 / 4.0;
+    assert!(is_near(first, [origin[0], end[1]]) && is_near(last, [end[0], bottom]), "{first:?} {last:?}");
+    let (origin, end) = ends(power);
+    let points: Vec<[f64; 2]> = power.curves[0].points.iter().filter_map(|point| point.at).collect();
+    let [first, last] = points[..] else { panic!("{points:?}") };
+    // Time 0 has no place. The axis of the time goes from the first frame after it, 0.01 s, to 4 s; there, the power is 16.
+    let top = origin[1] + (end[1] - origin[1]) * (libm::log10(16.0) + 4.0) / 6.0;
+    assert!(is_near(first, origin) && is_near(last, [end[0], top]), "{first:?} {last:?}");
+    let said: Vec<&str> = decay.texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(["10⁻⁴", "10⁻²", "1"].iter().all(|power| said.contains(power)), "{said:?}");
+    // A frame shows its own value on the same line. At time 0, it has none.
+    let now = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[1].curves[0];
+    assert_eq!((now(0.0).here, now(0.0).count), (None, 0));
+    let [x, y] = now(0.4).here.unwrap();
+    let slope = |[x, y]: [f64; 2]| (y - first[1]) / (x - first[0]);
+    assert!((slope([x, y]) / slope(last) - 1.0).abs() < 1e-9);
+}
+
+/// In a run of more frames than a curve has points, the lowest positive value and the gaps between positive values are kept.
+#[test]
+fn long_curves_keep_their_lowest_positive_values() {
+    let text = "simulation = { duration = 30, frame_rate = 100 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['exp(-((t - 12)/0.02)^2)*(-1) + 1.001', 'sin(t)', '0']
+        [plot.peak]\ny = ['ball.x', 'ball.y']\nlog = true";
+    let scene = Scene::parse(text).unwrap();
+    let survey = survey(&scene, |_| {}).unwrap();
+    let values = |curve: usize| survey.curves[curve].iter().map(|point| point.at.map(|at| at[1]));
+    let lowest = values(0).flatten().fold(f64::INFINITY, f64::min);
+    assert!((lowest - 0.001).abs() < 1e-9, "{lowest}");
+    assert!(values(1).flatten().all(|value| value > 0.0) && values(1).filter(Option::is_none).count() > 3);
+    assert_eq!(survey.left_out[0].frames, 0);
+    // sin(t) is positive in 16 of the 30 seconds: 5 half-periods of π.
+    let positive = survey.left_out[1].of - survey.left_out[1].frames;
+    assert!((positive as f64 - 500.0 * std::f64::consts::PI).abs() < 6.0, "{positive}");
+}
+
+/// The heights of bars are as their values: those of 2 and −1 have the ratio 2 : 1, and begin at the same zero. No frame moves the axis.
+#[test]
+fn bars_are_as_high_as_their_values() {
+    let text = "simulation = { duration = 2, frame_rate = 50 }\n[body.ball]\nshape.sphere.radius = 0.1
+        motion.formula.location = ['t', '-t/2', '0']\n[body.late]\nshape.sphere.radius = 0.1\nstart = 1.5
+        [plot.p]\nbars = ['ball.x', 'ball.y', 'late.x + 1']\nnames = ['right', 'down', 'late']";
+    let scene = Scene::parse(text).unwrap();
+    let plan = Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap());
+    let bars = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[0].bars.clone();
+    // Nothing of the bars is seen at first, and `late` is not there.
+    assert_eq!((bars(0.0), bars(1.0).len(), bars(2.0).len()), (vec![], 2, 3));
+    let (middle, end) = (bars(1.0), bars(2.0));
+    let height = |bar: PlotBar| bar.to[1] - bar.from[1];
+    for (one, other, ratio) in [(end[0], end[1], 2.0), (end[0], middle[0], 2.0), (end[0], end[2], 2.0)] {
+        assert!((height(one) / height(other) - ratio).abs() < 1e-9, "{one:?} {other:?}");
+    }
+    assert!(end[0].from[1] == end[1].to[1] && end[0].from[1] == middle[1].to[1], "zero stays in its place");
+    // A line of the axis stands at zero, and the names stand below the bars in their colors.
+    let plot = &plan.planned_plots()[0];
+    assert!(plot.lines.iter().any(|line| line.is_axis && line.from[1] == end[0].from[1]));
+    for (name, bar) in ["right", "down", "late"].into_iter().zip(end) {
+        let text = plot.texts.iter().find(|text| text.says == name).unwrap();
+        let place = text.x - plot.left;
+        assert!((place - (bar.from[0] + bar.to[0]) / 2.0).abs() < 1e-9 && text.align == 0.5);
+        assert!(
+            text.color == bar.color
+                && text.y.above_middle(0.5625) < plot.bottom.above_middle(0.5625) + bar.from[1]
+        );
+    }
+}
+
+/// 100 copies at the squares from 0 to 99², which keep their places: of n bins, the k-th has those from √(k/n) to √((k+1)/n) of 99.
+#[test]
+fn a_histogram_counts_the_copies_in_each_bin() {
+    let text = "simulation = { duration = 2, frame_rate = 10, gravity = [0, -1, 0] }\n[body.ball]\nshape.sphere.radius = 0.1
+        repeat = { count = 100 }\nlocation = ['i^2', 0, 0]\n[plot.p]\nhistogram = 'ball.x'\nbins = 9\n[plot.q]\nhistogram = 'ball.speed:km/h'";
+    let scene = Scene::parse(text).unwrap();
+    let survey = survey(&scene, |_| {}).unwrap();
+    assert_eq!(survey.spreads[0].span, Some([0.0, 9801.0]));
+    assert_eq!(survey.spreads[1].span.map(|[low, high]| [low, (high * 1e6).round()]), Some([0.0, 7.2e6]));
+    let plan = Plan::new(&scene, &scene.camera, &survey);
+    let bars = |time: f64| plan.plots(&Frames::at(&scene, time).unwrap())[0].bars.clone();
+    let expected: Vec<f64> = (0..9_u32)
+        .map(|bin| (0..100_u32).filter(|i| i * i * 9 / 9801 == bin || (*i == 99 && bin == 8)).count() as f64)
+        .collect();
+    assert_eq!(expected.iter().sum::<f64>(), 100.0);
+    assert_eq!(expected[0], 33.0, "those below 99/3");
+    let now = bars(1.0);
+    assert_eq!(now.len(), 9);
+    let height = |bar: PlotBar| bar.to[1] - bar.from[1];
+    for (bar, count) in now.iter().zip(&expected) {
+        assert!((height(*bar) / height(now[0]) - count / 33.0).abs() < 1e-9, "{count}: {bar:?}");
+    }
+    assert_eq!(bars(0.0), bars(2.0), "the axes hold for the whole run");
+    // All copies fall alike: all of them are in one of the 10 bins at any time.
+    let falling = plan.plots(&Frames::at(&scene, 1.5).unwrap())[1].bars.clone();
+    assert_eq!(falling.len(), 1);
+    let said: Vec<&str> = plan.planned_plots()[1].texts.iter().map(|text| text.says.as_ref()).collect();
+    assert!(["ball", "ball.speed (km/h)", "100"].iter().all(|word| said.contains(word)), "{said:?}");
+}
+
+/// Names at the ends of curves stand at the heights of these ends, or as near to them as their letters allow.
+#[test]
+fn names_stand_at_the_ends_of_curves() {
+    let plan = |keys: &str| {
+        let text = format!(
+            "simulation = {{ duration = 2, frame_rate = 10 }}\n[body.ball]\nshape.sphere.radius = 0.1\n[plot.p]\nlegend = 'ends'\n{keys}"
+        );
+        let scene = Scene::parse(&text).unwrap();
+        Plan::new(&scene, &scene.camera, &survey(&scene, |_| {}).unwrap()).planned_plots()[0].clone()
+    };
+    let names = |plot: &PlannedPlot, names: &[&str]| -> Vec<[f64; 2]> {
+        let place = |name: &&str| {
+            let text = plot.texts.iter().find(|text| text.says == **name).unwrap();
+            let middle = text.y.above_middle(0.5625) - plot.bottom.above_middle(0.5625) + 0.27 * text.height;
+            [(text.x - plot.left), middle]
+        };
+        names.iter().map(place).collect()
+    };
+    let line = |plot: &PlannedPlot| plot.texts[0].height;
+    let plot = plan("y = ['t', '-t', '0.01*t', '0*t']\nnames = ['up', 'down', 'one', 'other']");
+    let ends: Vec<[f64; 2]> =
+        plot.curves.iter().map(|curve| curve.points.last().and_then(|point| point.at).unwrap()).collect();
+    let places = names(&plot, &["up", "down", "one", "other"]);
+    assert!(places.iter().zip(&ends).all(|(name, end)| name[0] > end[0] && name[0] < end[0] + line(&plot)));
+    assert!((places[1][1] - ends[1][1]).abs() < 0.5 * line(&plot));
+    // The two in the middle would cover each other: each moves half of the way.
+    assert!((places[2][1] - places[3][1] - line(&plot)).abs() < 1e-9, "{places:?}");
+    let middle = |both: [[f64; 2]; 2]| (both[0][1] + both[1][1]) / 2.0;
+    assert!((middle([places[2], places[3]]) - middle([ends[2], ends[3]])).abs() < 1e-9);
+    let (left, right) = (plot.size[0], places[0][0] + lettering::width("other") * line(&plot));
+    assert!(right <= left, "the longest name is inside of the panel");
+    // Without room, they stand above the plot.
+    let long = "a name that is far too long for the end of a curve in any plot";
+    let plot = plan(&format!("y = 't'\nnames = '{long}'\nwidth = 0.2"));
+    let above = plot.texts.iter().find(|text| text.says.starts_with("a name")).unwrap();
+    assert!(above.x - plot.left < 0.3 * plot.size[0], "{above:?}");
 }

@@ -1,6 +1,7 @@
 //! The axes of plots: their ranges, and the numbers beside them.
 
 use super::super::number::typeset;
+use super::decades::Decades;
 use crate::decimal::{decimal_step, round_above};
 
 /// The largest difference of values that counts as a rounding error, relative to the largest value. Such values are drawn as constant.
@@ -15,15 +16,45 @@ const WRITTEN_IN_FULL: std::ops::Range<f64> = 1e-2..1e5;
 /// The largest count of numbers beside an axis. It is more than any axis has room for.
 const MAX_TICKS: f64 = 50.0;
 
+/// The smallest value of a logarithmic axis, in its unit.
+const MIN_LOGARITHMIC: f64 = 1e-300;
+/// The ratio of the ends of a logarithmic axis below which its numbers are evenly spaced, as those of a linear one.
+const NARROW: f64 = 4.0;
+
 /// An axis of a plot: the range that it shows, and its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     pub(super) low: f64,
     pub(super) high: f64,
-    /// The distance between two numbers.
-    step: f64,
-    /// The power of ten that all numbers are divided by, as an exponent.
-    exponent: i32,
+    is_logarithmic: bool,
+    numbers: Numbers,
+}
+
+/// The numbers beside an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Numbers {
+    /// Evenly spaced values.
+    Even {
+        /// The distance between two numbers.
+        step: f64,
+        /// The power of ten that all numbers are divided by, as an exponent.
+        exponent: i32,
+    },
+    /// Values of a logarithmic axis.
+    Decades(Decades),
+    /// No numbers: names stand there.
+    Names,
+}
+
+/// What an axis must show, and how its values are spaced.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Scale {
+    /// Equal distances are equal differences.
+    Linear(Range),
+    /// Equal distances are equal ratios. All values are positive.
+    Logarithmic(Range),
+    /// Names in equal distances, each in the middle of its room. The number is that of the names.
+    Names(u8),
 }
 
 /// A number beside an axis.
@@ -44,6 +75,22 @@ pub(super) struct Range {
     pub(super) is_wider: bool,
     /// Whether the values are whole numbers.
     pub(super) is_count: bool,
+}
+
+impl Scale {
+    /// Makes the axis. It has about `count` numbers.
+    pub(super) fn axis(&self, count: f64) -> Axis {
+        match self {
+            Scale::Linear(range) => Axis::new(range, count),
+            Scale::Logarithmic(range) => Axis::logarithmic(range, count),
+            Scale::Names(names) => Axis {
+                low: 0.0,
+                high: f64::from(*names).max(1.0),
+                is_logarithmic: false,
+                numbers: Numbers::Names,
+            },
+        }
+    }
 }
 
 impl Axis {
@@ -69,25 +116,55 @@ impl Axis {
             large if !WRITTEN_IN_FULL.contains(&large) => exponent_of(large),
             _ => 0,
         };
-        Axis { low, high, step, exponent }
+        Axis { low, high, is_logarithmic: false, numbers: Numbers::Even { step, exponent } }
     }
 
-    /// Returns the position of a value along the axis: 0 at the low end, 1 at the high end.
+    /// Makes the logarithmic axis of a range of positive values. It has about `count` numbers.
+    fn logarithmic(range: &Range, count: f64) -> Axis {
+        let [low, high] = range.span.map(|end| end.clamp(MIN_LOGARITHMIC, MAX_VALUE));
+        // A quantity that keeps its value is a line in the middle.
+        let is_flat = high <= low * if range.is_wider { 1.0 + MAX_ROUNDING } else { 1.0 };
+        let [low, high] = if is_flat { [low / 10.0, high * 10.0] } else { [low, high] };
+        if high < NARROW * low {
+            let even = Axis::new(&Range { span: [low, high], ..*range }, count);
+            if even.low > 0.0 {
+                return Axis { is_logarithmic: true, ..even };
+            }
+        }
+        let (decades, [low, high]) = Decades::new([low, high], range.is_wider, count.max(1.0));
+        Axis { low, high, is_logarithmic: true, numbers: Numbers::Decades(decades) }
+    }
+
+    /// Returns the position of a value along the axis: 0 at the low end, 1 at the high end. NaN if the axis has no place for it.
     pub(super) fn place(&self, value: f64) -> f64 {
+        if self.is_logarithmic {
+            // A difference of logarithms, since a ratio could overflow.
+            let [value, low, high] = [value, self.low, self.high].map(libm::log10);
+            let place = (value - low) / (high - low);
+            return if place.is_finite() { place } else { f64::NAN };
+        }
         (value - self.low) / (self.high - self.low)
     }
 
     /// Returns the numbers beside the axis.
     pub(super) fn ticks(&self) -> Vec<Tick> {
-        let power = libm::pow(10.0, f64::from(self.exponent));
-        let decimals = usize::try_from(-exponent_of(self.step / power)).unwrap_or(0);
-        let first = libm::ceil(self.low / self.step - 1e-9);
-        let count = (libm::floor(self.high / self.step + 1e-9) - first).min(MAX_TICKS);
+        let (step, exponent) = match self.numbers {
+            Numbers::Even { step, exponent } => (step, exponent),
+            Numbers::Names => return Vec::new(),
+            Numbers::Decades(decades) => {
+                let values = decades.values([self.low, self.high]).into_iter();
+                return values.map(|(value, says)| Tick { at: self.place(value), value, says }).collect();
+            }
+        };
+        let power = libm::pow(10.0, f64::from(exponent));
+        let decimals = usize::try_from(-exponent_of(step / power)).unwrap_or(0);
+        let first = libm::ceil(self.low / step - 1e-9);
+        let count = (libm::floor(self.high / step + 1e-9) - first).min(MAX_TICKS);
         let mut ticks = Vec::new();
         let mut number = 0.0;
         while number <= count {
             // `+ 0.0` avoids a negative zero.
-            let value = (first + number) * self.step + 0.0;
+            let value = (first + number) * step + 0.0;
             let says = typeset(&format!("{:.decimals$}", value / power));
             ticks.push(Tick { at: self.place(value), value, says });
             number += 1.0;
@@ -95,10 +172,24 @@ impl Axis {
         ticks
     }
 
+    /// Returns the positions of the faint lines between the numbers of a logarithmic axis.
+    pub(super) fn between(&self) -> Vec<f64> {
+        match self.numbers {
+            Numbers::Even { .. } | Numbers::Names => Vec::new(),
+            Numbers::Decades(decades) => {
+                decades.between([self.low, self.high]).into_iter().map(|value| self.place(value)).collect()
+            }
+        }
+    }
+
     /// Returns the unit that stands at the axis: the power of ten of its numbers, and the symbol of the unit.
     pub(super) fn unit(&self, symbol: &str) -> String {
-        let power = typeset(&format!("1e{}", self.exponent));
-        match (self.exponent, symbol) {
+        let exponent = match self.numbers {
+            Numbers::Even { exponent, .. } => exponent,
+            Numbers::Decades(_) | Numbers::Names => 0,
+        };
+        let power = typeset(&format!("1e{exponent}"));
+        match (exponent, symbol) {
             (0, symbol) => symbol.to_owned(),
             (_, "") => power.replace("1·", "·"),
             (_, symbol) => format!("{} {symbol}", power.replace("1·", "")),
@@ -167,6 +258,41 @@ mod tests {
                         ticks.iter().all(|tick| tick.at.is_finite() && tick.value.is_finite()),
                         "{ticks:?}"
                     );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn equal_ratios_have_equal_distances_on_a_logarithmic_axis() {
+        let range = Range { span: [0.01, 100.0], is_wider: true, is_count: false };
+        let scale = Scale::Logarithmic(range).axis(4.0);
+        for (value, place) in [(0.01, 0.0), (0.1, 0.25), (1.0, 0.5), (100.0, 1.0)] {
+            assert!((scale.place(value) - place).abs() < 1e-12, "{value}");
+        }
+        for value in [0.0, -1.0, f64::NAN] {
+            assert!(scale.place(value).is_nan(), "{value}");
+        }
+        // In a narrow range, the numbers are those of a linear axis.
+        let narrow = Scale::Logarithmic(Range { span: [4.1, 4.9], ..range }).axis(4.0);
+        assert_eq!(said(&narrow), ["4.2", "4.4", "4.6", "4.8"]);
+        assert!((narrow.place(libm::sqrt(narrow.low * narrow.high)) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn extreme_logarithmic_ranges_have_a_few_numbers() {
+        let ends = [1e-323, 1e-300, 1e-10, 0.3, 1.0, 1.0 + 1e-12, 1.1, 2e17, 1e308, f64::MAX];
+        for low in ends {
+            for high in ends.into_iter().filter(|high| *high >= low) {
+                for (is_wider, count) in [(false, 1.0), (true, 1.0), (false, 6.0), (true, 6.0)] {
+                    let range = Range { span: [low, high], is_wider, is_count: false };
+                    let scale = Scale::Logarithmic(range).axis(count);
+                    let ticks = scale.ticks();
+                    assert!(ticks.len() < 50 && scale.between().len() < 1000, "{low} to {high}: {scale:?}");
+                    assert!(scale.low > 0.0 && scale.high > scale.low, "{low} to {high}: {scale:?}");
+                    let is_inside = |tick: &Tick| (-1e-6..=1.0 + 1e-6).contains(&tick.at);
+                    assert!(ticks.iter().all(is_inside), "{ticks:?}");
+                    assert!(!is_wider || ticks.len() > 1, "{low} to {high}: {scale:?} {ticks:?}");
                 }
             }
         }

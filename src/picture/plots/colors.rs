@@ -1,14 +1,18 @@
 //! The colors of the curves of a plot.
 
 use super::super::colors::seen;
-use crate::scene::{Color, Plot, Scene};
+use crate::scene::{Color, Plot, PlotKind, Scene};
 
-/// The colors of the curves: that of the only body in a formula, or else one of a palette whose colors can be told apart.
+/// The colors of the curves or bars: that of the only body in a formula or of the first body of a histogram, or else one of a palette whose colors can be told apart.
 pub(super) fn of_curves(scene: &Scene, plot: &Plot, dark: bool) -> Vec<Color> {
     let mut free = Color::OF_CURVES.into_iter().cycle();
     let mut colors: Vec<Color> = Vec::new();
     for curve in &plot.curves {
-        let material = curve.y.body().and_then(|body| scene.bodies[body].material);
+        let first = match &plot.kind {
+            PlotKind::Histogram { bodies, .. } => bodies.first().copied(),
+            PlotKind::Curves | PlotKind::Bars => None,
+        };
+        let material = curve.y.body().or(first).and_then(|body| scene.bodies[body].material);
         let own = material.and_then(|material| scene.materials[material].look.color());
         let own = own.map(|color| seen(color, dark)).filter(|own| {
             let is_legible = dark || own.linear().iter().sum::<f64>() < 1.5;

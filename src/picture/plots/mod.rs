@@ -1,29 +1,35 @@
-//! Plots: curves of measures, on a panel in a corner of the picture.
+//! Plots: curves, bars and histograms of measures, on a panel in a corner of the picture.
 //!
 //! A plot is planned once for a run: its panel, axes, numbers, legend and curves lie in the image plane, where the picture has a width of 2.
 //! Of a curve, a frame shows the points up to its time, and a dot at its own values.
 
 mod axis;
+mod bars;
 mod clip;
 mod color_bar;
 mod colors;
+mod decades;
+mod ends;
 mod panel;
+mod ranges;
 mod room;
 mod unseen;
 
 use std::sync::Arc;
 
-use self::axis::{Axis, Range};
+use self::axis::Axis;
 use self::clip::{clipped, simplified};
 use self::colors::mixed;
 use self::panel::{Legend, Panel};
+use self::ranges::{Values, scales};
 use self::room::{Room, column};
 use super::colors::ink;
 use super::occupancy::Rectangle;
 use super::text::{Text, Vertical};
-use crate::scene::{Color, Corner, Measure, MeasureFormula, Plot, PlotPlace, RunMeasure, Scene};
+use crate::scene::{Color, Corner, Plot, PlotKind, PlotPlace, Scene};
 use crate::simulate::{CurvePoint, Frame, Measures, MomentState, Survey};
 
+pub use self::bars::PlotBar;
 pub(super) use self::room::free;
 pub use self::unseen::UnseenPlot;
 
@@ -51,7 +57,7 @@ pub struct PlannedPlot {
     pub lines: Vec<PlotLine>,
     /// The title, the legend and the numbers, in positions of the image plane.
     pub texts: Vec<Text<'static>>,
-    /// The curves.
+    /// The curves. Empty if the plot draws bars.
     pub curves: Vec<PlannedCurve>,
     /// The radius of the dots at the present values.
     pub dot: f64,
@@ -101,6 +107,15 @@ pub struct CurveNow {
     pub here: Option<[f64; 2]>,
 }
 
+/// What a frame shows of a plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlotNow {
+    /// What it shows of each curve.
+    pub curves: Vec<CurveNow>,
+    /// The bars.
+    pub bars: Vec<PlotBar>,
+}
+
 /// The plots of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Plots {
@@ -109,6 +124,8 @@ pub(super) struct Plots {
     plots: Vec<Plot>,
     /// The axes of each plot, and the rectangle that they span in its panel.
     axes: Vec<(Axes, Rectangle)>,
+    /// The color of each curve or bar of each plot.
+    colors: Vec<Vec<Color>>,
     measures: Arc<Measures>,
     aspect: f64,
 }
@@ -120,16 +137,22 @@ impl Plots {
     /// Plans the plots of a run. `measures` are those of its scene.
     pub(super) fn new(scene: &Scene, survey: &Survey, measures: Arc<Measures>) -> Plots {
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-        let mut points = survey.curves.iter();
-        let mut plots =
-            Plots { planned: Vec::new(), plots: scene.plots.clone(), axes: Vec::new(), measures, aspect };
-        for plot in &scene.plots {
-            let curves: Vec<&[CurvePoint]> =
-                points.by_ref().take(plot.curves.len()).map(Vec::as_slice).collect();
+        let mut plots = Plots {
+            planned: Vec::new(),
+            plots: scene.plots.clone(),
+            axes: Vec::new(),
+            colors: Vec::new(),
+            measures,
+            aspect,
+        };
+        for (plot, values) in scene.plots.iter().zip(Values::of_plots(scene, survey)) {
             let room = Room::in_picture(scene, plot, &plots.planned);
-            let (planned, axes) = plan(scene, plot, &curves, &room, scene.environment.is_dark());
+            let dark = scene.environment.is_dark();
+            let colors = colors::of_curves(scene, plot, dark);
+            let (planned, axes) = plan(scene, plot, (&values, &colors), &room, dark);
             plots.planned.push(planned);
             plots.axes.push(axes);
+            plots.colors.push(colors);
         }
         let bars =
             color_bar::planned(scene, survey, &plots.planned, ink_and_paper(scene.environment.is_dark()));
@@ -149,11 +172,23 @@ impl Plots {
         })
     }
 
-    /// What a frame shows of the curves of each plot.
-    pub(super) fn at(&self, frame: &Frame) -> Vec<Vec<CurveNow>> {
+    /// What a frame shows of each plot.
+    pub(super) fn at(&self, frame: &Frame) -> Vec<PlotNow> {
         let moment = MomentState::now(frame);
         let mut now = Vec::with_capacity(self.plots.len());
-        for ((plot, planned), (axes, area)) in self.plots.iter().zip(&self.planned).zip(&self.axes) {
+        let plots = self.plots.iter().zip(&self.planned).zip(&self.axes).zip(&self.colors);
+        for (((plot, planned), (axes, area)), colors) in plots {
+            let values: Vec<f64> = match &plot.kind {
+                PlotKind::Curves => Vec::new(),
+                PlotKind::Bars => {
+                    plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment)).collect()
+                }
+                PlotKind::Histogram { bodies, .. } => plot
+                    .curves
+                    .first()
+                    .map_or(Vec::new(), |curve| self.measures.of_present(&curve.y, bodies, &moment).collect()),
+            };
+            let bars = drawn_bars(&plot.kind, &values, colors, (axes, area));
             let x = self.measures.value(&plot.x, &moment);
             let curve = |(curve, drawn): (&crate::scene::Curve, &PlannedCurve)| {
                 let y = self.measures.value(&curve.y, &moment);
@@ -164,69 +199,102 @@ impl Plots {
                     here: is_inside.then(|| inside(area, [across, up])),
                 }
             };
-            now.push(plot.curves.iter().zip(&planned.curves).map(curve).collect());
+            let curves = plot.curves.iter().zip(&planned.curves).map(curve).collect();
+            now.push(PlotNow { curves, bars });
         }
         // Color bars have no curves.
-        now.resize(self.planned.len(), Vec::new());
+        now.resize(self.planned.len(), PlotNow::default());
         now
     }
 }
 
-/// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, and curves over the whole run. `number` is its
-/// index in the scene.
-pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> PlannedPlot {
-    let before: usize = scene.plots[..number].iter().map(|plot| plot.curves.len()).sum();
+/// Plans a plot of a scene as a picture of its own, for paper: with dark letters on white, with curves over the whole run, and bars of its last
+/// moment. `number` is its index in the scene.
+pub(crate) fn plot_alone(scene: &Scene, survey: &Survey, number: usize) -> (PlannedPlot, Vec<PlotBar>) {
     let plot = Plot { place: PlotPlace::Corner(Corner::Top), ..scene.plots[number].clone() };
-    let curves: Vec<&[CurvePoint]> =
-        survey.curves.iter().skip(before).take(plot.curves.len()).map(Vec::as_slice).collect();
-    plan(scene, &plot, &curves, &Room::alone(LINE_ALONE), false).0
+    let values = &Values::of_plots(scene, survey)[number];
+    let colors = colors::of_curves(scene, &plot, false);
+    let (planned, (axes, area)) = plan(scene, &plot, (values, &colors), &Room::alone(LINE_ALONE), false);
+    let last: Vec<f64> = match values.spread {
+        Some(spread) => spread.frames.last().cloned().unwrap_or_default(),
+        None => {
+            let last = values.curves.iter().map(|points| points.last().and_then(|last| last.at));
+            last.map(|at| at.map_or(f64::NAN, |at| at[1])).collect()
+        }
+    };
+    (planned, drawn_bars(&plot.kind, &last, &colors, (&axes, &area)))
 }
 
-/// Plans a plot, given the points of its curves. `dark` says whether the background of the picture is dark.
+/// Returns the bars of a plot at a moment, given its values then: one for each bar, or one for each body of a histogram.
+fn drawn_bars(
+    kind: &PlotKind,
+    values: &[f64],
+    colors: &[Color],
+    (axes, area): (&Axes, &Rectangle),
+) -> Vec<PlotBar> {
+    match (kind, colors) {
+        (PlotKind::Curves, _) | (PlotKind::Histogram { .. }, []) => Vec::new(),
+        (PlotKind::Bars, colors) => {
+            bars::beside_each_other(values.iter().copied().zip(colors.iter().copied()), axes, area)
+        }
+        (PlotKind::Histogram { bins, .. }, [color, ..]) => {
+            bars::of_counts(&bars::counts(values, &axes[0], *bins), *color, axes, area)
+        }
+    }
+}
+
+/// Plans a plot, given its values and the colors of its curves or bars. `dark` says whether the background of the picture is dark.
 fn plan(
     scene: &Scene,
     plot: &Plot,
-    curves: &[&[CurvePoint]],
+    (values, colors): (&Values<'_>, &[Color]),
     room: &Room,
     dark: bool,
 ) -> (PlannedPlot, (Axes, Rectangle)) {
     let [ink, paper] = ink_and_paper(dark);
-    let colors = colors::of_curves(scene, plot, dark);
     let names: Vec<(&str, Color)> =
-        plot.curves.iter().zip(&colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
-    let x_unit = plot.x.unit().unwrap_or_default();
+        plot.curves.iter().zip(colors).map(|(curve, color)| (curve.name.as_str(), *color)).collect();
+    let units = match plot.kind {
+        PlotKind::Curves => [plot.x.unit().unwrap_or_default(), unit(plot)],
+        PlotKind::Bars => ["", unit(plot)],
+        PlotKind::Histogram { .. } => [unit(plot), ""],
+    };
+    let is_bars = plot.kind == PlotKind::Bars;
     let legend = Legend {
         title: plot.title.as_deref(),
-        names: &names,
-        x_name: &plot.x_name,
-        units: [x_unit, unit(plot)],
+        names: if is_bars { &[] } else { &names },
+        at_ends: plot.has_names_at_ends,
+        below: if is_bars { &names } else { &[] },
+        x_name: if is_bars { "" } else { &plot.x_name },
+        units,
         sign: scene.output.decimal,
     };
-    let is_time = plot.x.single == Some(Measure::Run(RunMeasure::Time));
-    let is_count = |formula: &MeasureFormula| formula.is_count;
-    let level = Range {
-        // The whole run, even if the curves begin later or end earlier.
-        span: if is_time {
-            [0.0, scene.simulation.timeline.end() / plot.x.unit_size()]
-        } else {
-            span(curves, 0).unwrap_or([0.0, 1.0])
-        },
-        is_wider: !is_time,
-        is_count: is_count(&plot.x),
+    let scales = scales(scene, plot, values);
+    let drawn = |(panel, axes): &(Panel, Axes)| -> Vec<PlannedCurve> {
+        let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
+        let drawn: &[_] = if plot.kind == PlotKind::Curves { &values.curves } else { &[] };
+        let curve = |(points, color): (&&[CurvePoint], &Color)| PlannedCurve {
+            color: *color,
+            pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
+            points: simplified(clipped(points, place, |part| inside(&panel.area, part))),
+        };
+        drawn.iter().zip(colors).map(curve).collect()
     };
-    let upright = Range {
-        span: plot.range.or_else(|| span(curves, 1)).unwrap_or([0.0, 1.0]),
-        is_wider: plot.range.is_none(),
-        is_count: plot.curves.iter().all(|curve| is_count(&curve.y)),
+    let mut laid_out = Panel::new(plot, &legend, &scales, room);
+    let mut curves = drawn(&laid_out);
+    let names_at_ends = match legend.at_ends {
+        true => laid_out.0.names_at_ends(&names, &ends::heights(&curves)),
+        false => Some(Vec::new()),
     };
-    let (panel, axes) = Panel::new(plot, &legend, &[level, upright], room);
-    let area = panel.area;
-    let place = |at: [f64; 2]| [axes[0].place(at[0]), axes[1].place(at[1])];
-    let planned_curves = curves.iter().zip(&colors).map(|(points, color)| PlannedCurve {
-        color: *color,
-        pale: plot.ahead.then(|| mixed(*color, paper, 0.7)),
-        points: simplified(clipped(points, place, |part| inside(&area, part))),
-    });
+    // Names without room at the ends of the curves stand above the plot.
+    let legend = Legend { at_ends: legend.at_ends && names_at_ends.is_some(), ..legend };
+    if names_at_ends.is_none() {
+        laid_out = Panel::new(plot, &legend, &scales, room);
+        curves = drawn(&laid_out);
+    }
+    let (panel, axes) = laid_out;
+    let mut texts = panel.texts(&axes, &legend, mixed(ink, paper, 0.1));
+    texts.extend(names_at_ends.into_iter().flatten());
     let planned = PlannedPlot {
         name: plot.name.clone(),
         left: panel.left,
@@ -234,11 +302,12 @@ fn plan(
         size: panel.size,
         paper,
         strip: None,
-        lines: panel.lines(&axes, mixed(ink, paper, 0.82), mixed(ink, paper, 0.25)),
-        texts: panel.texts(&axes, &legend, mixed(ink, paper, 0.1)),
-        curves: planned_curves.collect(),
+        lines: panel.lines(&axes, [0.92, 0.82, 0.25].map(|part| mixed(ink, paper, part))),
+        texts,
+        curves,
         dot: DOT * room.line,
     };
+    let area = panel.area;
     (planned, (axes, area))
 }
 
@@ -250,15 +319,6 @@ fn ink_and_paper(dark: bool) -> [Color; 2] {
 /// The position in a panel of a point in its plot, which is given from 0 to 1.
 fn inside(area: &Rectangle, [across, up]: [f64; 2]) -> [f64; 2] {
     [area.left + across * (area.right - area.left), area.bottom + up * (area.top - area.bottom)]
-}
-
-/// The lowest and the highest value of a measure in all curves. `None` if there are none.
-fn span(curves: &[&[CurvePoint]], measure: usize) -> Option<[f64; 2]> {
-    let values = curves.iter().copied().flatten().filter_map(|point| Some(point.at?[measure]));
-    values.fold(None, |span: Option<[f64; 2]>, value| {
-        let [low, high] = span.unwrap_or([value; 2]);
-        Some([low.min(value), high.max(value)])
-    })
 }
 
 /// The unit of all curves. Empty if they differ, or are formulas.

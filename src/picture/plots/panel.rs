@@ -3,7 +3,8 @@
 use super::super::number::with_sign;
 use super::super::occupancy::Rectangle;
 use super::super::text::{Text, Vertical, width};
-use super::axis::{Axis, Range, Tick};
+use super::axis::{Axis, Scale, Tick};
+use super::ends::apart;
 use super::room::Room;
 use super::{Axes, PlotLine};
 use crate::lettering::closed;
@@ -40,6 +41,10 @@ const NAME_ROW: f64 = 1.1;
 /// The distance between two numbers of the horizontal axis, and between two of the vertical one, in lines of text. Numbers of the horizontal axis may be
 /// farther apart, if they are wide.
 const BETWEEN_NUMBERS: [f64; 2] = [2.8, 2.0];
+/// Half of the height of a name at the end of a curve, in lines of text.
+const HALF_OF_NAME: f64 = 0.4;
+/// The smallest distance between two names below bars, in lines of text.
+const BETWEEN_NAMES: f64 = 0.5;
 /// The largest number of intervals between the numbers of the level and of the vertical axis.
 const MAX_INTERVALS: [f64; 2] = [8.0, 6.0];
 
@@ -48,6 +53,10 @@ pub(super) struct Legend<'a> {
     pub(super) title: Option<&'a str>,
     /// The names of the curves, in their colors.
     pub(super) names: &'a [(&'a str, Color)],
+    /// Whether the names of the curves stand at their right ends, and not above the plot.
+    pub(super) at_ends: bool,
+    /// The names below the bars, in their colors. They stand in place of the numbers and the name of the horizontal axis.
+    pub(super) below: &'a [(&'a str, Color)],
     pub(super) x_name: &'a str,
     /// The units of both axes.
     pub(super) units: [&'a str; 2],
@@ -66,6 +75,8 @@ pub(super) struct Panel {
     line: f64,
     /// The height of the row with the name of the horizontal axis. 0 if the name stands beside its numbers.
     name_row: f64,
+    /// The room of each name below a bar.
+    room_of_name: f64,
     /// The position of each name of the legend: from the left, and the number of the row.
     names: Vec<(f64, f64)>,
     /// The distance from the upper edge of the panel to the base line of the first row of the legend.
@@ -74,8 +85,8 @@ pub(super) struct Panel {
 
 impl Panel {
     /// Lays out a plot. If its words need more room than there is, its letters get smaller, and its longest words are cut.
-    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, ranges: &[Range; 2], room: &Room) -> (Panel, Axes) {
-        let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, ranges, room);
+    pub(super) fn new(plot: &Plot, legend: &Legend<'_>, scales: &[Scale; 2], room: &Room) -> (Panel, Axes) {
+        let with = |scale: f64| Panel::with_letters(scale * room.line, plot, legend, scales, room);
         let [usual, smaller @ ..] = LETTERS;
         let (mut panel, mut axes, mut fits) = with(usual);
         for scale in smaller {
@@ -92,23 +103,35 @@ impl Panel {
         line: f64,
         plot: &Plot,
         legend: &Legend<'_>,
-        ranges: &[Range; 2],
+        scales: &[Scale; 2],
         room: &Room,
     ) -> (Panel, Axes, bool) {
         let (wide, most) = (room.panel_width(), room.max_height());
         let (pad, beside_axis) = (PADDING * line, BESIDE_AXIS * line);
         let name_row = if width(legend.x_name, line) > LONG_NAME * wide { NAME_ROW * line } else { 0.0 };
         let title_row = if legend.title.is_some() { TITLE_ROW * line } else { 0.0 };
+        // Names that are too wide to stand beside each other stand in two rows in turn.
+        let room_of_name =
+            (wide - 3.0 * pad - width("0.00", line) - beside_axis) / count_of(legend.below).max(1.0);
+        let widest_name = legend.below.iter().map(|(name, _)| width(name, line)).fold(0.0, f64::max);
+        let in_turn = legend.below.len() > 1 && widest_name + BETWEEN_NAMES * line > room_of_name;
+        let room_of_name = room_of_name * if in_turn { 2.0 } else { 1.0 } - BETWEEN_NAMES * line;
+        let name_row = if in_turn { NAME_ROW * line } else { name_row };
+        let widest_at_end = legend.names.iter().map(|(name, _)| width(name, line)).fold(0.0, f64::max);
+        let beside = if legend.at_ends { widest_at_end + BESIDE_AXIS * line - pad } else { 0.0 };
         let foot = pad + NUMBERS_ROW * line + name_row;
         // The numbers of the vertical axis need its height, which needs the rows of the legend, which need the width of these numbers. Two
         // rounds are enough: the numbers have about the same width with any step.
-        let mut upright = Axis::new(&ranges[1], 1.0);
+        let mut upright = scales[1].axis(1.0);
         let (mut numbers, mut names, mut rows, mut high, mut least) =
             (width("0.00", line), Vec::new(), 0.0, 0.0, 0.0);
         for _ in 0..2 {
             let unit = width(&upright.unit(legend.units[1]), line);
             let begin = (pad + numbers + beside_axis).max(pad + unit + 0.9 * line);
-            (names, rows) = placed(legend, (begin, pad, wide - pad), line);
+            (names, rows) = match legend.at_ends {
+                true => (Vec::new(), 1.0),
+                false => placed(legend, (begin, pad, wide - pad), line),
+            };
             let head = pad + title_row + (ROW * rows + 0.5) * line;
             least = head + foot + MIN_AXIS * line;
             let usual = match plot.place {
@@ -117,12 +140,12 @@ impl Panel {
             };
             high = usual.max(least).min(most.max(head + foot + MIN_AXIS_WITHOUT_ROOM * line));
             let intervals = (high - head - foot) / (BETWEEN_NUMBERS[1] * line);
-            upright = Axis::new(&ranges[1], intervals.clamp(1.0, MAX_INTERVALS[1]));
+            upright = scales[1].axis(intervals.clamp(1.0, MAX_INTERVALS[1]));
             numbers = upright.ticks().iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
         }
         let left = pad + numbers + beside_axis;
-        let across = wide - left - 2.0 * pad;
-        let level = |interval: f64| Axis::new(&ranges[0], (across / interval).clamp(1.0, MAX_INTERVALS[0]));
+        let across = wide - left - 2.0 * pad - beside;
+        let level = |interval: f64| scales[0].axis((across / interval).clamp(1.0, MAX_INTERVALS[0]));
         let narrow = BETWEEN_NUMBERS[0] * line;
         let ticks = level(narrow).ticks();
         let widest = ticks.iter().map(|tick| width(&tick.says, line)).fold(0.0, f64::max);
@@ -130,14 +153,17 @@ impl Panel {
         let legend_begin = pad + title_row + 0.8 * line;
         let area = Rectangle {
             left,
-            right: wide - 2.0 * pad,
+            right: wide - 2.0 * pad - beside,
             bottom: foot,
             top: high - legend_begin - (ROW * (rows - 1.0) + 0.85) * line,
         };
         let (left_edge, bottom) = room.corner_of(plot.place, [wide, high]);
         let words = legend.names.iter().map(|(name, _)| *name).chain([legend.x_name]).chain(legend.title);
         let longest = words.map(|words| width(words, line)).fold(0.0, f64::max);
-        let fits = least <= most && longest <= wide - 2.0 * pad && across > MIN_LEVEL_AXIS * wide;
+        let fits = least <= most
+            && widest_name <= room_of_name
+            && longest <= wide - 2.0 * pad
+            && across > MIN_LEVEL_AXIS * wide;
         let panel = Panel {
             left: left_edge,
             bottom,
@@ -145,28 +171,59 @@ impl Panel {
             area,
             line,
             name_row,
+            room_of_name,
             names,
             legend: legend_begin,
         };
         (panel, [level, upright], fits)
     }
 
-    /// The lines of the grid, then the axes.
-    pub(super) fn lines(&self, axes: &Axes, grid: Color, axis: Color) -> Vec<PlotLine> {
+    /// The faint lines between those of the grid, then the grid, then the axes.
+    pub(super) fn lines(&self, axes: &Axes, [faint, grid, axis]: [Color; 3]) -> Vec<PlotLine> {
         let Rectangle { left, right, bottom, top } = self.area;
-        let across = |tick: Tick| left + tick.at * (right - left);
-        let up = |tick: Tick| bottom + tick.at * (top - bottom);
-        let line =
-            |from, to, is_axis| PlotLine { from, to, color: if is_axis { axis } else { grid }, is_axis };
-        let upright = |x: f64, is_axis| line([x, bottom], [x, top], is_axis);
-        let level = |y: f64, is_axis| line([left, y], [right, y], is_axis);
+        let across = |at: f64| left + at * (right - left);
+        let up = |at: f64| bottom + at * (top - bottom);
+        let line = |from, to, color| PlotLine { from, to, color, is_axis: color == axis };
+        let upright = |x: f64, color| line([x, bottom], [x, top], color);
+        let level = |y: f64, color| line([left, y], [right, y], color);
+        let [x_between, y_between] = axes.each_ref().map(Axis::between);
         let [x_ticks, y_ticks] = axes.each_ref().map(Axis::ticks);
-        let mut lines: Vec<PlotLine> = x_ticks.into_iter().map(|tick| upright(across(tick), false)).collect();
-        let zero = y_ticks.iter().find(|tick| tick.value == 0.0 && tick.at > 1e-9).cloned();
-        lines.extend(y_ticks.into_iter().map(|tick| level(up(tick), false)));
-        lines.extend(zero.map(|tick| level(up(tick), true)));
-        lines.extend([level(bottom, true), upright(left, true)]);
+        let zero = y_ticks.iter().find(|tick| tick.value == 0.0 && tick.at > 1e-9).map(|tick| tick.at);
+        let places = |ticks: Vec<Tick>| ticks.into_iter().map(|tick| tick.at).collect::<Vec<f64>>();
+        let mut lines = Vec::new();
+        for (x, y, color) in [(x_between, y_between, faint), (places(x_ticks), places(y_ticks), grid)] {
+            lines.extend(x.into_iter().map(|at| upright(across(at), color)));
+            lines.extend(y.into_iter().map(|at| level(up(at), color)));
+        }
+        lines.extend(zero.map(|at| level(up(at), axis)));
+        lines.extend([level(bottom, axis), upright(left, axis)]);
         lines
+    }
+
+    /// The names of curves beside their right ends, given the heights of these ends. `None` if they have no room.
+    pub(super) fn names_at_ends(
+        &self,
+        names: &[(&str, Color)],
+        heights: &[Option<f64>],
+    ) -> Option<Vec<Text<'static>>> {
+        if self.area.right - self.area.left < MIN_LEVEL_AXIS * self.size[0] {
+            return None;
+        }
+        let known: Vec<f64> = heights.iter().copied().flatten().collect();
+        let half = HALF_OF_NAME * self.line;
+        let at = apart(&known, self.line, [self.area.bottom + half, self.area.top - half])?;
+        let known = names.iter().zip(heights).filter(|(_, height)| height.is_some());
+        let text = |((name, color), y): (&(&str, Color), f64)| Text {
+            name: "plot",
+            says: (*name).to_owned().into(),
+            x: self.left + self.area.right + BESIDE_AXIS * self.line,
+            y: self.bottom.raised(y - 0.27 * self.line),
+            height: self.line,
+            align: 0.0,
+            color: *color,
+            anchor: None,
+        };
+        Some(known.map(|(name, _)| name).zip(at).map(text).collect())
     }
 
     /// The title, the legend, and the numbers and units of the axes.
@@ -195,7 +252,8 @@ impl Panel {
         if !unit.is_empty() {
             texts.push(text(unit, [pad, row], 0.0, ink));
         }
-        for ((name, color), (x, number)) in legend.names.iter().zip(&self.names) {
+        let above = legend.names.iter().zip(&self.names).filter(|_| !legend.at_ends);
+        for ((name, color), (x, number)) in above {
             let name = cut(name, self.size[0] - pad - x, line);
             texts.push(text(name, [*x, row - ROW * number * line], 0.0, *color));
         }
@@ -205,6 +263,18 @@ impl Panel {
             texts.push(text(says, [left - BESIDE_AXIS * line, y], 1.0, ink));
         }
         let base = bottom - 1.05 * line;
+        let mut middle = 0.5;
+        for (number, (name, color)) in legend.below.iter().enumerate() {
+            let x = left + axes[0].place(middle) * (right - left);
+            let row = if number % 2 == 1 { self.name_row } else { 0.0 };
+            // Beside the edges of the panel, a name has less room.
+            let most = 2.0 * (x - pad).min(self.size[0] - pad - x);
+            texts.push(text(cut(name, self.room_of_name.min(most), line), [x, base - row], 0.5, *color));
+            middle += 1.0;
+        }
+        if !legend.below.is_empty() {
+            return texts;
+        }
         let unit = axes[0].unit(legend.units[0]);
         let name =
             if unit.is_empty() { legend.x_name.to_owned() } else { format!("{} ({unit})", legend.x_name) };
@@ -220,6 +290,11 @@ impl Panel {
         texts.push(text(cut(&name, room, line), [end, base - self.name_row], 1.0, ink));
         texts
     }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "there are few names")]
+fn count_of(names: &[(&str, Color)]) -> f64 {
+    names.len() as f64
 }
 
 /// Places the names of the curves in rows from `begin` to `end`; rows after the first, and a first name without room, start at `margin`.
@@ -266,8 +341,15 @@ mod tests {
     #[test]
     fn names_stand_in_rows_within_the_panel() {
         let names = [("first", Color::WHITE), ("second", Color::WHITE), ("a much longer name", Color::WHITE)];
-        let legend =
-            Legend { title: None, names: &names, x_name: "t", units: ["s", "J"], sign: DecimalSign::Point };
+        let legend = Legend {
+            title: None,
+            names: &names,
+            at_ends: false,
+            below: &[],
+            x_name: "t",
+            units: ["s", "J"],
+            sign: DecimalSign::Point,
+        };
         let (places, rows) = placed(&legend, (1.0, 0.4, 10.0), 1.0);
         assert_eq!(rows, 2.0);
         assert!(places[0] == (1.0, 0.0) && places[1].1 == 0.0 && places[2] == (0.4, 1.0), "{places:?}");

@@ -1,10 +1,11 @@
 //! Finds plots and curves that no picture shows, or not as a whole.
 
 use super::super::occupancy::Rectangle;
+use super::ranges::span;
 use super::{Plots, column};
 use crate::decimal::decimal_step;
-use crate::scene::{Measure, Scene, Subject};
-use crate::simulate::{CurvePoint, Survey};
+use crate::scene::{Measure, PlotKind, Scene, Subject};
+use crate::simulate::{CurvePoint, LeftOut, Survey};
 
 /// A plot without room in the picture, or a curve of which no picture shows a point. The numbers of plots and bodies are their indices in
 /// the scene, those of curves their indices in the plot.
@@ -35,6 +36,15 @@ pub enum UnseenPlot {
         /// A range that contains these values and the given range.
         fit: [f64; 2],
     },
+    /// A logarithmic axis has no place for some values of a curve.
+    NotPositive {
+        /// The plot of the curve.
+        plot: usize,
+        /// The curve.
+        curve: usize,
+        /// How many of its values are left out.
+        left_out: LeftOut,
+    },
     /// A body that a curve names is never there.
     NeverThere {
         /// The plot of the curve.
@@ -61,12 +71,26 @@ impl Plots {
     pub(in super::super) fn unseen(&self, scene: &Scene, survey: &Survey) -> Vec<UnseenPlot> {
         let areas: Vec<Rectangle> = self.areas().collect();
         let mut unseen = Vec::new();
-        let mut points = survey.curves.iter();
+        let mut points = survey.curves.iter().zip(&survey.left_out);
+        let mut spreads = survey.spreads.iter();
         for (plot, planned) in self.planned.iter().take(self.plots.len()).enumerate() {
             unseen.extend(self.without_room(plot, &areas));
-            for (curve, drawn) in planned.curves.iter().enumerate() {
-                let points = points.next().map_or(&[][..], Vec::as_slice);
-                if drawn.points.iter().all(|point| point.at.is_none()) {
+            for curve in 0..self.plots[plot].curves.len() {
+                let Some((points, left_out)) = points.next() else { continue };
+                if matches!(self.plots[plot].kind, PlotKind::Histogram { .. }) {
+                    if spreads.next().is_some_and(|spread| spread.span.is_none()) {
+                        unseen.push(UnseenPlot::Undefined { plot, curve });
+                    }
+                    continue;
+                }
+                if left_out.frames > 0 {
+                    unseen.push(UnseenPlot::NotPositive { plot, curve, left_out: *left_out });
+                    if left_out.frames == left_out.of {
+                        continue;
+                    }
+                }
+                let drawn = planned.curves.get(curve).map_or(&points[..], |drawn| &drawn.points);
+                if drawn.iter().all(|point| point.at.is_none()) {
                     unseen.push(self.without_points(scene, [plot, curve], points));
                 }
             }
@@ -93,7 +117,7 @@ impl Plots {
     /// Returns why no picture shows a point of a curve. `points` are those of the run.
     fn without_points(&self, scene: &Scene, [plot, curve]: [usize; 2], points: &[CurvePoint]) -> UnseenPlot {
         let of_plot = &self.plots[plot];
-        if let (Some(values), Some(range)) = (super::span(&[points], 1), of_plot.range) {
+        if let (Some(values), Some(range)) = (span(&[points], 1), of_plot.range) {
             let (low, high) = (values[0].min(range[0]), values[1].max(range[1]));
             let step = decimal_step(high - low) / 10.0;
             let fit = [libm::floor(low / step + 1e-9) * step, libm::ceil(high / step - 1e-9) * step];

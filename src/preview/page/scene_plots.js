@@ -10,7 +10,10 @@ function shape(name, attributes) {
   return made;
 }
 
-/** Returns an SVG with all plots in a picture `width` pixels wide. `now` has, for each curve, the number of points to draw and its place. */
+/**
+ * Returns an SVG with all plots in a picture `width` pixels wide. `now` has, for each plot, its bars, and for each curve the number of points to
+ * draw and its place.
+ */
 export function scenePlots(plots, now, place, width) {
   const svg = shape("svg", { class: "plots" });
   // The coordinates of the image plane go from -1 to 1 across the picture.
@@ -22,13 +25,19 @@ export function scenePlots(plots, now, place, width) {
     const group = shape("g", { "data-plot": plot.name });
     group.append(shape("rect", { x: left, y: bottom - high, width: wide, height: high, fill: css(plot.paper), "fill-opacity": 0.9 }));
     if (plot.strip) group.append(...strip(plot.strip, `colors-${number}`, at));
-    for (const { from, to, color } of plot.lines) {
+    const rule = ({ from, to, color }) => {
       const [[x1, y1], [x2, y2]] = [at(from), at(to)];
       group.append(shape("line", { x1, y1, x2, y2, stroke: css(color), "stroke-width": Math.max(0.9, pixels(0.0015)) }));
+    };
+    plot.lines.filter((line) => !line.is_axis).forEach(rule);
+    for (const { from, to, color } of now?.[number]?.bars ?? []) {
+      const [[x, bottom], [right, y]] = [at(from), at(to)];
+      group.append(shape("rect", { class: "bar", x, y, width: right - x, height: bottom - y, fill: css(color) }));
     }
+    plot.lines.filter((line) => line.is_axis).forEach(rule);
     const stroke = Math.max(1.5, pixels(0.0064));
     plot.curves.forEach((curve, k) => {
-      const { count, here } = now?.[number]?.[k] ?? { count: 0, here: null };
+      const { count, here } = now?.[number]?.curves[k] ?? { count: 0, here: null };
       const draw = (points, color) => {
         for (const part of parts(points)) {
           const line = { points: part.map((point) => at(point).join()).join(" "), fill: "none", stroke: css(color), "stroke-width": stroke };

@@ -11,6 +11,7 @@ mod words;
 use std::ops::Range;
 
 use self::aggregates::Each;
+pub(super) use self::aggregates::OfEach;
 use super::Context;
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};

@@ -1,19 +1,31 @@
 //! Reads the plots of a scene from `[plot.NAME]`.
 
+use std::sync::Arc;
+
 use super::Context;
 use super::label::{MAX_LENGTH, corner};
-use super::measures::{Reader, Things};
+use super::measures::{OfEach, Reader, Things};
 use super::view::View;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::scene::grammar::labels::plot;
 use crate::scene::grammar::scene::scene;
-use crate::scene::grammar::{Any, Key};
+use crate::scene::grammar::{Any, Key, KeySpec};
 use crate::scene::source::Node;
 use crate::scene::value::Text;
-use crate::scene::{Curve, MeasureFormula, Plot, PlotPlace, PlotSpans};
+use crate::scene::{Curve, MeasureFormula, Plot, PlotKind, PlotPlace, PlotSpans};
 
 /// A text of a plot, with the place where it is written.
 type Written<'a> = (&'a str, Span);
+
+/// What a plot draws, as it is read.
+struct Read<'a> {
+    kind: PlotKind,
+    of: Vec<Written<'a>>,
+    /// The formulas of these texts. `None` for one with a mistake.
+    formulas: Vec<Option<MeasureFormula>>,
+    /// The name of the only thing that is drawn, if its formula is not its name.
+    name: Option<String>,
+}
 
 /// Reads formulas and texts of plots.
 struct Plots<'a, 'b, 'c> {
@@ -39,21 +51,26 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
     fn plot(&mut self, (name, span): (&str, Span), view: &View<'_>) -> Option<(Plot, PlotSpans)> {
         let x_formula = view.get(&plot::X);
         let x = self.formula((x_formula, view.span(&plot::X).unwrap_or(span)));
-        let written = texts(view, &plot::Y);
-        let formulas: Vec<Option<MeasureFormula>> = written.iter().map(|text| self.formula(*text)).collect();
+        self.check_keys((name, span), view);
+        let Read { kind, of: written, formulas, name: own_name } = self.drawn(view);
+        let across = match written.first() {
+            Some((text, span)) if matches!(kind, PlotKind::Histogram { .. }) => (*text, *span),
+            _ => (x_formula, span),
+        };
         let names = texts(view, &plot::NAMES);
         let set_names: Vec<Option<String>> = names.iter().map(|name| self.set(*name)).collect();
         let [title, x_name] =
             [&plot::TITLE, &plot::X_NAME].map(|key| self.set(view.get(key).zip(view.span(key))?));
         if !names.is_empty() && names.len() != written.len() {
+            let noun = kind.noun();
             let counted =
                 |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
             let message = format!(
                 "the plot has {}, and {}",
-                counted(written.len(), "curve"),
+                counted(written.len(), noun),
                 counted(names.len(), "name")
             );
-            self.report(view.span(&plot::NAMES), message, "each curve has one name");
+            self.report(view.span(&plot::NAMES), message, &format!("each {noun} has one name"));
         }
         let range = view.get(&plot::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
         let is_extreme = |[low, high]: [f64; 2]| {
@@ -70,6 +87,11 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                 "this range is empty".to_owned(),
                 "the lower value comes first",
             );
+        }
+        let is_logarithmic = logarithmic(view);
+        if is_logarithmic[1] && range.is_some_and(|[low, _]| low <= 0.0) {
+            let message = "a logarithmic axis has no zero and no negative numbers".to_owned();
+            self.report(view.span(&plot::RANGE), message, "both values must be greater than 0");
         }
         let place = match view.get(&plot::SIDE) {
             Some("left") => PlotPlace::Left,
@@ -96,7 +118,7 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
                 format!("{}{unit}", name.trim())
             });
             let set = set_names.get(number).cloned().flatten();
-            Some(Curve { name: set.or(own)?, y: formula? })
+            Some(Curve { name: set.or(own_name.clone()).or(own)?, y: formula? })
         };
         let curves: Vec<Curve> = formulas.into_iter().enumerate().filter_map(curve).collect();
         let curves_at = written.iter().map(|(_, span)| *span).collect();
@@ -105,27 +127,87 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
             name: name.to_owned(),
             title,
             x: x?,
-            x_name: x_name.unwrap_or_else(|| without_unit(x_formula).to_owned()).trim().to_owned(),
+            x_name: x_name.unwrap_or_else(|| without_unit(across.0).to_owned()).trim().to_owned(),
+            kind,
             curves,
             place,
             width,
             range,
+            is_logarithmic,
+            has_names_at_ends: view.get(&plot::LEGEND) == Plot::PLACES_OF_NAMES[0],
             ahead: view.get(&plot::AHEAD),
         };
         (!plot.curves.is_empty()).then_some((plot, spans))
     }
 
+    /// Reads what a plot draws.
+    fn drawn<'t>(&mut self, view: &View<'t>) -> Read<'t> {
+        if let Some(text) = view.get(&plot::HISTOGRAM).zip(view.span(&plot::HISTOGRAM)) {
+            let read = self.histogram(text);
+            let bodies = read.as_ref().map_or(Arc::default(), |read| read.bodies.clone());
+            let bins = view.get(&plot::BINS).and_then(|bins| u8::try_from(bins).ok());
+            let kind = PlotKind::Histogram { bins: bins.unwrap_or_else(|| usual_bins(bodies.len())), bodies };
+            let (name, formula) = read.map(|read| (read.name, read.formula)).unzip();
+            return Read { kind, of: vec![text], formulas: vec![formula], name };
+        }
+        let (kind, key) = match view.has(&plot::BARS) {
+            true => (PlotKind::Bars, &plot::BARS),
+            false => (PlotKind::Curves, &plot::Y),
+        };
+        let of = texts(view, key);
+        let formulas = of.iter().map(|text| self.formula(*text)).collect();
+        Read { kind, of, formulas, name: None }
+    }
+
+    /// Reports a plot that draws nothing, and the keys that have no meaning for what it draws.
+    fn check_keys(&mut self, (name, span): (&str, Span), view: &View<'_>) {
+        let (has_bars, has_histogram) = (view.has(&plot::BARS), view.has(&plot::HISTOGRAM));
+        if !view.has(&plot::Y) && !has_bars && !has_histogram && !view.has_unknown() {
+            let message = "a plot needs one of `y`, `bars`, `histogram`".to_owned();
+            let error = Diagnostic::error(Code::MissingKey, message);
+            let error = error.at(span, format!("`plot.{name}` says none of them"));
+            self.context.diagnostics.push(error.help("`y = \"ball.speed\"` draws a curve"));
+        }
+        let (drawn, meaningless): (_, &[&KeySpec]) = match (has_histogram, has_bars) {
+            (true, _) => {
+                ("a histogram", &[&plot::X.spec, &plot::LOG.spec, &plot::AHEAD.spec, &plot::LEGEND.spec])
+            }
+            (_, true) => (
+                "bars",
+                &[
+                    &plot::X.spec,
+                    &plot::X_NAME.spec,
+                    &plot::LOG.spec,
+                    &plot::AHEAD.spec,
+                    &plot::LEGEND.spec,
+                    &plot::BINS.spec,
+                ],
+            ),
+            _ => ("curves", &[&plot::BINS.spec]),
+        };
+        for key in meaningless {
+            self.report(view.key_span(key), format!("`{key}` has no meaning for {drawn}"), "leave it out");
+        }
+    }
+
     /// Reads a formula of measures. Reports its mistakes at their source positions.
-    fn formula(&mut self, (text, span): Written<'_>) -> Option<MeasureFormula> {
+    fn formula(&mut self, written: Written<'_>) -> Option<MeasureFormula> {
+        self.is_plain(written).then(|| self.reader(written).formula_with_unit(0..written.0.len()))?
+    }
+
+    /// Reads a formula that has a value for each of several bodies.
+    fn histogram(&mut self, written: Written<'_>) -> Option<OfEach> {
+        self.is_plain(written).then(|| self.reader(written).of_each("histogram", 0..written.0.len()))?
+    }
+
+    /// Returns false and reports an error if a text of a plot cannot be a formula.
+    fn is_plain(&mut self, (text, span): Written<'_>) -> bool {
         if let Some(inner) = text.trim().strip_prefix("${").and_then(|rest| rest.strip_suffix('}')) {
             let error = Diagnostic::error(Code::BadPlot, "a plot takes a formula without `${…}`");
             self.context.diagnostics.push(error.at(span, format!("write `{inner}`")));
-            return None;
+            return false;
         }
-        if self.is_too_long((text, span)) {
-            return None;
-        }
-        self.reader((text, span)).formula_with_unit(0..text.len())
+        !self.is_too_long((text, span))
     }
 
     /// Returns true and reports an error if a text of a plot is too long.
@@ -161,6 +243,26 @@ impl<'b, 'c> Plots<'_, 'b, 'c> {
         let error = Diagnostic::error(Code::BadPlot, message);
         self.context.diagnostics.extend(span.map(|span| error.at(span, label)));
     }
+}
+
+/// Returns whether the horizontal and the vertical axis of a plot are logarithmic.
+fn logarithmic(view: &View<'_>) -> [bool; 2] {
+    let named = |word: &str| Plot::LOGARITHMIC.into_iter().find(|(axes, _)| *axes == word);
+    match view.get_as::<Text>(&plot::LOG).and_then(named) {
+        Some((_, axes)) => axes,
+        None => [false, view.get_as::<bool>(&plot::LOG) == Some(true)],
+    }
+}
+
+/// The usual number of bins of a histogram: the square root of the number of values, so that both the bins and their counts are many.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "it is between 5 and 30"
+)]
+fn usual_bins(values: usize) -> u8 {
+    libm::round((values as f64).sqrt()).clamp(5.0, 30.0) as u8
 }
 
 /// Returns the formula of a text such as `ball.speed:km/h`.

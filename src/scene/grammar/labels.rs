@@ -1,6 +1,6 @@
 //! The grammar of the keys that draw measurements into the image: labels, plots, the scale bar and the grid.
 
-use super::Kind::{Boolean, Choice, Color, Either, List, Named, Number, Reference, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Named, Number, Reference, Table, Text};
 use super::key::table;
 use super::kind::{ANY, POSITIVE};
 use super::{Bound, Collection, KeySpec, Kind, Rule};
@@ -96,27 +96,60 @@ table! {
         .also(&["end", "to", "vanishes", "disappears", "t1"]),
 }
 
+fn logarithmic_axes() -> Vec<&'static str> {
+    Plot::LOGARITHMIC.iter().map(|(axes, _)| *axes).collect()
+}
+
+fn places_of_names() -> Vec<&'static str> {
+    Plot::PLACES_OF_NAMES.to_vec()
+}
+
+static LOG_KINDS: [Kind; 2] = [Boolean, Choice(logarithmic_axes)];
 static TEXTS: [Kind; 2] = [Text, List { of: &Text, min: 1, max: Plot::MAX_CURVES }];
 const NUMBER: Kind = Number(Bound::Any);
 /// A list of two numbers: the ends of a range.
 pub(super) const TWO_NUMBERS: Kind = List { of: &NUMBER, min: 2, max: 2 };
 
 table! {
-    plot: "a plot", Rule::AtMostOne(&[&["corner", "side"]]);
+    plot: "a plot", Rule::AtMostOne(&[&["y", "bars", "histogram"], &["corner", "side"]]);
     Y: Any = KeySpec::new(
         "y",
         Either(&TEXTS),
         "The measures to draw, each a curve: `\"ball.speed\"`, or a formula of measures, or a list of them",
     )
-    .required()
+    .default("none: `bars` or `histogram` stands in its place")
     .also(&["ys", "curves", "series", "values", "of"]),
+    BARS: Any = KeySpec::new(
+        "bars",
+        Either(&TEXTS),
+        "The measures to draw as bars, as high as their values at the moment of the picture",
+    )
+    .default("none: `y` or `histogram` stands in its place")
+    .also(&["bar", "columns", "bar_chart"]),
+    HISTOGRAM: Option<value::Text> = KeySpec::new(
+        "histogram",
+        Text,
+        "The measure of copies whose distribution to draw: how many of them have values within equal ranges at the moment of the picture",
+    )
+    .default("none: `y` or `bars` stands in its place")
+    .also(&["hist", "distribution"]),
+    BINS: Option<i64> = KeySpec::new("bins", Integer(1, Plot::MAX_BINS as i64), "With `histogram`, the number of ranges")
+        .default("the square root of the number of copies, from 5 to 30")
+        .also(&["bin_count", "buckets", "classes"]),
     X: value::Text = KeySpec::new("x", Text, "The measure across: the time, or any other for a phase plot").default_word("t"),
     X_NAME: Option<value::Text> = KeySpec::new("x_name", Text, "The name of the measure across")
         .default("the formula")
         .also(&["xlabel", "x_label"]),
     NAMES: Any = KeySpec::new("names", Either(&TEXTS), "The names of the curves, one for each")
         .default("the formulas")
-        .also(&["name", "labels", "legend"]),
+        .also(&["name", "labels"]),
+    LEGEND: value::Text = KeySpec::new(
+        "legend",
+        Choice(places_of_names),
+        "Where the names of curves stand: above the plot, or at their right ends if there is room for all of them",
+    )
+        .default_word("top")
+        .also(&["key", "legend_position"]),
     TITLE: Option<value::Text> = KeySpec::new("title", Text, "Its title")
         .default("none")
         .also(&["caption", "text"]),
@@ -135,6 +168,9 @@ table! {
     RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The lowest and the highest value of its vertical axis")
         .default("that of the curves")
         .also(&["y_range", "ylim", "limits"]),
+    LOG: Any = KeySpec::new("log", Either(&LOG_KINDS), "Whether the vertical axis is logarithmic, or which axes are; values that are not positive are left out")
+        .default_flag(false)
+        .also(&["logarithmic", "log_scale", "logscale", "scale"]),
     AHEAD: bool = KeySpec::new("ahead", Boolean, "Whether the rest of each curve is drawn, too, in a pale color")
         .default_flag(false)
         .also(&["whole", "future"]),

@@ -490,10 +490,51 @@ gap. A unit stands at an axis if all of its curves are single measures of one un
 body that its formula names, if it names only one. In runs of more than 600 frames, a curve is drawn through the lowest and highest values of neighboring
 frames, so no peak is lost. `output.layout = \"shared\"` writes the curves once for all frames, which saves space in long runs.
 
+```toml
+[body.bob]
+shape.sphere.radius = 0.2
+velocity = [3, 0, 0]
+
+[force.air.drag]
+linear = 0.7
+
+[plot.decay]
+y = \"bob.speed\"
+log = true
+```
+
+`log = true` makes the vertical axis logarithmic: a decay is a straight line. `log = \"x\"` and `log = \"xy\"` do so for the axis across, and for both: a power
+of `x` is a straight line. A logarithmic axis has no place for zero and negative values. There, a curve has a gap, and a warning says how
+many values are left out.
+
+```toml
+[body.atom]
+shape.sphere.radius = 0.1
+velocity = [\"normal(0, 2)\", \"normal(0, 2)\", \"normal(0, 2)\"]
+repeat.grid = { count = [5, 5, 5], spacing = [1, 1, 1] }
+
+[plot.energies]
+bars = [\"kinetic\", \"potential\", \"total\"]
+
+[plot.speeds]
+histogram = \"atom.speed\"
+bins = 12
+side = \"right\"
+```
+
+`bars` draws the values of one moment as bars, with their names below. They begin at zero; negative values go down. `histogram` takes a formula that
+has a value for each of several copies, as inside `sum(…)`. It divides the range from the lowest to the highest value of the run into equal bins, and
+shows how many copies are in each bin at the moment of the picture. A value at the edge of two bins is in the upper one. The axes of both hold for
+the whole run. In a run with more than 2 million values, the axis of a histogram is made from evenly chosen frames.
+
+`legend = \"ends\"` writes the names of curves at their right ends. Names that are too near to each other move apart. If they have no room, they stand
+above the plot, as without the key.
+
 A plot in a corner stands in front of the bodies. Several plots at the same place stand below each other and share the height of the picture.
 If words have too little room, the letters get smaller, and the longest words are cut. A plot that leaves the picture or covers another one
 gets a warning, and so does a curve of which no picture shows a point. Beside a plot at a side, a camera that the scene neither places nor moves shows the bodies in the
-rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the whole plot for paper.
+rest of the picture. `jabuka export SCENE --plot NAME -o FILE.svg` draws the whole plot for paper; FILE.png and FILE.pdf do so, too. Bars are
+those of the last moment.
 ";
 
 /// The documentation page under construction.

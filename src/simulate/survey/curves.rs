@@ -14,8 +14,18 @@ const MAX_GROUPS: usize = 600;
 pub struct CurvePoint {
     /// The time of the frame, s.
     pub time: f64,
-    /// The two measures. `None` where they have no finite value, such as the speed of an absent body: the curve has a gap there.
+    /// The two measures. `None` where they have no finite value, such as the speed of an absent body, or no place on a logarithmic axis: the
+    /// curve has a gap there.
     pub at: Option<[f64; 2]>,
+}
+
+/// The values of a curve that are left out because a logarithmic axis has no place for them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The number of frames at which a value is not positive.
+    pub frames: usize,
+    /// The number of frames at which the values are finite.
+    pub of: usize,
 }
 
 /// Collects the curves of all plots.
@@ -26,36 +36,44 @@ pub(super) struct Curves<'a> {
     stride: usize,
     /// The curves of all plots, in their order.
     curves: Vec<Thinned>,
+    left_out: Vec<LeftOut>,
 }
 
 impl<'a> Curves<'a> {
     pub(super) fn new(scene: &'a Scene) -> Curves<'a> {
         let plots = &scene.plots;
+        let count = plots.iter().map(|plot| plot.curves.len()).sum();
         Curves {
             plots,
             measures: Measures::new(scene),
             stride: scene.simulation.timeline.frames().div_ceil(MAX_GROUPS).max(1),
-            curves: vec![Thinned::default(); plots.iter().map(|plot| plot.curves.len()).sum()],
+            curves: vec![Thinned::default(); count],
+            left_out: vec![LeftOut::default(); count],
         }
     }
 
     /// Adds the points of the next frame.
     pub(super) fn see(&mut self, frame: &Frame) {
         let moment = MomentState::now(frame);
-        let mut curves = self.curves.iter_mut();
+        let mut curves = self.curves.iter_mut().zip(&mut self.left_out);
         for plot in self.plots {
             let x = self.measures.value(&plot.x, &moment);
-            for (curve, points) in plot.curves.iter().zip(&mut curves) {
+            // The start of the run has no place on a logarithmic axis of the time. No curve misses it.
+            let is_counted = x > 0.0 || !(plot.is_logarithmic[0] && plot.is_over_time());
+            for (curve, (points, left_out)) in plot.curves.iter().zip(&mut curves) {
                 let at = [x, self.measures.value(&curve.y, &moment)];
-                let at = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
+                let known = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
+                let at = known.filter(|at| plot.has_place(*at));
+                left_out.of += usize::from(known.is_some() && is_counted);
+                left_out.frames += usize::from(known.is_some() && at.is_none() && is_counted);
                 points.add(CurvePoint { time: frame.time, at }, self.stride);
             }
         }
     }
 
-    /// Returns the points of each curve of all plots.
-    pub(super) fn finish(self) -> Vec<Vec<CurvePoint>> {
-        self.curves.into_iter().map(Thinned::finish).collect()
+    /// Returns the points of each curve of all plots, and how many of its values are left out.
+    pub(super) fn finish(self) -> (Vec<Vec<CurvePoint>>, Vec<LeftOut>) {
+        (self.curves.into_iter().map(Thinned::finish).collect(), self.left_out)
     }
 }
 

@@ -6,6 +6,29 @@ in_the_browser! { Scene::gallery("damped_oscillator"), "plots.mjs":
     the_plots_of_a_scene_are_drawn_as_far_as_time_has_come,
 }
 
+const BARS: &str = r#"
+    simulation = { duration = 2, frame_rate = 50 }
+    output.size = [640, 360]
+    [body.ball]
+    shape.sphere.radius = 0.1
+    motion.formula.location = ["t", "-t/2", "0"]
+    [body.copy]
+    shape.sphere.radius = 0.1
+    location = ["i", 0, 0]
+    repeat = 12
+    [plot.now]
+    bars = ["ball.x", "ball.y"]
+    side = "right"
+    [plot.spread]
+    histogram = "copy.x"
+    bins = 3
+    side = "right"
+    "#;
+
+in_the_browser! { Scene::of(BARS), "plots.mjs":
+    bars_are_as_high_as_the_values_of_the_moment,
+}
+
 const LETTERS: &str = r#"
     simulation.duration = 1
     output = { size = [640, 360], decimal = "," }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Reader;
 use super::dotted::dotted_at;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::scene::{Aggregate, Aggregation, Measure};
+use crate::scene::{Aggregate, Aggregation, Measure, MeasureFormula};
 
 /// The bodies of the aggregate that is being read.
 pub(super) struct Each {
@@ -13,6 +13,15 @@ pub(super) struct Each {
     function: &'static str,
     /// The name that means all of them, such as `gas` or `brick[*,0]`. `None` before the first name is read.
     name: Option<String>,
+}
+
+/// A formula that has a value for each of several bodies.
+pub(in crate::scene::check) struct OfEach {
+    /// The name that means all of the bodies, such as `gas`.
+    pub(in crate::scene::check) name: String,
+    /// The indices of the bodies in the scene, in ascending order.
+    pub(in crate::scene::check) bodies: Arc<[usize]>,
+    pub(in crate::scene::check) formula: MeasureFormula,
 }
 
 /// A call of a function with the name of an aggregation: byte ranges in a formula.
@@ -42,7 +51,7 @@ impl Reader<'_, '_, '_> {
             if !self.names_several(&inside) {
                 // The functions `max` and `min` also take ordinary numbers.
                 if matches!(how, Aggregation::Sum | Aggregation::Mean) {
-                    self.report_single(how, &inside, start + begin..start + open - 1, start + open);
+                    self.report_single(how.name(), &inside, start + begin..start + open - 1, start + open);
                     return None;
                 }
                 continue;
@@ -70,22 +79,48 @@ impl Reader<'_, '_, '_> {
         inner: &[(String, Measure)],
     ) -> Option<usize> {
         let used = inner.iter().filter(|(name, _)| inside.contains(name.as_str())).cloned().collect();
-        self.each = Some(Each { function: how.name(), name: None });
+        let outer = self.each.replace(Each { function: how.name(), name: None });
         let formula = self.plain_formula(inside, start, used);
-        let each = self.each.take();
-        let formula = formula?;
-        let Some(name) = each.and_then(|each| each.name) else {
+        let each = std::mem::replace(&mut self.each, outer);
+        let (formula, Some(name)) = (formula?, each.and_then(|each| each.name)) else {
             // The name of copies stood where another name is meant, such as that of a force.
-            self.report_single(how, "", start..start + inside.len(), start);
+            self.report_single(how.name(), "", start..start + inside.len(), start);
             return None;
         };
-        let numbers = &self.context.names.bodies;
-        let copies = self.context.groups.several(&name)?;
-        let mut bodies: Vec<usize> = copies.filter_map(|copy| numbers.get(&**copy).copied()).collect();
-        bodies.sort_unstable();
-        let bodies: Arc<[usize]> = bodies.into();
+        let bodies = self.bodies_of(&name)?;
         self.context.aggregates.push(Aggregate { how, bodies, formula });
         Some(self.context.aggregates.len() - 1)
+    }
+
+    /// Reads a formula that has a value for each of several bodies, with an optional unit, such as `gas.speed:km/h`.
+    /// `function` is what takes the formula, for messages.
+    pub(in crate::scene::check) fn of_each(
+        &mut self,
+        function: &'static str,
+        range: std::ops::Range<usize>,
+    ) -> Option<OfEach> {
+        let text = &self.text[range.clone()];
+        if !self.names_several(text) {
+            self.report_single(function, text, range.clone(), range.start);
+            return None;
+        }
+        self.each = Some(Each { function, name: None });
+        let formula = self.formula_with_unit(range.clone());
+        let each = self.each.take();
+        let (formula, Some(name)) = (formula?, each.and_then(|each| each.name)) else {
+            self.report_single(function, "", range.clone(), range.start);
+            return None;
+        };
+        Some(OfEach { bodies: self.bodies_of(&name)?, name, formula })
+    }
+
+    /// Returns the indices of the copies that a name means, in ascending order.
+    fn bodies_of(&self, name: &str) -> Option<Arc<[usize]>> {
+        let numbers = &self.context.names.bodies;
+        let copies = self.context.groups.several(name)?;
+        let mut bodies: Vec<usize> = copies.filter_map(|copy| numbers.get(&**copy).copied()).collect();
+        bodies.sort_unstable();
+        Some(bodies.into())
     }
 
     /// Returns whether a name means each body of the aggregate that is being read. Reports a name of other bodies than those named
@@ -124,14 +159,8 @@ impl Reader<'_, '_, '_> {
         })
     }
 
-    /// Reports a sum or a mean that names no repeated body.
-    fn report_single(
-        &mut self,
-        how: Aggregation,
-        inside: &str,
-        function: std::ops::Range<usize>,
-        start: usize,
-    ) {
+    /// Reports a sum, a mean or a histogram that names no repeated body.
+    fn report_single(&mut self, function: &str, inside: &str, place: std::ops::Range<usize>, start: usize) {
         // A wrong name is the more likely mistake.
         for (at, _) in inside.match_indices('.') {
             let Some(dotted) = dotted_at(inside, at) else { continue };
@@ -144,11 +173,14 @@ impl Reader<'_, '_, '_> {
                 return;
             }
         }
-        let message = format!("`{}` is over the copies of a body", how.name());
-        let help =
-            format!("`repeat` makes copies of a body; of those of `gas`, it is `{}(gas.speed)`", how.name());
+        let message = format!("`{function}` is over the copies of a body");
+        let example = match function {
+            "histogram" => "histogram = \"gas.speed\"".to_owned(),
+            function => format!("{function}(gas.speed)"),
+        };
+        let help = format!("`repeat` makes copies of a body; of those of `gas`, it is `{example}`");
         let error = Diagnostic::error(Code::LabelSyntax, message).help(help);
-        self.report(error, function, "names no body with copies");
+        self.report(error, place, "names no body with copies");
     }
 
     /// Returns a name of this length for formulas that is no variable of the scene.
