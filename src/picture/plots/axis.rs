@@ -127,7 +127,7 @@ impl Axis {
         let [low, high] = if is_flat { [low / 10.0, high * 10.0] } else { [low, high] };
         if high < NARROW * low {
             let even = Axis::new(&Range { span: [low, high], ..*range }, count);
-            if even.low > 0.0 {
+            if even.low > 0.0 && even.ticks().len() > 1 {
                 return Axis { is_logarithmic: true, ..even };
             }
         }

@@ -29,15 +29,15 @@ impl Decades {
         if decades * (1.0 - 1e-9) <= count * BETWEEN_DIGITS {
             return (Decades::Digits, [low, high]);
         }
-        let step = STEPS.into_iter().find(|step| decades <= count * f64::from(*step));
-        let step = step.unwrap_or(STEPS[STEPS.len() - 1]);
-        let powers = Decades::Powers(step);
-        // A single number tells nothing about the others.
-        match powers.values([low, high]).len() {
-            0 | 1 if is_wider => (powers, between_powers([low, high], step)),
-            0 | 1 => (Decades::Digits, [low, high]),
-            _ => (powers, [low, high]),
+        let fits = |step: &i32| decades <= count * f64::from(*step);
+        let number = STEPS.iter().position(fits).unwrap_or(STEPS.len() - 1);
+        if is_wider && Decades::Powers(STEPS[number]).values([low, high]).len() < 2 {
+            return (Decades::Powers(STEPS[number]), between_powers([low, high], STEPS[number]));
         }
+        // A single number tells nothing about the others.
+        let mut powers = STEPS[..=number].iter().rev().map(|step| Decades::Powers(*step));
+        let several = powers.find(|powers| powers.values([low, high]).len() > 1);
+        (several.unwrap_or(Decades::Digits), [low, high])
     }
 
     /// Returns the numbers within a range, each with the letters that stand beside the axis.

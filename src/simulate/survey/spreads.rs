@@ -58,7 +58,7 @@ impl Spread {
             self.span = Some([low.min(*value), high.max(*value)]);
         }
         // The frame before is only kept if it is one of the chosen ones.
-        if frame > 0 && (frame - 1) % stride != 0 {
+        if frame > 0 && !(frame - 1).is_multiple_of(stride) {
             self.frames.pop();
         }
         self.frames.push(values);

@@ -19,7 +19,11 @@ fn of_kind(kind: &Kind, node: &Node, document: &Document) -> Vec<String> {
     let text = node.as_str();
     let quoted = |text: &str| serde_json::to_string(text).unwrap();
     match kind {
-        Kind::Text => vec![quoted(&format!("{} too", text.unwrap_or_default()))],
+        Kind::Text => {
+            // Some texts are formulas.
+            let text = text.unwrap_or_default();
+            vec![quoted(&format!("{text} too")), quoted(&format!("({text}) + 1"))]
+        }
         Kind::Sdl(_) => vec![quoted(&format!("{}\n// This is a comment.", text.unwrap_or_default()))],
         Kind::Identifier => vec![quoted("Another")],
         Kind::Include => vec![quoted("metals.inc"), quoted("woods.inc")],
