@@ -1,7 +1,5 @@
 //! Colors that follow a quantity, such as the speed of each body.
 
-use colorgrad::Gradient;
-
 use super::{Color, Corner, MeasureFormula};
 
 /// A color map: it gives each body of its materials a color by the value of a quantity of this body.
@@ -38,78 +36,119 @@ impl ColorMap {
     }
 }
 
-/// The sequence of colors of a color map.
+/// The sequence of colors of a color map: colors at equal distances, at least two. Between them, colors are mixed.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Palette {
-    /// A palette with a name, by its index in [`Palette::NAMED`].
-    Named(usize),
-    /// The colors between these, at least two, evenly spaced.
-    Between(Vec<Color>),
-}
+pub struct Palette(Vec<Color>);
 
-/// Makes the gradient of a named palette.
-type Preset = fn() -> Box<dyn Gradient>;
+/// The name, the colors as `0xrrggbb`, and the meaning of a palette.
+type NamedPalette = (&'static str, &'static [u32], &'static str);
 
 impl Palette {
-    /// The name, the gradient and the meaning of each named palette.
-    pub const NAMED: [(&'static str, Preset, &'static str); 9] = [
-        ("viridis", || Box::new(colorgrad::preset::viridis()), "From violet over green to yellow"),
-        ("plasma", || Box::new(colorgrad::preset::plasma()), "From blue over red to yellow"),
-        ("inferno", || Box::new(colorgrad::preset::inferno()), "From black over red to pale yellow"),
-        ("magma", || Box::new(colorgrad::preset::magma()), "From black over violet to pale rose"),
+    /// All named palettes. Sources: viridis, plasma, inferno and magma by S. van der Walt & N. Smith (2015), cividis by J. Nuñez et al., PLoS ONE
+    /// 13 (2018) e0199239, turbo by A. Mikhailov (2019), each 17th part as in matplotlib, where colors between differ by less than 0.05;
+    /// the others by C. Brewer, colorbrewer2.org.
+    pub const NAMED: [NamedPalette; 9] = [
+        (
+            "viridis",
+            &[
+                0x44_01_54, 0x48_18_6a, 0x47_2d_7b, 0x42_40_86, 0x3b_52_8b, 0x33_63_8d, 0x2c_72_8e,
+                0x26_82_8e, 0x21_91_8c, 0x1f_a0_88, 0x28_ae_80, 0x3f_bc_73, 0x5e_c9_62, 0x84_d4_4b,
+                0xad_dc_30, 0xd8_e2_19, 0xfd_e7_25,
+            ],
+            "From violet over green to yellow",
+        ),
+        (
+            "plasma",
+            &[
+                0x0d_08_87, 0x31_05_97, 0x4c_02_a1, 0x66_00_a7, 0x7e_03_a8, 0x95_11_a1, 0xaa_23_95,
+                0xbc_35_87, 0xcc_47_78, 0xda_5a_6a, 0xe6_6c_5c, 0xf0_80_4e, 0xf8_95_40, 0xfd_ac_33,
+                0xfd_c5_27, 0xf8_df_25, 0xf0_f9_21,
+            ],
+            "From blue over red to yellow",
+        ),
+        (
+            "inferno",
+            &[
+                0x00_00_04, 0x0b_07_24, 0x21_0c_4a, 0x3d_09_65, 0x57_10_6e, 0x71_19_6e, 0x8a_22_6a,
+                0xa3_2c_61, 0xbc_37_54, 0xd2_46_44, 0xe4_5a_31, 0xf1_73_1d, 0xf9_8e_09, 0xfc_ac_11,
+                0xf9_cb_35, 0xf2_ea_69, 0xfc_ff_a4,
+            ],
+            "From black over red to pale yellow",
+        ),
+        (
+            "magma",
+            &[
+                0x00_00_04, 0x0a_08_22, 0x1d_11_47, 0x36_10_6b, 0x51_12_7c, 0x6a_1c_81, 0x83_26_81,
+                0x9c_2e_7f, 0xb7_37_79, 0xd0_41_6f, 0xe7_52_63, 0xf5_6b_5c, 0xfc_89_61, 0xfe_a7_72,
+                0xfe_c4_88, 0xfd_e2_a3, 0xfc_fd_bf,
+            ],
+            "From black over violet to pale rose",
+        ),
         (
             "cividis",
-            || Box::new(colorgrad::preset::cividis()),
+            &[
+                0x00_22_4e, 0x00_2e_6a, 0x1a_38_6f, 0x32_43_6d, 0x43_4e_6c, 0x53_5a_6d, 0x61_65_6f,
+                0x6f_70_73, 0x7d_7c_78, 0x8c_88_78, 0x9b_94_76, 0xab_a0_72, 0xbc_ae_6c, 0xcd_bb_63,
+                0xde_c9_58, 0xf0_d8_46, 0xfe_e8_38,
+            ],
             "From blue to yellow, the same for any color vision",
         ),
-        ("turbo", || Box::new(colorgrad::preset::turbo()), "A rainbow; not perceptually uniform"),
-        ("blues", || Box::new(colorgrad::preset::blues()), "From white to blue"),
+        (
+            "turbo",
+            &[
+                0x30_12_3b, 0x40_40_a2, 0x46_6b_e3, 0x42_94_ff, 0x28_bc_eb, 0x18_dd_c2, 0x32_f2_98,
+                0x6d_fe_62, 0xa4_fc_3c, 0xcd_ec_34, 0xee_cf_3a, 0xfd_ac_34, 0xfb_7e_21, 0xeb_50_0e,
+                0xd0_2f_05, 0xa9_16_01, 0x7a_04_03,
+            ],
+            "A rainbow; not perceptually uniform",
+        ),
+        (
+            "blues",
+            &[
+                0xf7_fb_ff, 0xde_eb_f7, 0xc6_db_ef, 0x9e_ca_e1, 0x6b_ae_d6, 0x42_92_c6, 0x21_71_b5,
+                0x08_51_9c, 0x08_30_6b,
+            ],
+            "From white to blue",
+        ),
         (
             "red-blue",
-            || Box::new(colorgrad::preset::rd_bu()),
+            &[
+                0x67_00_1f, 0xb2_18_2b, 0xd6_60_4d, 0xf4_a5_82, 0xfd_db_c7, 0xf7_f7_f7, 0xd1_e5_f0,
+                0x92_c5_de, 0x43_93_c3, 0x21_66_ac, 0x05_30_61,
+            ],
             "From red over white to blue, for values around a middle",
         ),
         (
             "spectral",
-            || Box::new(colorgrad::preset::spectral()),
+            &[
+                0x9e_01_42, 0xd5_3e_4f, 0xf4_6d_43, 0xfd_ae_61, 0xfe_e0_8b, 0xff_ff_bf, 0xe6_f5_98,
+                0xab_dd_a4, 0x66_c2_a5, 0x32_88_bd, 0x5e_4f_a2,
+            ],
             "From red over yellow to blue, for values around a middle",
         ),
     ];
 
     /// Returns the palette with this name. `None` for an unknown name.
     pub fn named(name: &str) -> Option<Palette> {
-        Palette::NAMED.iter().position(|(known, ..)| *known == name).map(Palette::Named)
+        let (_, colors, _) = Palette::NAMED.iter().find(|(known, ..)| *known == name)?;
+        Some(Palette(colors.iter().map(|code| Color::from_code(*code)).collect()))
     }
 
-    /// Returns the color at a position from 0 for the first color to 1 for the last one.
-    #[allow(clippy::cast_possible_truncation, reason = "a color has fewer digits")]
-    fn at(&self, gradient: Option<&dyn Gradient>, part: f64) -> Color {
-        match (self, gradient) {
-            (Palette::Between(colors), _) => between(colors, part),
-            (Palette::Named(_), Some(gradient)) => {
-                let color = gradient.at(part as f32);
-                // Three decimals are finer than a screen's 256 levels.
-                let level = |part: f32| (f64::from(part.clamp(0.0, 1.0)) * 1000.0).round() / 1000.0;
-                Color([color.r, color.g, color.b].map(level))
-            }
-            (Palette::Named(_), None) => ColorMap::UNDEFINED,
-        }
+    /// Returns the palette through these colors. `None` for fewer than two.
+    pub fn through(colors: Vec<Color>) -> Option<Palette> {
+        (colors.len() >= 2).then_some(Palette(colors))
     }
 
-    /// Returns this many colors of the palette, from the first to the last.
+    /// Returns this many colors of the palette, at least two, from the first to the last.
     #[allow(clippy::cast_precision_loss, reason = "there are few colors")]
     pub fn colors(&self, count: usize) -> Vec<Color> {
-        let gradient = match self {
-            Palette::Named(number) => Palette::NAMED.get(*number).map(|(_, gradient, _)| gradient()),
-            Palette::Between(_) => None,
-        };
         let last = (count.max(2) - 1) as f64;
-        (0..count).map(|number| self.at(gradient.as_deref(), number as f64 / last)).collect()
+        (0..count).map(|number| between(&self.0, number as f64 / last)).collect()
     }
 
     /// Returns the color in the middle.
     pub fn middle(&self) -> Color {
-        self.colors(3)[1]
+        between(&self.0, 0.5)
     }
 }
 
@@ -128,7 +167,7 @@ fn between(colors: &[Color], part: f64) -> Color {
 mod tests {
     use super::*;
 
-    /// The first and the last color of viridis. Source: matplotlib, `_cm_listed.py`.
+    /// Three colors of viridis. Source: matplotlib, `_cm_listed.py`.
     #[test]
     fn viridis_is_that_of_matplotlib() {
         let colors = Palette::named("viridis").unwrap().colors(ColorMap::COLORS);
@@ -155,7 +194,7 @@ mod tests {
     #[test]
     fn colors_of_a_list_are_at_equal_distances() {
         let [black, red] = ["black", "red"].map(|name| Color::parse(name).unwrap());
-        let colors = Palette::Between(vec![black, red, Color::WHITE]).colors(5);
+        let colors = Palette::through(vec![black, red, Color::WHITE]).unwrap().colors(5);
         assert_eq!(colors, [black, Color([0.5, 0.0, 0.0]), red, Color([1.0, 0.5, 0.5]), Color::WHITE]);
     }
 }

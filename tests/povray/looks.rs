@@ -112,7 +112,7 @@ fn colors_follow_values() {
          [body.slow]\nlocation = [-1.2, 0.5, 0]\nmaterial = 'hot'\n\
          [body.fast]\nlocation = [1.2, 0.5, 0]\nvelocity = [0, 0, 10]\nmaterial = 'hot'\n\
          [material.hot]\nfinish = 'luminous'\ncolor.map = {{ of = 'speed', title = 'v' }}\n\
-         [body.tinted]\nlocation = [0, 2.2, 0]\nmaterial = {{ like = 'striped', color.map = {{ of = 'y', palette = ['blue', 'red'], range = [0, 1], bar = false }} }}\n{}",
+         [body.tinted]\nlocation = [0, 1.4, 0]\nshape.sphere.radius = 0.4\nmaterial = {{ like = 'striped', color.map = {{ of = 'y', palette = ['blue', 'red'], range = [0, 1], bar = false }} }}\n{}",
         front().toml()
     );
     let image = render(&script(&text), SIZE);
@@ -124,8 +124,8 @@ fn colors_follow_values() {
     let (slow, fast) = ([0.267, 0.005, 0.329], [0.993, 0.906, 0.144]);
     assert!(near(at(-1.2, 0.5), slow), "{:?}", at(-1.2, 0.5));
     assert!(near(at(1.2, 0.5), fast), "{:?}", at(1.2, 0.5));
-    assert!((0..20).any(|k| is_red(at(0.0, 1.5 + 0.07 * f64::from(k)))), "a red stripe");
-    assert!((0..20).all(|k| !is_blue(at(0.0, 1.5 + 0.07 * f64::from(k)))), "no blue stripe");
+    assert!((0..20).any(|k| is_red(at(0.0, 1.1 + 0.03 * f64::from(k)))), "a red stripe");
+    assert!((0..20).all(|k| !is_blue(at(0.0, 1.1 + 0.03 * f64::from(k)))), "no blue stripe");
     let [width, height] = SIZE.map(f64::from);
     let pixels = |known: [f64; 3]| {
         let corner =

@@ -183,10 +183,9 @@ impl Plots {
                 PlotKind::Bars => {
                     plot.curves.iter().map(|bar| self.measures.value(&bar.y, &moment)).collect()
                 }
-                PlotKind::Histogram { bodies, .. } => plot
-                    .curves
-                    .first()
-                    .map_or(Vec::new(), |curve| self.measures.of_present(&curve.y, bodies, &moment).collect()),
+                PlotKind::Histogram { bodies, .. } => plot.curves.first().map_or(Vec::new(), |curve| {
+                    self.measures.of_present(&curve.y, bodies, &moment).collect()
+                }),
             };
             let bars = drawn_bars(&plot.kind, &values, colors, (axes, area));
             let x = self.measures.value(&plot.x, &moment);

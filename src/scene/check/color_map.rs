@@ -42,17 +42,15 @@ pub(super) fn of_color(material: &View<'_>, context: &mut Context<'_>) -> Option
     let map = material.variant(&material::COLOR)?.variant(&mapped_color::MAP)?;
     let written = |key| Some((map.get::<Option<Text>>(key)?.to_owned(), map.span(key)?));
     let of = written(&color_map::OF)?;
+    // A wrong palette has been reported. The rest of the map is read as if it were the usual one.
     let palette = match map.get_as::<Text>(&color_map::PALETTE) {
-        Some(name) => Palette::named(name)?,
+        Some(name) => Palette::named(name),
         None => {
-            let nodes = map.list(&color_map::PALETTE)?;
-            let colors: Vec<Color> = nodes.iter().filter_map(|node| read::color(node).ok()).collect();
-            if colors.len() < 2 {
-                return None;
-            }
-            Palette::Between(colors)
+            let nodes = map.list(&color_map::PALETTE).unwrap_or_default();
+            Palette::through(nodes.iter().filter_map(|node| read::color(node).ok()).collect())
         }
     };
+    let palette = palette.or_else(|| Palette::named("viridis"))?;
     let range = map.get(&color_map::RANGE).and_then(|range| <[f64; 2]>::try_from(range).ok());
     if range.is_some_and(|[low, high]| low >= high) {
         let error = Diagnostic::error(Code::BadColorMap, "this range is empty");

@@ -63,6 +63,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
             "plot",
             "angle",
             "distance",
+            "field",
             "scale_bar",
             "grid",
             "povray",
