@@ -42,6 +42,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         plots: _,
         angles: _,
         distances: _,
+        areas: _,
         fields: _,
         arrow_marks: _,
         aggregates: _,

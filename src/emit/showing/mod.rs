@@ -38,6 +38,8 @@ pub(super) struct Showing {
 pub(super) struct NeededMacros {
     /// True if bodies or joints have arrows.
     arrows: bool,
+    /// True if the pictures contain areas.
+    areas: bool,
     /// True if springs are drawn as coils.
     coils: bool,
     /// True if the pictures contain texts.
@@ -58,6 +60,7 @@ impl NeededMacros {
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
+            areas: !scene.areas.is_empty(),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             plots: !scene.plots.is_empty() || has_color_bars,

@@ -4,6 +4,7 @@
 //! lists: scripts, page, room for texts. A new kind of mark is one file here, and a line in [`Marks::new`].
 
 mod angle;
+mod area;
 mod arrow;
 mod distance;
 mod field;
@@ -67,7 +68,8 @@ impl Marks {
         (camera, view): (&Placed, f64),
         ink: Color,
     ) -> Marks {
-        let mut marks: Vec<Arc<dyn Mark>> = field::marks(scene, camera, view);
+        let mut marks: Vec<Arc<dyn Mark>> = area::marks(scene);
+        marks.extend(field::marks(scene, camera, view));
         marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
         Marks { marks }

@@ -4,7 +4,7 @@
 //! that no peak is lost, even one of a single frame.
 
 use crate::scene::{Plot, Scene};
-use crate::simulate::{Frame, Measures, MomentState};
+use crate::simulate::{Measures, MomentState};
 
 /// The number of groups of frames. A run with at most this many frames keeps all points.
 const MAX_GROUPS: usize = 600;
@@ -40,15 +40,14 @@ impl<'a> Curves<'a> {
     }
 
     /// Adds the points of the next frame.
-    pub(super) fn see(&mut self, frame: &Frame) {
-        let moment = MomentState::now(frame);
+    pub(super) fn see(&mut self, moment: &MomentState<'_>) {
         let mut curves = self.curves.iter_mut();
         for plot in self.plots {
-            let x = self.measures.value(&plot.x, &moment);
+            let x = self.measures.value(&plot.x, moment);
             for (curve, points) in plot.curves.iter().zip(&mut curves) {
-                let at = [x, self.measures.value(&curve.y, &moment)];
+                let at = [x, self.measures.value(&curve.y, moment)];
                 let at = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
-                points.add(CurvePoint { time: frame.time, at }, self.stride);
+                points.add(CurvePoint { time: moment.time(), at }, self.stride);
             }
         }
     }
