@@ -90,7 +90,7 @@ pub(super) fn motion(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<(DVec3, 
 }
 
 /// The position of an anchor, m. `None` while its body is absent.
-pub fn place(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<DVec3> {
+pub(crate) fn place(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<DVec3> {
     let Some(id) = anchor.body() else { return Some(anchor.place(|_| (DVec3::ZERO, DQuat::IDENTITY))) };
     let body = find(bodies, id.index())?;
     Some(anchor.place(|_| (body.location, body.orientation)))

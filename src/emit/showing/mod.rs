@@ -56,11 +56,12 @@ impl NeededMacros {
     pub(super) fn of(scene: &Scene) -> NeededMacros {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
+        let has_surface = |kind: &ForceKind| matches!(kind, ForceKind::Buoyancy { surface: Some(_), .. });
         let has_color_bars = scene.color_maps.iter().any(|map| map.bar.is_some());
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some)),
-            areas: !scene.areas.is_empty(),
+            areas: !scene.areas.is_empty() || scene.forces.iter().any(|force| has_surface(&force.kind)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             plots: !scene.plots.is_empty() || has_color_bars,

@@ -8,6 +8,7 @@ mod area;
 mod arrow;
 mod distance;
 mod field;
+mod liquid;
 mod note;
 
 use std::fmt::Debug;
@@ -68,7 +69,8 @@ impl Marks {
         (camera, view): (&Placed, f64),
         ink: Color,
     ) -> Marks {
-        let mut marks: Vec<Arc<dyn Mark>> = area::marks(scene);
+        let mut marks: Vec<Arc<dyn Mark>> = liquid::marks(scene, camera, view);
+        marks.extend(area::marks(scene));
         marks.extend(field::marks(scene, camera, view));
         marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
