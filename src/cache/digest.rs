@@ -42,6 +42,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         plots: _,
         angles: _,
         distances: _,
+        areas: _,
         fields: _,
         arrow_marks: _,
         aggregates: _,
@@ -88,6 +89,7 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
     for Force { name: _, kind, emitters: _ } in forces {
         match kind {
             ForceKind::Spring { links, look: _ } => writeln!(text, "{links:?}")?,
+            ForceKind::Buoyancy { liquid, surface: _ } => writeln!(text, "{liquid:?}")?,
             kind => writeln!(text, "{kind:?}")?,
         }
     }

@@ -22,6 +22,11 @@ impl Style {
         number::write(out, metres / self.unit, self.digits);
     }
 
+    /// Appends a number as it is.
+    pub(super) fn number(&self, out: &mut String, value: f64) {
+        number::write(out, value, self.digits);
+    }
+
     /// Appends a point in POV-Ray units: `<24, 17.99, 0>`.
     pub(super) fn point(&self, out: &mut String, metres: DVec3) {
         self.vector(out, metres / self.unit);

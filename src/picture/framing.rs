@@ -25,15 +25,16 @@ const LONG: f64 = 2.0 / 3.0;
 const CLEAR: f64 = 1.5;
 
 /// Chooses the direction from the middle of the motion towards a camera without a given position. The camera faces the plane of the
-/// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. If the ground has numbers, the camera
+/// motion: usually from the front, along x for motion in y and z, from above for motion in x and z. It also faces a
+/// coordinate plane with numbers. If the ground has numbers, the camera
 /// is somewhat higher. For a long lane or road with small bodies, it is low.
 pub(super) fn towards_camera(moving: Bounds, sight: Sight) -> DVec3 {
     let extent = moving.max - moving.min;
-    let from_the_side = extent.z > 2.0 * extent.x;
+    let from_the_side = sight.along_x.unwrap_or(extent.z > 2.0 * extent.x);
     let (across, depth) = if from_the_side { (extent.z, extent.x) } else { (extent.x, extent.z) };
     let is_flat = depth > 1.5 * extent.y && depth > (0.25 * across).min(4.0 * extent.y);
     let above = match (is_flat, sight) {
-        (true, Sight { reads_ground: false, on_ground: Some(width) }) if depth < LONG * across => {
+        (true, Sight { reads_ground: false, on_ground: Some(width), .. }) if depth < LONG * across => {
             (CLEAR * width / depth).clamp(LOW_ABOVE, HIGH_ABOVE)
         }
         (true, _) => HIGH_ABOVE,
@@ -306,7 +307,7 @@ mod tests {
             assert_eq!(towards(size), front, "{size:?}");
         }
         let cube = Bounds { min: DVec3::ZERO, max: DVec3::ONE };
-        let numbers = Sight { reads_ground: true, on_ground: None };
+        let numbers = Sight { reads_ground: true, ..Sight::default() };
         assert_eq!(towards_camera(cube, numbers).to_array(), [ASIDE, ABOVE_GRID, FRONT]);
         assert_eq!(towards([4.0, 0.2, 4.0]), [ASIDE, HIGH_ABOVE, FRONT]);
         assert_eq!(towards([10.0, 0.2, 1.5]), [ASIDE, HIGH_ABOVE, FRONT]);
@@ -319,7 +320,7 @@ mod tests {
     fn the_camera_is_low_above_a_lane_with_small_bodies() {
         let above = |size: [f64; 3], width: f64| {
             let half = DVec3::from_array(size) / 2.0;
-            let sight = Sight { reads_ground: false, on_ground: Some(width) };
+            let sight = Sight { on_ground: Some(width), ..Sight::default() };
             towards_camera(Bounds { min: -half, max: half }, sight).y
         };
         assert_eq!(above([10.0, 0.4, 3.0], 0.1), LOW_ABOVE);

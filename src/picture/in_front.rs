@@ -61,6 +61,27 @@ impl Planes {
     }
 }
 
+impl Planes {
+    /// Moves an area that lies in one of the planes towards the camera, to a height of `room` (m). Otherwise, it would be seen in part only, by
+    /// rounding errors.
+    pub(super) fn lift_area(&self, points: &mut [DVec3], room: f64, camera: &Placed) {
+        for (point, normal) in &self.planes {
+            let above = |place: &DVec3| (*place - *point).dot(*normal);
+            let eye = above(&camera.location());
+            if eye <= room || points.iter().any(|point| above(point).abs() >= room) {
+                continue;
+            }
+            for point in &mut *points {
+                let way = match camera.lens() {
+                    Lens::Perspective { .. } => camera.location() - *point,
+                    Lens::Orthographic { .. } => camera.towards(*point),
+                };
+                *point += way * ((room - above(point)) / way.dot(*normal));
+            }
+        }
+    }
+}
+
 /// Moves an arrow in front of a spring or joint if the arrow is inside it.
 pub(super) fn lift_from_link(arrow: &mut Arrow, link: &Form, camera: &Placed) {
     let reach = link.reach() + HEAD * arrow.radius;

@@ -228,6 +228,28 @@ fn an_upright_grid_ends_at_the_ground_and_one_on_the_ground_lies_on_the_edges_of
     assert!(fine.stage().ground.unwrap().tile >= 0.5);
 }
 
+/// A grid in a coordinate plane lies in it, although the motion does not, and the camera faces it. Its axes have their names.
+#[test]
+fn a_coordinate_plane_passes_through_the_origin() {
+    let ball = "[environment]\nground = false\n[body.ball]\nshape.sphere.radius = 0.5\nlocation = [3, 2, 4]\nvelocity = [5, 4, 3]\n";
+    for (name, normal, titles) in [
+        ("xy", DVec3::Z, ["x (m)", "y (m)"]),
+        ("xz", DVec3::Y, ["x (m)", "z (m)"]),
+        ("yz", DVec3::X, ["z (m)", "y (m)"]),
+    ] {
+        let (scene, plan) = plan(&format!("{ball}[grid]\nplane = '{name}'"));
+        let frame = frames(&scene).next().unwrap();
+        let lines = plan.grid(&frame).unwrap().lines().to_vec();
+        assert!(lines.len() > 6 && lines.iter().all(|line| line.from.dot(normal) == 0.0), "{lines:?}");
+        let texts = plan.texts(&frame);
+        for title in titles {
+            assert!(texts.iter().any(|text| text.says == title), "{name}: {title} is not in {texts:?}");
+        }
+        let view = (plan.placed().location() - plan.placed().look_at()).normalize();
+        assert!(view.dot(normal).abs() > 0.25, "{name}: {view}");
+    }
+}
+
 #[test]
 fn a_grid_reaches_as_far_as_the_springs() {
     let text = "[body.bob]\nshape.sphere.radius = 0.1\nlocation = [1, 0, 0]\n[grid]\nplane = 'wall'\n\

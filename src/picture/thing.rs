@@ -1,6 +1,6 @@
 //! The kinds of things that are drawn beside the bodies.
 //!
-//! Springs, joints, arrows, axes, the grid, angles and dimension lines all become lists of things. Everything that draws (scripts, the
+//! Springs, joints, arrows, axes, the grid, angles, dimension lines and areas all become lists of things. Everything that draws (scripts, the
 //! page of the preview, models) knows these kinds only. A new drawing is a new list of things.
 
 use std::borrow::Cow;
@@ -77,6 +77,15 @@ pub enum Form {
         /// The length of each axis.
         length: f64,
     },
+    /// A thin translucent area, seen from both sides, which casts no shadow: triangles from the first point to each two neighboring others.
+    Area {
+        /// The points.
+        points: Vec<DVec3>,
+        /// The part of the light from behind that the area stops.
+        opacity: f64,
+        /// True for the surface of a liquid, which reflects a little. Other areas shine.
+        is_liquid: bool,
+    },
     /// Thin straight lines, which shine and cast no shadow: the lines of a grid, an arc, a dimension line.
     Lines {
         /// The lines.
@@ -140,7 +149,11 @@ impl Form {
         let points: &[DVec3] = match self {
             Form::Coil { ends, .. } | Form::Rod { ends, .. } => ends,
             Form::Rope { points, .. } => points,
-            Form::Ball { .. } | Form::Arrow { .. } | Form::Axes { .. } | Form::Lines { .. } => &[],
+            Form::Ball { .. }
+            | Form::Arrow { .. }
+            | Form::Axes { .. }
+            | Form::Area { .. }
+            | Form::Lines { .. } => &[],
         };
         points.windows(2).map(|pair| [pair[0], pair[1]])
     }
@@ -156,6 +169,7 @@ impl Form {
                 let arms = DMat3::from_quat(*orientation).to_cols_array_2d().map(DVec3::from_array);
                 arms.map(|arm| ([*location, *location + arm * *length * 1.1], 0.1 * length)).to_vec()
             }
+            Form::Area { .. } => Vec::new(),
             Form::Lines { lines } => {
                 lines.iter().map(|line| ([line.from, line.to], 2.0 * line.radius)).collect()
             }
@@ -170,7 +184,7 @@ impl Form {
             | Form::Rod { radius, .. }
             | Form::Rope { radius, .. }
             | Form::Arrow { radius, .. } => *radius,
-            Form::Axes { .. } | Form::Lines { .. } => 0.0,
+            Form::Axes { .. } | Form::Area { .. } | Form::Lines { .. } => 0.0,
         }
     }
 }

@@ -12,11 +12,6 @@ use crate::simulate::{Frame, TrailPath, TrailPoint};
 
 /// The default color of a trail if the body has no single color.
 const AMBER: Color = Color([0.93, 0.55, 0.08]);
-/// The largest angle between successive pieces of a trail, rad.
-const BEND: f64 = 0.06;
-/// The largest number of straight pieces between two points of the path.
-const MOST_PIECES: f64 = 16.0;
-
 /// The width of a trail, relative to the smallest visible distance. A trail is some pixels wide.
 const FINEST: f64 = 50.0;
 /// The number of pieces in a stretch. A piece connects the points of two stored frames.
@@ -267,8 +262,7 @@ fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
     };
     for pair in path.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);
-        let bend = from.velocity.angle_between(to.velocity);
-        let pieces = if bend.is_finite() { (bend / BEND).ceil().clamp(1.0, MOST_PIECES) } else { 1.0 };
+        let pieces = from.pieces_towards(to);
         let mut piece = 1.0;
         while piece <= pieces {
             put(from.towards(to, from.time + (to.time - from.time) * piece / pieces));

@@ -15,7 +15,7 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::physics::PairCounter;
 use crate::picture::Plan;
 use crate::simulate::{
-    Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, Survey,
+    Bounds, Counts, Frame, Frames, Ghost, Lagging, Moments, Recorded, Recorder, Recording, Sector, Survey,
 };
 use crate::{Run, Scene};
 
@@ -36,13 +36,15 @@ pub(super) struct PreviewRun {
     outcome: OnceLock<Result<Outcome, Report>>,
 }
 
-/// The earlier states of a run that later frames show: ghosts, and the positions of lagging cameras. It also holds the box around the
+/// The earlier states of a run that later frames show: ghosts, swept areas, and the positions of lagging cameras. It also holds the box around the
 /// motion.
 #[derive(Default)]
 struct PastOfRun {
     ghosts: Vec<Arc<Ghost>>,
     /// The positions of the lagging cameras in each frame. Empty if no camera lags behind its body.
     lagging: Vec<Vec<Lagging>>,
+    /// The complete sectors of each swept area.
+    areas: Vec<Vec<Arc<Sector>>>,
     bounds: Option<Bounds>,
 }
 
@@ -149,7 +151,7 @@ impl PreviewRun {
         }
     }
 
-    /// Reads a recorded frame, with the ghosts and lagging cameras that it shows.
+    /// Reads a recorded frame, with the ghosts, swept areas and lagging cameras that it shows.
     pub(super) fn frame(&self, index: usize) -> io::Result<Frame> {
         let mut frame = self.recording().read().seen(index)?;
         let past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
@@ -157,6 +159,9 @@ impl PreviewRun {
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < frame.time - slack;
         frame.past.ghosts = past.ghosts.iter().filter(is_past).cloned().collect();
         frame.past.lagging = past.lagging.get(index).cloned().unwrap_or_default();
+        let is_complete = |sector: &&Arc<Sector>| sector.until <= frame.time + slack;
+        let complete = |all: &Vec<Arc<Sector>>| all.iter().filter(is_complete).cloned().collect();
+        frame.past.areas = past.areas.iter().map(complete).collect();
         Ok(frame)
     }
 
@@ -232,13 +237,14 @@ impl PreviewRun {
         Ok(recorded)
     }
 
-    /// Collects the ghosts and lagging cameras of all frames, if the scene has any.
+    /// Collects the ghosts, swept areas and lagging cameras of all frames, if the scene has any.
     fn remember(&self, recorded: &Recorded<'_>) -> Result<(), Report> {
         let mut collected = PastOfRun { bounds: recorded.survey().bounds(), ..PastOfRun::default() };
         if Frames::recorded(&self.scene, recorded.recording()).remember_anything() {
             for frame in recorded.frames() {
                 let frame = frame.map_err(|error| error.report())?;
                 collected.ghosts = frame.past.ghosts;
+                collected.areas = frame.past.areas;
                 if !frame.past.lagging.is_empty() {
                     collected.lagging.push(frame.past.lagging);
                 }

@@ -87,8 +87,8 @@ fn of_force(scene: &Scene, force: &ForceKind) -> OutsideInfluence {
         ForceKind::Drag(drag) => when(acts(&drag.bodies), OutsideInfluence::BOTH),
         ForceKind::Lorentz(lorentz) => when(acts(&lorentz.bodies), OutsideInfluence::BOTH),
         ForceKind::Formula { bodies, .. } => when(acts(bodies), OutsideInfluence::BOTH),
-        ForceKind::Buoyancy(buoyancy) => {
-            when(buoyancy.bodies.iter().any(|(id, _)| is_moved(scene, *id)), OutsideInfluence::BOTH)
+        ForceKind::Buoyancy { liquid, .. } => {
+            when(liquid.bodies.iter().any(|(id, _)| is_moved(scene, *id)), OutsideInfluence::BOTH)
         }
         ForceKind::Gravitation(gravitation) => between(&gravitation.bodies, &gravitation.against),
         ForceKind::Coulomb(coulomb) => between(&coulomb.bodies, &coulomb.against),

@@ -31,6 +31,9 @@ impl Color {
         Color([0.55, 0.34, 0.16]),
     ];
 
+    /// The color of water.
+    pub const OF_WATER: Color = Color([0.16, 0.48, 0.68]);
+
     /// Parses a color: `#rrggbb`, `#rgb`, or a CSS name in uppercase or lowercase letters. `None` for other texts.
     pub fn parse(text: &str) -> Option<Color> {
         if let Some(&(_, code)) = NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)) {

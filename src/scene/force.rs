@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::SpringLook;
 use super::law::FormulaLaw;
+use super::{Color, SpringLook};
 use crate::physics::{
     Anchor, BodyId, Buoyancy, ConstantForce, Coulomb, Dipoles, Drag, Gravitation, J2, LennardJones, Lorentz,
     Spring,
@@ -43,7 +43,12 @@ pub enum ForceKind {
     /// The Lennard-Jones force between neutral atoms, for all pairs closer than the cutoff distance.
     LennardJones(LennardJones),
     /// Buoyancy in a liquid.
-    Buoyancy(Buoyancy),
+    Buoyancy {
+        /// The liquid, and the bodies in it.
+        liquid: Buoyancy,
+        /// The color of its surface. `None` if the surface is not drawn.
+        surface: Option<Color>,
+    },
     /// The forces and torques between magnetic dipoles.
     Dipoles(Dipoles),
     /// The gravity of an oblate planet (the J₂ term).
@@ -72,7 +77,7 @@ impl ForceKind {
             | ForceKind::Coulomb(Coulomb { bodies, against, .. })
             | ForceKind::LennardJones(LennardJones { bodies, against, .. })
             | ForceKind::Dipoles(Dipoles { bodies, against, .. }) => both(bodies, against),
-            ForceKind::Buoyancy(buoyancy) => buoyancy.bodies.iter().map(|(body, _)| *body).collect(),
+            ForceKind::Buoyancy { liquid, .. } => liquid.bodies.iter().map(|(body, _)| *body).collect(),
             ForceKind::J2(J2 { planet, bodies, .. }) => both(bodies, &Some(vec![*planet])),
             ForceKind::Spring { links, .. } => {
                 links.iter().flat_map(|link| link.between).filter_map(Anchor::body).collect()

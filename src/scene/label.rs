@@ -169,17 +169,32 @@ pub enum GridPlane {
     Ground,
     /// A vertical plane behind the motion.
     Wall,
+    /// The plane z = 0.
+    Xy,
+    /// The plane y = 0.
+    Xz,
+    /// The plane x = 0.
+    Yz,
 }
 
 impl GridPlane {
     /// All planes of grids.
-    pub const ALL: [GridPlane; 2] = [GridPlane::Ground, GridPlane::Wall];
+    pub const ALL: [GridPlane; 5] =
+        [GridPlane::Ground, GridPlane::Wall, GridPlane::Xy, GridPlane::Xz, GridPlane::Yz];
 
     /// Returns the name of the plane in scenes.
     pub fn name(self) -> &'static str {
         match self {
             GridPlane::Ground => "ground",
             GridPlane::Wall => "wall",
+            GridPlane::Xy => "xy",
+            GridPlane::Xz => "xz",
+            GridPlane::Yz => "yz",
         }
+    }
+
+    /// Returns whether the plane is level, so that it is seen from above.
+    pub fn is_level(self) -> bool {
+        matches!(self, GridPlane::Ground | GridPlane::Xz)
     }
 }

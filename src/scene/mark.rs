@@ -1,4 +1,4 @@
-//! The marks of a scene: angles, dimension lines, and the texts and components of arrows.
+//! The marks of a scene: angles, dimension lines, swept areas, and the texts and components of arrows.
 
 use glam::DVec3;
 
@@ -58,6 +58,36 @@ pub struct Distance {
     pub text: Option<Vec<Piece>>,
     /// The color of the line and its text. `None` for the color of texts.
     pub color: Option<Color>,
+}
+
+/// The areas that the line from a center to a body sweeps, drawn as sectors.
+#[derive(Clone, Debug)]
+pub struct Area {
+    /// The name of the area, unique among areas.
+    pub name: String,
+    /// The body, as an index in the scene.
+    pub body: usize,
+    /// The center. The path of the body is that relative to the center.
+    pub center: Anchor,
+    /// The time at which the first sector begins, s.
+    pub from: f64,
+    /// The time that the line needs for a sector, s.
+    pub every: f64,
+    /// The time at which the last sector ends at the latest, s.
+    pub until: f64,
+    /// The color of the sectors. `None` for a color of the palette of curves.
+    pub color: Option<Color>,
+}
+
+impl Area {
+    /// The largest number of sectors.
+    pub const MAX_SECTORS: f64 = 1000.0;
+
+    /// The times (s) at which a sector begins and ends. The first sector has the number 0.
+    #[allow(clippy::cast_precision_loss, reason = "there are few sectors")]
+    pub fn times(&self, number: usize) -> [f64; 2] {
+        [number, number + 1].map(|end| self.from + end as f64 * self.every)
+    }
 }
 
 /// What is drawn with an arrow: a text at its tip, and its components.

@@ -127,7 +127,7 @@ pub use look::{
     Blur, Camera, CameraMotion, DecimalSign, Environment, Finish, Follow, Ground, Include, Layout, Light,
     LightKind, Look, Material, Output, OwnTemplate, PovRay, Projection, Shutter, Sky, View,
 };
-pub use mark::{Angle, ArrowMark, ArrowOwner, Components, Distance, Leg};
+pub use mark::{Angle, Area, ArrowMark, ArrowOwner, Components, Distance, Leg};
 pub use measure::{
     Aggregate, Aggregation, AskedUnit, BodyMeasure, ForceMeasure, JointMeasure, JointState, ListedMeasure,
     Measure, MeasureFormula, RunMeasure, Subject,
@@ -194,6 +194,8 @@ pub struct Scene {
     pub angles: Vec<Angle>,
     /// The dimension lines in the picture, in the order of the file.
     pub distances: Vec<Distance>,
+    /// The swept areas in the picture, in the order of the file.
+    pub areas: Vec<Area>,
     /// The drawings of fields, in the order of the file.
     pub fields: Vec<DrawnField>,
     /// The texts and components of arrows: first those of bodies, then those of joints.

@@ -81,8 +81,16 @@ impl DistanceNow {
     }
 }
 
+/// The position (m) and the velocity (m/s) of an anchor. `None` while its body is absent.
+pub(super) fn motion(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<(DVec3, DVec3)> {
+    match anchor {
+        Anchor::Point(point) => Some((point, DVec3::ZERO)),
+        Anchor::Body { id, at } => Some(find(bodies, id.index())?.point(at)),
+    }
+}
+
 /// The position of an anchor, m. `None` while its body is absent.
-fn place(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<DVec3> {
+pub(crate) fn place(anchor: Anchor, bodies: &[BodySnapshot]) -> Option<DVec3> {
     let Some(id) = anchor.body() else { return Some(anchor.place(|_| (DVec3::ZERO, DQuat::IDENTITY))) };
     let body = find(bodies, id.index())?;
     Some(anchor.place(|_| (body.location, body.orientation)))

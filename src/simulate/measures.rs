@@ -13,7 +13,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::build::forces;
-use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, shown};
+use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, Sector, shown};
 use crate::physics::{
     Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
     find,
@@ -35,6 +35,8 @@ pub struct MomentState<'a> {
     angles: &'a [f64],
     /// The numbers of impacts up to the moment. `None` for a ghost.
     impacts: Option<&'a ImpactCounts>,
+    /// The complete sectors of each swept area. Empty for a ghost.
+    areas: &'a [Vec<Arc<Sector>>],
     computed: Computed,
 }
 
@@ -60,8 +62,19 @@ impl<'a> MomentState<'a> {
             reactions: &frame.reactions,
             angles: &frame.angles,
             impacts: Some(&frame.impacts),
+            areas: &frame.past.areas,
             computed: Computed::default(),
         }
+    }
+
+    /// Returns the moment of a frame without a past, with these complete sectors of each swept area.
+    pub(super) fn with_areas(frame: &'a Frame, areas: &'a [Vec<Arc<Sector>>]) -> MomentState<'a> {
+        MomentState { areas, ..MomentState::now(frame) }
+    }
+
+    /// The time of the moment, s.
+    pub(super) fn time(&self) -> f64 {
+        self.time
     }
 
     /// Returns the moment of a ghost, at which only the values of its body are known.
@@ -74,6 +87,7 @@ impl<'a> MomentState<'a> {
             reactions: &[],
             angles: &[],
             impacts: None,
+            areas: &[],
             computed: Computed::default(),
         }
     }
@@ -199,6 +213,10 @@ impl Measures {
             }
             Measure::Length(number) => {
                 DistanceNow::of(&self.distances[number], moment.bodies).map_or(f64::NAN, |now| now.value)
+            }
+            Measure::Area(number) => {
+                let last = moment.areas.get(number).and_then(|sectors| sectors.last());
+                last.map_or(f64::NAN, |sector| sector.area)
             }
             Measure::Aggregate(number) => self.aggregate(number, moment),
             // An aggregate asks for the measures of one body after the other.

@@ -85,6 +85,7 @@ mod reach;
 mod record;
 mod recording;
 mod requested_sizes;
+mod sectors;
 mod selection;
 mod simulation;
 mod snapshots;
@@ -114,6 +115,7 @@ pub use frames::{Frames, within};
 pub use impacts::ImpactCounts;
 pub use lag::Lagging;
 pub use loads::{Load, loads, loads_on};
+pub(crate) use marks::place;
 pub use marks::{AngleNow, DistanceNow};
 pub use measures::{Measures, MomentState};
 pub use moments::Moments;
@@ -127,6 +129,7 @@ pub use recording::{Counts, MemoryStore, Reader, Recording, Store};
 pub use requested_sizes::{
     RequestedArrow, RequestedGhosts, RequestedSizes, RequestedSlider, RequestedSpring, RequestedTrail,
 };
+pub use sectors::Sector;
 pub use selection::Selection;
 pub use snapshots::Snapshots;
 pub use span::{Bounds, Span};

@@ -294,7 +294,7 @@ pub(super) fn field(scene: &Scene, force: &Force, radius: f64) -> Option<Field> 
                 Arc::new(LennardJones { bodies, against: Some(against), epsilon, sigma, cutoff, smooth })
             })
         }
-        ForceKind::Buoyancy(Buoyancy { density, level, gravity, .. }) => {
+        ForceKind::Buoyancy { liquid: Buoyancy { density, level, gravity, .. }, .. } => {
             let (density, level, gravity) = (*density, *level, *gravity);
             Field::new(move |bodies| {
                 let balls = bodies.into_iter().map(|body| (body, Shape::Sphere { radius })).collect();

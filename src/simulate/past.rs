@@ -1,6 +1,6 @@
-//! The earlier positions of bodies, for trails and ghosts.
+//! The earlier positions of bodies, for trails, ghosts and swept areas.
 //!
-//! Only bodies with trails or ghosts have a past. Memory is bounded: a trail has some hundred points and the corners between them, and the
+//! Only bodies with trails, ghosts or swept areas have a past. Memory is bounded: a trail has some hundred points and the corners between them, and the
 //! scene's check limits the number of ghosts. The past of a frame depends on its time alone, and not on the frames that are drawn.
 
 mod corners;
@@ -12,11 +12,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+pub(super) use trail_path::BEND;
 pub use trail_path::{TrailPath, TrailPoint};
 
 use self::trail_path::{cut, stride, thin};
+use super::sectors::Sweeps;
 use super::simulation::Entry;
-use super::{Frame, Lagging};
+use super::{Frame, Lagging, Sector};
 use crate::physics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
 use crate::scene::{Scene, Showing, Timeline, Trail};
 
@@ -29,6 +31,8 @@ pub struct Past {
     pub ghosts: Vec<Arc<Ghost>>,
     /// The points that cameras with a lag look at.
     pub lagging: Vec<Lagging>,
+    /// The complete sectors of each swept area, in order of time.
+    pub areas: Vec<Vec<Arc<Sector>>>,
 }
 
 /// A copy of a body at an earlier time, for drawing.
@@ -59,6 +63,7 @@ pub(super) struct History {
     is_away: Vec<bool>,
     ghosts: Vec<Arc<Ghost>>,
     lagging: Vec<Lagging>,
+    sweeps: Sweeps,
     timeline: Timeline,
 }
 
@@ -88,13 +93,14 @@ impl History {
             requests,
             ghosts: Vec::new(),
             lagging: Lagging::of(scene),
+            sweeps: Sweeps::new(scene),
             timeline: scene.simulation.timeline,
         }
     }
 
-    /// True if the scene needs no trails, ghosts or delayed camera targets.
+    /// True if the scene needs no trails, ghosts, delayed camera targets or swept areas.
     pub(super) fn is_idle(&self) -> bool {
-        self.requests.is_empty() && self.lagging.is_empty()
+        self.requests.is_empty() && self.lagging.is_empty() && self.sweeps.complete().is_empty()
     }
 
     /// Stores the ghosts at a moment, and the impacts since the moment before.
@@ -133,6 +139,7 @@ impl History {
     /// Updates the trails and delayed camera targets with a frame.
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
+        self.sweeps.note(frame);
         for number in 0..self.requests.len() {
             let (body, showing) = &self.requests[number];
             let Some(trail) = showing.trail else { continue };
@@ -199,6 +206,8 @@ impl History {
         let slack = self.timeline.slack();
         let is_past = |ghost: &&Arc<Ghost>| ghost.time < moment.time - slack;
         let ghosts = self.ghosts.iter().filter(is_past).cloned().collect();
-        Past { trails, ghosts, lagging }
+        let mut sweeps = self.sweeps.clone();
+        sweeps.note(moment);
+        Past { trails, ghosts, lagging, areas: sweeps.into_complete() }
     }
 }

@@ -25,9 +25,10 @@ pub use stretched::StretchedJoint;
 use super::overlap::{Overlap, Watch};
 use super::particles::Clouds;
 use super::requested_sizes::RequestedSizes;
+use super::sectors::Sweeps;
 use super::span::{JointArrow, Spans};
 use super::vectors::JointEnd;
-use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, SimulateError, Span, world};
+use super::{Bounds, EnergyError, EnergyScale, Frame, Frames, MomentState, SimulateError, Span, world};
 use crate::physics::{BodySnapshot, LawResidual};
 use crate::scene::{Arrow, Joint, Quantity, Scene};
 
@@ -149,6 +150,7 @@ pub struct Surveyor<'a> {
     gaps: Gaps,
     /// The largest energy error so far.
     error: EnergyError,
+    sweeps: Sweeps,
     curves: Curves<'a>,
     color_ranges: ColorRanges<'a>,
     spreads: Spreads<'a>,
@@ -186,6 +188,7 @@ impl<'a> Surveyor<'a> {
             laws: Vec::new(),
             gaps: Gaps::new(scene),
             error: EnergyError::default(),
+            sweeps: Sweeps::new(scene),
             curves: Curves::new(scene),
             color_ranges: ColorRanges::new(scene),
             spreads: Spreads::new(scene),
@@ -246,9 +249,11 @@ impl<'a> Surveyor<'a> {
         }
         self.laws.clone_from(&frame.laws);
         self.error.add(&frame.balance);
-        self.curves.see(frame);
-        self.color_ranges.see(frame);
-        self.spreads.see(frame);
+        self.sweeps.note(frame);
+        let moment = MomentState::with_areas(frame, self.sweeps.complete());
+        self.curves.see(&moment);
+        self.color_ranges.see(&moment);
+        self.spreads.see(&moment, frame.index);
     }
 
     /// Returns the survey after the last frame.

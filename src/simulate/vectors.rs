@@ -95,7 +95,8 @@ pub(crate) fn anchors(scene: &Scene) -> impl Iterator<Item = DVec3> {
     });
     let angles = scene.angles.iter().map(|angle| angle.vertex);
     let distances = scene.distances.iter().flat_map(|distance| distance.between);
-    let marks = angles.chain(distances);
+    let areas = scene.areas.iter().map(|area| area.center);
+    let marks = angles.chain(distances).chain(areas);
     links.flatten().flat_map(|link| link.between).chain(joints).chain(marks).filter_map(|end| match end {
         Anchor::Point(point) => Some(point),
         Anchor::Body { .. } => None,

@@ -499,3 +499,52 @@ fn texts_are_as_wide_as_pov_ray_sets_them() {
         assert!((-0.01..0.25).contains(&spaces), "{text}: {measured}, and {spaces} more by the font");
     }
 }
+
+/// Sectors have their color from both sides: before black, 0.7 of its light, and every second one 0.35 of it. They leave the rest free.
+#[test]
+fn sectors_stand_between_the_center_and_the_path() {
+    let scene = |z: f64| {
+        let camera = Pinhole::new([0.0, 0.0, z], [0.0, 0.0, 0.0]);
+        let text = format!(
+            "[simulation]\nduration = 2\n[body.ball]\nshape.sphere.radius = 0.1\nlocation = [-2, 1, 0]\nvelocity = [2, 0, 0]\n\
+             [area.a]\nbody = 'ball'\ncenter = [0, -1, 0]\nevery = 1\ncolor = 'red'\n{DARK}{}",
+            camera.toml()
+        );
+        (script_of(&text, 50), camera)
+    };
+    let [front, behind] = [10.0, -10.0].map(scene);
+    let images = render_all([front.0, behind.0], SIZE);
+    for (image, camera) in images.iter().zip([front.1, behind.1]) {
+        let at = |x: f64, y: f64| image.at(camera.sees(DVec3::new(x, y, 0.0)));
+        for (x, part) in [(-0.6, 0.7), (0.6, 0.35)] {
+            let expected = 255.0 * (1.055 * libm::pow(part, 1.0 / 2.4) - 0.055);
+            let [red, green, blue] = at(x, 0.6);
+            assert!((f64::from(red) - expected).abs() < 4.0 && green.max(blue) < 4, "{x}: {red}");
+        }
+        for (x, y) in [(-1.8, -0.5), (1.8, -0.5), (0.0, 1.3), (0.0, -1.3)] {
+            assert!(at(x, y)[0] < 4, "{x} {y}: {:?}", at(x, y));
+        }
+    }
+}
+
+/// The surface of water is seen from above, and what is below shows through it. It is blue, not black, and ends at its level.
+#[test]
+fn water_is_transparent_and_has_its_color() {
+    let camera = Pinhole::new([0.0, 5.0, 8.0], [0.0, 0.0, 0.0]);
+    let image = |surface: &str| {
+        let text = format!(
+            "simulation = {{ duration = 0, gravity = [0, -10, 0] }}\nenvironment.ground.height = -1\n\
+             [body.ball]\nshape.sphere.radius = 0.5\nmass = 1\nlocation = [0, -0.5, 0]\n\
+             material = {{ color = 'red', finish = 'luminous' }}\n\
+             [force.water.buoyancy]\ndensity = 1000\nlevel = 0.2\non = ['ball']\n{surface}\n{}",
+            camera.toml()
+        );
+        render(&script(&text), SIZE)
+    };
+    let (with, without) = (image("surface = true"), image(""));
+    let ball = camera.sees(DVec3::new(0.0, -0.3, 0.0));
+    let ([red, _, blue], [bare, ..]) = (with.at(ball), without.at(ball));
+    assert!((60..bare - 20).contains(&red) && blue > 40, "{red} of {bare}, {blue}");
+    let water = with.at(camera.sees(DVec3::new(2.0, 0.2, 0.5)));
+    assert!(water[2] > water[0].saturating_add(20) && water[2] > 90, "{water:?}");
+}

@@ -60,6 +60,10 @@ const SCENE: &str = "
     [distance.h]
     between = [[0, 0, 0], 'ball']
     along = [0, 1, 0]
+    [area.a]
+    body = 'ball'
+    center = [0, 0, 0]
+    every = 0.13
     ";
 
 /// Returns the names of all measures of the scene: those of the list of all measures, with names of the scene's things in it. So a measure
@@ -79,6 +83,7 @@ fn names(scene: &Scene) -> Vec<String> {
         }
         let name = name.replace("force.NAME.BODY", "force.air.gas[1]").replace("force.NAME", "force.pull");
         let name = name.replace("angle.NAME", "angle.phi").replace("distance.NAME", "distance.h");
+        let name = name.replace("area.NAME", "area.a");
         let body = if name.contains('(') { "gas" } else { "ball" };
         names.push(name.replace("BODY", body).replace("OTHER", "crate"));
     }

@@ -25,7 +25,8 @@ pub struct Buoyancy {
 
 impl Buoyancy {
     /// Returns the unit vector opposite to gravity; `None` without gravity.
-    fn up(&self) -> Option<DVec3> {
+    #[must_use]
+    pub fn up(&self) -> Option<DVec3> {
         self.gravity.try_normalize().map(|down| -down)
     }
 

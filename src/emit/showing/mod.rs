@@ -38,6 +38,8 @@ pub(super) struct Showing {
 pub(super) struct NeededMacros {
     /// True if bodies, joints or fields have arrows.
     arrows: bool,
+    /// True if the pictures contain areas.
+    areas: bool,
     /// True if springs are drawn as coils.
     coils: bool,
     /// True if the pictures contain texts.
@@ -56,11 +58,13 @@ impl NeededMacros {
     pub(super) fn of(scene: &Scene) -> NeededMacros {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
+        let has_surface = |kind: &ForceKind| matches!(kind, ForceKind::Buoyancy { surface: Some(_), .. });
         let has_color_bars = scene.color_maps.iter().any(|map| map.bar.is_some());
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
                 || scene.joints.iter().any(|joint| joint.arrows.iter().any(Option::is_some))
                 || !scene.fields.is_empty(),
+            areas: !scene.areas.is_empty() || scene.forces.iter().any(|force| has_surface(&force.kind)),
             coils: scene.forces.iter().any(|force| is_wound(&force.kind)),
             labels: has_texts(scene),
             plots: !scene.plots.is_empty() || has_color_bars,

@@ -1,4 +1,4 @@
-//! Writes the things that are drawn beside the bodies in SDL: springs, joints, arrows, axes, thin lines.
+//! Writes the things that are drawn beside the bodies in SDL: springs, joints, arrows, axes, areas, thin lines.
 
 use glam::DVec3;
 
@@ -48,6 +48,9 @@ pub(super) fn write(out: &mut String, thing: &Thing<'_>, style: Style) {
             style.matrix(out, *orientation, *location);
             out.push_str(&format!(" no_shadow }} // {name}\n"));
         }
+        Form::Area { points, opacity, is_liquid } => {
+            area(out, points, (*opacity, *is_liquid), &color, &name, style)
+        }
         Form::Lines { lines } => thin(out, lines, &color, &name, style),
         Form::Rod { .. } | Form::Coil { .. } | Form::Rope { .. } | Form::Arrow { .. } => {}
     }
@@ -96,6 +99,35 @@ fn rope(out: &mut String, points: &[DVec3], radius: f64, color: &str, name: &str
         }
     }
     out.push_str(&look);
+}
+
+/// Appends a translucent area. Points that POV-Ray takes for one are left out.
+fn area(
+    out: &mut String,
+    points: &[DVec3],
+    (opacity, is_liquid): (f64, bool),
+    color: &str,
+    name: &str,
+    style: Style,
+) {
+    let Some((first, rest)) = points.split_first() else { return };
+    let mut seen = vec![*first];
+    for point in rest {
+        if seen.iter().rev().take(1).chain([first]).all(|other| style.can_tell(*other, *point)) {
+            seen.push(*point);
+        }
+    }
+    if seen.len() < 3 {
+        return;
+    }
+    out.push_str(&format!("Area(array[{}] {{ // {name}\n", seen.len()));
+    for (number, point) in seen.iter().enumerate() {
+        out.push_str("  ");
+        style.point(out, *point);
+        out.push_str(if number + 1 < seen.len() { ",\n" } else { "\n}, " });
+    }
+    style.number(out, 1.0 - opacity);
+    out.push_str(&format!(", {}, {color})\n", u8::from(is_liquid)));
 }
 
 /// Appends thin straight lines, which shine and cast no shadow.

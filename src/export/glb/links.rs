@@ -98,7 +98,7 @@ fn place(nodes: &mut [Placed], form: Option<Form>) {
     let [first, ..] = nodes else { return };
     match form {
         // No spring or joint has these forms.
-        None | Some(Form::Arrow { .. } | Form::Axes { .. } | Form::Lines { .. }) => {}
+        None | Some(Form::Arrow { .. } | Form::Axes { .. } | Form::Area { .. } | Form::Lines { .. }) => {}
         Some(Form::Ball { at, radius }) => {
             first.pose.location = at;
             first.size = DVec3::splat(radius);

@@ -112,10 +112,7 @@ impl GridPlan {
 
     /// Lifts a point of an upright grid to the ground if the ground would hide it.
     fn above_floor(&self, point: DVec3) -> DVec3 {
-        match self.plane {
-            GridPlane::Ground => point,
-            GridPlane::Wall => point.with_y(point.y.max(self.floor)),
-        }
+        if self.plane.is_level() { point } else { point.with_y(point.y.max(self.floor)) }
     }
 
     /// The unit vectors along the grid's lines, and a point in the plane of the grid, m.
@@ -123,6 +120,9 @@ impl GridPlan {
         match self.plane {
             GridPlane::Ground => (DVec3::X, DVec3::Z, DVec3::Y * self.ground),
             GridPlane::Wall => (DVec3::X, DVec3::Y, DVec3::Z * (self.low.z * self.spacing)),
+            GridPlane::Xy => (DVec3::X, DVec3::Y, DVec3::ZERO),
+            GridPlane::Xz => (DVec3::X, DVec3::Z, DVec3::ZERO),
+            GridPlane::Yz => (DVec3::Z, DVec3::Y, DVec3::ZERO),
         }
     }
 
@@ -160,9 +160,9 @@ impl GridPlan {
         let corner = |a: f64, b: f64| self.above_floor(place + (first * a + second * b) * spacing);
         let (a0, a1) = (low.dot(first), high.dot(first));
         let (b0, b1) = (low.dot(second), high.dot(second));
-        let is_hidden = |b: f64| self.plane == GridPlane::Wall && b * spacing < self.floor;
+        let is_hidden = |b: f64| !self.plane.is_level() && b * spacing < self.floor;
         // The numbers of lines on the ground are at their near ends; those of lines on a wall are at their lower or left ends.
-        let (near, far) = if self.plane == GridPlane::Ground { (b1, b0) } else { (b0, b1) };
+        let (near, far) = if self.plane.is_level() { (b1, b0) } else { (b0, b1) };
         let across = marks(a0, a1).map(|a| (a, [corner(a, near), corner(a, far)]));
         let along = marks(b0, b1).filter(|b| !is_hidden(*b)).map(|b| (b, [corner(a0, b), corner(a1, b)]));
         let (across, along): (Vec<_>, Vec<_>) = (across.collect(), along.collect());
@@ -177,17 +177,18 @@ impl GridPlan {
             lines.iter().map(number).collect::<Vec<_>>()
         };
         // The axis name is written at the last number, so lines on the ground are listed from near to far.
-        let (beside, name, along) = match self.plane {
-            GridPlane::Ground => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
-            GridPlane::Wall => (Beside::Left, "y", along.clone()),
+        let (beside, name, along) = match self.plane.is_level() {
+            true => (Beside::LeftOnGround, "z", along.iter().rev().copied().collect()),
+            false => (Beside::Left, "y", along.clone()),
         };
+        let name_across = if self.plane == GridPlane::Yz { "z" } else { "x" };
         let axis = |beside, name, lines: &[_]| Axis {
             beside,
             numbers: numbers(lines),
             title: format!("{name} ({symbol})"),
         };
         GridLayout {
-            axes: [axis(Beside::Below, "x", &across), axis(beside, name, &along)],
+            axes: [axis(Beside::Below, name_across, &across), axis(beside, name, &along)],
             lines: Thing {
                 name: "grid".into(),
                 form: Form::Lines { lines: lines.collect() },
@@ -214,11 +215,12 @@ fn extent_in_lines(plane: GridPlane, bounds: Bounds, spacing: f64) -> (DVec3, DV
     };
     let [x, y, z] = (high - low).to_array();
     match plane {
-        GridPlane::Ground => {
+        GridPlane::Ground | GridPlane::Xz => {
             widen(&mut low.x, &mut high.x, 0.4 * z);
             widen(&mut low.z, &mut high.z, 0.4 * x);
         }
-        GridPlane::Wall => widen(&mut low.x, &mut high.x, 0.4 * y),
+        GridPlane::Wall | GridPlane::Xy => widen(&mut low.x, &mut high.x, 0.4 * y),
+        GridPlane::Yz => widen(&mut low.z, &mut high.z, 0.4 * y),
     }
     (low, high)
 }

@@ -4,9 +4,11 @@
 //! lists: scripts, page, room for texts. A new kind of mark is one file here, and a line in [`Marks::new`].
 
 mod angle;
+mod area;
 mod arrow;
 mod distance;
 mod field;
+mod liquid;
 mod note;
 
 use std::fmt::Debug;
@@ -69,7 +71,9 @@ impl Marks {
         camera: (&Placed, f64),
         ink: Color,
     ) -> Marks {
-        let mut marks: Vec<Arc<dyn Mark>> = field::marks(scene, stage, camera);
+        let mut marks: Vec<Arc<dyn Mark>> = liquid::marks(scene, camera.0, camera.1);
+        marks.extend(area::marks(scene));
+        marks.extend(field::marks(scene, stage, camera));
         marks.extend(angle::marks(scene, measures, ink));
         marks.extend(distance::marks(scene, ink));
         Marks { marks }

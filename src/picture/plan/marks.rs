@@ -54,8 +54,13 @@ impl Plan {
         };
         let mut sketch = self.marks.sketch(&scale);
         for thing in &mut sketch.things {
-            let Form::Lines { lines } = &mut thing.form else { continue };
-            lines.iter_mut().for_each(|line| self.planes.lift_line(line, [line.radius; 2], &camera));
+            match &mut thing.form {
+                Form::Lines { lines } => {
+                    lines.iter_mut().for_each(|line| self.planes.lift_line(line, [line.radius; 2], &camera));
+                }
+                Form::Area { points, .. } => self.planes.lift_area(points, sizes.stroke, &camera),
+                _ => {}
+            }
         }
         sketch
     }

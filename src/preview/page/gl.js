@@ -96,6 +96,19 @@ export function lineVertices(gl) {
   return { vertices, buffer };
 }
 
+export function areaVertices(gl) {
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  [3, 4].forEach((size, place) => {
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, size, gl.FLOAT, false, 28, 12 * place);
+  });
+  gl.bindVertexArray(null);
+  return { vertices, buffer };
+}
+
 export function shadowMap(gl) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);

@@ -1,11 +1,21 @@
-// Collects everything that is drawn as lines: trails, arrows, springs, joints, grids, axes, and the outline of the scene's camera.
+// Collects everything that is drawn as lines or thin areas: trails, arrows, springs, joints, grids, axes, swept areas, and the outline of the
+// scene's camera.
 
 import { add, cross, dot, isThere, length, sub, times, turned, unit } from "./math.js";
 
-/** The lines of a picture. Each has two ends, a radius at each end, and a color in sRGB. Lengths are in meters. */
+/** The lines of a picture, and its thin areas. Each line has two ends, a radius at each end, and a color in sRGB. Lengths are in meters. */
 export class Lines {
   constructor() {
     this.numbers = [];
+    /** The corners of the triangles of areas: for each, three coordinates and a color. */
+    this.corners = [];
+  }
+
+  /** Adds an area: triangles from the first point to each two neighboring others. */
+  addArea([first, ...points], opacity, color) {
+    for (let i = 1; i < points.length; i++) {
+      for (const point of [first, points[i - 1], points[i]]) this.corners.push(...point, ...color, opacity);
+    }
   }
 
   add(from, to, radius, color, radiusAtEnd = radius, alpha = 1) {
@@ -14,6 +24,11 @@ export class Lines {
 
   get count() {
     return this.numbers.length / 12;
+  }
+
+  /** Returns the corners of all areas for the shaders, relative to the center and the size of the scene. */
+  packedCorners({ center, size }) {
+    return Float32Array.from(this.corners, (number, i) => (i % 7 < 3 ? (number - center[i % 7]) / size : number));
   }
 
   /** Returns the numbers of all lines for the shaders, relative to the center and the size of the scene. */
@@ -48,6 +63,7 @@ const DRAWN = {
   coil: (lines, { ends, radius, wire, turns, color }) => coil(lines, ends, radius, wire, turns, color),
   arrow,
   axes,
+  area: (all, { points, opacity, color }) => all.addArea(points, opacity, color),
   lines: (all, { lines, color }) => lines.forEach(({ from, to, radius }) => all.add(from, to, radius, color)),
 };
 

@@ -2,7 +2,7 @@
 
 import { add, axes as axesOf, isThere, length, lookAt, orthographic, product, sub, times, turned, unit } from "./math.js";
 import { FIRST_LAMP, surroundings } from "./surroundings.js";
-import { corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
+import { areaVertices, corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
 import { PARTICLE } from "./run.js";
 import * as shaders from "./shaders.js";
 
@@ -29,9 +29,11 @@ export class Painter {
     this.programs = new Map();
     this.ground = program(gl, shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT);
     this.sky = program(gl, shaders.SKY_VERTEX, shaders.SKY_FRAGMENT);
+    this.area = program(gl, shaders.AREA_VERTEX, shaders.AREA_FRAGMENT);
     this.line = program(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
     this.square = corners(gl, [-1, -1, 1, -1, -1, 1, 1, 1]);
     this.lineVertices = lineVertices(gl);
+    this.areaVertices = areaVertices(gl);
     this.shadow = shadowMap(gl);
     /** The batches of bodies: those of the run, of the compared run, and the ghosts. Particles are a batch as well. */
     this.batches = {};
@@ -179,6 +181,7 @@ export class Painter {
     this.drawBodies("particles", [0, 0, 0, 0]);
     this.drawBodies("ghosts", [0, 0, 0, 0]);
     this.drawLines(lines, view);
+    this.drawAreas(lines, view);
     this.drawBodies("other", [0.9, 0.6, 0.05, 0.55]);
   }
 
@@ -359,6 +362,18 @@ export class Painter {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.lineVertices.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, lines.packed(this.space), gl.DYNAMIC_DRAW);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.count);
+  }
+
+  /** Draws thin areas, which let light through. */
+  drawAreas(lines, view) {
+    const { gl, area } = this;
+    if (!lines.corners.length) return;
+    gl.useProgram(area.program);
+    gl.uniformMatrix4fv(area.at("u_clip"), false, new Float32Array(view.clip));
+    gl.bindVertexArray(this.areaVertices.vertices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.areaVertices.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, lines.packedCorners(this.space), gl.DYNAMIC_DRAW);
+    this.blended(() => gl.drawArrays(gl.TRIANGLES, 0, lines.corners.length / 7));
   }
 
   /** Returns the index of the body at a pixel. Undefined if no body is at this pixel. */

@@ -354,3 +354,19 @@ void main() {
   if (out2 > 1.0) discard;
   color = vec4(v_color.rgb * (0.78 + 0.22 * sqrt(1.0 - out2)), v_color.a);
 }`;
+
+/** The shaders for thin areas, which shine. */
+export const AREA_VERTEX = `${HEAD}
+layout(location = 0) in vec3 a_place;
+layout(location = 1) in vec4 a_color;
+uniform mat4 u_clip;
+out vec4 v_color;
+void main() {
+  v_color = a_color;
+  gl_Position = u_clip * vec4(a_place, 1.0);
+}`;
+
+export const AREA_FRAGMENT = `${HEAD}
+in vec4 v_color;
+out vec4 color;
+void main() { color = v_color; }`;

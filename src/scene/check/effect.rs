@@ -37,7 +37,7 @@ pub(super) fn check(root: &View<'_>, bodies: &[Body], forces: &[Force], context:
             ForceKind::Constant(_)
             | ForceKind::Drag(_)
             | ForceKind::LennardJones(_)
-            | ForceKind::Buoyancy(_)
+            | ForceKind::Buoyancy { .. }
             | ForceKind::Spring { .. } => {}
         }
     }

@@ -42,7 +42,7 @@ fn check(view: &View<'_>, drawn: &DrawnField, force: &ForceKind, context: &mut C
         ForceKind::Spring { .. } => {
             refuse(at_force, "a spring has no field", "it acts only on the bodies at its ends");
         }
-        ForceKind::Buoyancy(_) => {
+        ForceKind::Buoyancy { .. } => {
             refuse(at_force, "buoyancy has no field", "it depends on the volume of a body");
         }
         _ => {}

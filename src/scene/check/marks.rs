@@ -1,23 +1,24 @@
-//! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, and the texts and components of arrows.
+//! Reads the marks of a scene: `[angle.NAME]`, `[distance.NAME]`, `[area.NAME]`, and the texts and components of arrows.
 
 use glam::DVec3;
 
 use super::label::pieces;
 use super::measures::{OwnBody, Things};
+use super::read::figure;
 use super::view::View;
 use super::{Context, end};
 use crate::diagnostic::{Code, Diagnostic, Span, nearest};
 use crate::lettering;
 use crate::physics::{Anchor, BodyId};
 use crate::scene::grammar::bodies::body;
-use crate::scene::grammar::marks::{angle, distance, leg};
+use crate::scene::grammar::marks::{angle, area, distance, leg};
 use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::showing::{arrow, arrows, joint_arrows};
 use crate::scene::grammar::{Any, Key, KeySpec, joints};
 use crate::scene::source::{Node, Value};
 use crate::scene::{
-    Angle, ArrowMark, ArrowOwner, Components, Distance, Leg, Piece, Quantity, SimulationSettings, Subject,
-    read,
+    Angle, Area, ArrowMark, ArrowOwner, Components, Distance, Leg, Piece, Quantity, SimulationSettings,
+    Subject, read,
 };
 
 /// The vectors of a body that a leg of an angle can point along.
@@ -180,6 +181,52 @@ pub(super) fn distances(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<
         })
     };
     known.root.named(&scene::DISTANCE).into_iter().filter_map(read).collect()
+}
+
+/// Reads the swept areas. Reports areas that stay 0, and too many sectors.
+pub(super) fn areas(known: Known<'_, '_>, context: &mut Context<'_>) -> Vec<Area> {
+    let timeline = &known.simulation.timeline;
+    let read = |(name, span, view): (&str, Span, View<'_>)| {
+        let body = end::body(view.node(&area::BODY)?, context)?;
+        let node = view.node(&area::CENTER)?;
+        let center = end::anchor(node, context)?;
+        if center == Anchor::centre(BodyId::new(body)) {
+            let error = Diagnostic::error(Code::BadMark, "this area is always 0");
+            context.diagnostics.push(error.at(node.span, "it is the center of the body itself"));
+            return None;
+        }
+        let from = view.get(&area::FROM).unwrap_or(0.0);
+        let until = view.get(&area::UNTIL);
+        if let Some((until, span)) = until.zip(view.span(&area::UNTIL)).filter(|(until, _)| *until <= from) {
+            let message =
+                format!("the area `{name}` begins at {} s and ends at {} s", figure(from), figure(until));
+            let error = Diagnostic::error(Code::EndBeforeStart, message).at(span, "this must be later");
+            context.diagnostics.push(match view.span(&area::FROM) {
+                Some(span) => error.at(span, "than this"),
+                None => error,
+            });
+            return None;
+        }
+        let until = until.unwrap_or(timeline.end());
+        let every = view.get(&area::EVERY).unwrap_or(until - from);
+        if let Some(span) = view.span(&area::EVERY).filter(|_| (until - from) / every > Area::MAX_SECTORS) {
+            let message =
+                format!("a sector every {} s is more than {} in all", figure(every), Area::MAX_SECTORS);
+            context.diagnostics.push(Diagnostic::error(Code::BadMark, message).at(span, ""));
+            return None;
+        }
+        if from + every > until.min(timeline.end()) + timeline.slack() || every <= 0.0 {
+            let keys = [&area::EVERY, &area::UNTIL, &area::FROM];
+            let span = keys.into_iter().find_map(|key| view.span(key)).unwrap_or(span);
+            let warning =
+                Diagnostic::warning(Code::NeverThere, format!("no sector of the area `{name}` is completed"));
+            let label = format!("the scene goes from 0 to {} s", figure(timeline.end()));
+            context.diagnostics.push(warning.at(span, label));
+        }
+        let every = if every > 0.0 { every } else { f64::MAX };
+        Some(Area { name: name.to_owned(), body, center, from, every, until, color: view.get(&area::COLOR) })
+    };
+    known.root.named(&scene::AREA).into_iter().filter_map(read).collect()
 }
 
 /// Reads the texts and components of arrows.

@@ -359,6 +359,7 @@ fn build(
     let known = marks::Known { root: &root, things, simulation: &simulation };
     let angles = marks::angles(known, context);
     let distances = marks::distances(known, context);
+    let areas = marks::areas(known, context);
     let fields = field::read(&root, &forces, context);
     let arrow_marks = marks::arrow_marks(known, context);
     let (scale_bar, grid) = (label::scale_bar(&root), label::grid(&root));
@@ -383,6 +384,7 @@ fn build(
         plots,
         angles,
         distances,
+        areas,
         fields,
         arrow_marks,
         scale_bar,

@@ -3,7 +3,7 @@
 use crate::physics::{Coulomb, Dipoles, Gravitation};
 use crate::scene::law::{OF_PLACE, QUANTITIES};
 
-use super::Kind::{Boolean, Either, List, ListOfBody, Number, OfBody, Reference, Table};
+use super::Kind::{Boolean, Color, Either, List, ListOfBody, Number, OfBody, Reference, Table};
 use super::key::table;
 use super::kind::{ANY, AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::repeat::LINKS;
@@ -270,8 +270,18 @@ table! {
     )
     .unit("m")
     .default_number(0.0)
-    .also(&["height", "surface", "y"]),
+    .also(&["height", "y"]),
+    SURFACE: Any = KeySpec::new("surface", Either(&SURFACE_KINDS), "Whether its surface is drawn")
+        .default_flag(false)
+        .also(&["show", "look", "draw", "visible"]),
     ON: Any = on("The bodies in the liquid", "all that can move"),
+}
+
+static SURFACE_KINDS: [Kind; 2] = [Boolean, Table(&liquid_surface::TABLE)];
+
+table! {
+    liquid_surface: "the surface of a liquid", Rule::Any;
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color").default("that of water").also(&["colour"]),
 }
 
 table! {

@@ -193,6 +193,6 @@ table! {
         .unit("m")
         .default("that of the ground's tiles")
         .also(&["step", "every", "tile", "size"]),
-    PLANE: value::Text = KeySpec::new("plane", Choice(planes), "Its plane: on the ground, or upright behind the motion")
+    PLANE: value::Text = KeySpec::new("plane", Choice(planes), "Its plane: on the ground, upright behind the motion, or a coordinate plane through the origin")
         .default_word("ground"),
 }

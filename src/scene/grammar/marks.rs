@@ -1,9 +1,9 @@
-//! The grammar of the marks that name what is measured: angles and dimension lines.
+//! The grammar of the marks that name what is measured: angles, dimension lines, swept areas, fields.
 
 use super::Kind::{Boolean, Choice, Color, Either, Integer, List, Named, Reference, Table, Text};
 use super::forces::end;
 use super::key::table;
-use super::kind::{AXIS, POSITIVE, VECTOR};
+use super::kind::{AXIS, NON_NEGATIVE, POSITIVE, VECTOR};
 use super::{Collection, KeySpec, Kind, Rule};
 use crate::scene::FieldStyle;
 
@@ -16,6 +16,13 @@ pub(super) const DISTANCE: KeySpec = KeySpec::new(
     "Dimension lines: distances, drawn as lines with their length",
 )
 .also(&["distances", "dimension", "dimensions", "length"]);
+
+pub(super) const AREA: KeySpec = KeySpec::new(
+    "area",
+    Named(&area::TABLE),
+    "Areas that the line from a center to a body sweeps, drawn as sectors",
+)
+.also(&["areas", "sector", "sectors"]);
 
 pub(super) const FIELD: KeySpec = KeySpec::new(
     "field",
@@ -109,6 +116,37 @@ table! {
         .also(&["label", "name"]),
     COLOR: Option<value::Color> = KeySpec::new("color", Color, "Its color")
         .default("that of texts")
+        .also(&["colour"]),
+}
+
+table! {
+    area: "a swept area", Rule::Any;
+    BODY: Option<value::Text> = KeySpec::new("body", Reference(Collection::Body), "The body that the line leads to")
+        .required()
+        .also(&["to", "of", "planet"]),
+    CENTER: Any = KeySpec::new(
+        "center",
+        POINT,
+        "Where the line begins: the name of a body (its center), a point of a body, or a point of the world. The path of `body` is \
+         that relative to the center",
+    )
+    .unit("m")
+    .required()
+    .also(&["centre", "about", "around", "focus", "sun"]),
+    EVERY: Option<f64> = KeySpec::new("every", POSITIVE, "The time of each sector. The sectors follow each other")
+        .unit("s")
+        .default("a single sector, from `from` until `until`")
+        .also(&["interval", "period", "step"]),
+    FROM: Option<f64> = KeySpec::new("from", NON_NEGATIVE, "When the first sector begins")
+        .unit("s")
+        .default("the start of the run")
+        .also(&["start", "begin", "since", "t0"]),
+    UNTIL: Option<f64> = KeySpec::new("until", NON_NEGATIVE, "When the last sector ends at the latest")
+        .unit("s")
+        .default("the end of the run")
+        .also(&["end", "t1"]),
+    COLOR: Option<value::Color> = KeySpec::new("color", Color, "The color of the sectors; every second one is paler")
+        .default("one of the palette of plots")
         .also(&["colour"]),
 }
 

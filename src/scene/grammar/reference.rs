@@ -461,6 +461,9 @@ force of a body. Without `axis`, the angle is that between the legs, from 0° to
 along it, from −180° to 180°. A distance is a dimension line. `offset` moves the line away from its ends, and `along` measures in one direction only. Without a
 `text`, an angle shows its name (`alpha` as α), and a distance shows its length.
 
+An area consists of the sectors that the line from `center` to `body` sweeps in equal times. `area.NAME` is the area of the last complete sector. A picture
+shows the sectors of the last turn. If the center moves, the path counts relative to it.
+
 `label` writes a text at the tip of an arrow. `components` draws the components of the vector along a direction and across it, too. Texts stand where there is
 room: they move aside for arrows, bodies and each other.
 ";

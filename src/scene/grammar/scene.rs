@@ -99,6 +99,7 @@ table! {
     PLOT: Any = labels::PLOT,
     ANGLE: Any = marks::ANGLE,
     DISTANCE: Any = marks::DISTANCE,
+    AREA: Any = marks::AREA,
     FIELD: Any = marks::FIELD,
     SCALE_BAR: Any = labels::SCALE_BAR,
     GRID: Any = labels::GRID,

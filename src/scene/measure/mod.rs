@@ -91,6 +91,8 @@ pub enum Measure {
     Angle(usize),
     /// The length of a dimension line, m. The number is an index into `distances` of the scene.
     Length(usize),
+    /// The area of the last complete sector of a swept area, m². The number is an index into `areas` of the scene.
+    Area(usize),
     /// A quantity of several bodies. The number is an index into `aggregates` of the scene.
     Aggregate(usize),
 }
@@ -103,9 +105,10 @@ const OF_TWO_BODIES: [(&str, &str, &str); 3] = [
 ];
 
 /// The measures of marks, each with its name in formulas, its unit and its meaning.
-const OF_MARKS: [(&str, &str, &str); 2] = [
+const OF_MARKS: [(&str, &str, &str); 3] = [
     ("angle.NAME", "°", "the angle of `[angle.NAME]`"),
     ("distance.NAME", "m", "the length of `[distance.NAME]`"),
+    ("area.NAME", "m²", "the area of the last complete sector of `[area.NAME]`"),
 ];
 
 /// A line of the list of all measures.

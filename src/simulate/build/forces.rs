@@ -15,7 +15,7 @@ pub(crate) fn forces(kind: &ForceKind) -> Vec<Arc<dyn Force>> {
         ForceKind::Lorentz(lorentz) => vec![Arc::new(lorentz.clone())],
         ForceKind::Formula { bodies, law } => vec![Arc::new(FormulaForce::new(bodies.clone(), law.clone()))],
         ForceKind::LennardJones(lennard_jones) => vec![Arc::new(lennard_jones.clone())],
-        ForceKind::Buoyancy(buoyancy) => vec![Arc::new(buoyancy.clone())],
+        ForceKind::Buoyancy { liquid, .. } => vec![Arc::new(liquid.clone())],
         ForceKind::Dipoles(dipoles) => vec![Arc::new(dipoles.clone())],
         ForceKind::J2(j2) => vec![Arc::new(j2.clone())],
         ForceKind::Spring { links, .. } => links.iter().map(|link| Arc::new(*link) as Arc<_>).collect(),

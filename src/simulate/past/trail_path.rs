@@ -9,6 +9,11 @@ use crate::scene::Trail;
 /// The largest number of points of a trail. In longer runs, only every second, fourth, … frame adds a point.
 pub(super) const MOST_POINTS: usize = 512;
 
+/// The largest angle between successive straight pieces of a drawn path, rad.
+pub(in crate::simulate) const BEND: f64 = 0.06;
+/// The largest number of straight pieces between two points of a path.
+const MOST_PIECES: f64 = 16.0;
+
 /// The path of a point of a body, up to the present time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrailPath {
@@ -50,6 +55,24 @@ impl TrailPoint {
             + (s3 - 2.0 * s2 + s) * span * self.velocity
             + (3.0 * s2 - 2.0 * s3) * next.location
             + (s3 - s2) * span * next.velocity
+    }
+
+    /// The velocity (m/s) at a time (s), on the same path as [`towards`](Self::towards).
+    pub(in crate::simulate) fn velocity_towards(&self, next: &TrailPoint, time: f64) -> DVec3 {
+        let (span, way) = (next.time - self.time, next.location - self.location);
+        if span <= 0.0 || self.velocity.dot(next.velocity) <= 0.0 {
+            return if span > 0.0 { way / span } else { next.velocity };
+        }
+        let s = (time - self.time) / span;
+        6.0 * s * (1.0 - s) / span * way
+            + (1.0 - s) * (1.0 - 3.0 * s) * self.velocity
+            + s * (3.0 * s - 2.0) * next.velocity
+    }
+
+    /// The number of straight pieces that the path to the next point is drawn with.
+    pub fn pieces_towards(&self, next: &TrailPoint) -> f64 {
+        let bend = self.velocity.angle_between(next.velocity);
+        if bend.is_finite() { (bend / BEND).ceil().clamp(1.0, MOST_PIECES) } else { 1.0 }
     }
 
     pub(super) fn of(time: f64, body: &BodySnapshot, trail: Trail) -> TrailPoint {

@@ -1,7 +1,7 @@
 //! Finds the ranges of color maps whose range the scene does not give.
 
 use crate::scene::{ColorMap, Scene};
-use crate::simulate::{Frame, Measures, MomentState};
+use crate::simulate::{Measures, MomentState};
 
 /// Finds the lowest and the highest value of each color map in a run.
 pub(super) struct ColorRanges<'a> {
@@ -27,10 +27,9 @@ impl<'a> ColorRanges<'a> {
     }
 
     /// Widens the ranges by the values of the next frame.
-    pub(super) fn see(&mut self, frame: &Frame) {
-        let moment = MomentState::now(frame);
+    pub(super) fn see(&mut self, moment: &MomentState<'_>) {
         for ((map, bodies), found) in self.maps.iter().zip(&self.bodies).zip(&mut self.found) {
-            let values = self.measures.of_each(&map.of, bodies.iter().copied(), &moment);
+            let values = self.measures.of_each(&map.of, bodies.iter().copied(), moment);
             for value in values.filter(|value| value.is_finite()) {
                 let [low, high] = found.unwrap_or([value; 2]);
                 *found = Some([low.min(value), high.max(value)]);

@@ -4,7 +4,7 @@
 //! that no peak is lost, even one of a single frame.
 
 use crate::scene::{Plot, Scene};
-use crate::simulate::{Frame, Measures, MomentState};
+use crate::simulate::{Measures, MomentState};
 
 /// The number of groups of frames. A run with at most this many frames keeps all points.
 const MAX_GROUPS: usize = 600;
@@ -53,20 +53,19 @@ impl<'a> Curves<'a> {
     }
 
     /// Adds the points of the next frame.
-    pub(super) fn see(&mut self, frame: &Frame) {
-        let moment = MomentState::now(frame);
+    pub(super) fn see(&mut self, moment: &MomentState<'_>) {
         let mut curves = self.curves.iter_mut().zip(&mut self.left_out);
         for plot in self.plots {
-            let x = self.measures.value(&plot.x, &moment);
+            let x = self.measures.value(&plot.x, moment);
             // The start of the run has no place on a logarithmic axis of the time. No curve misses it.
             let is_counted = x > 0.0 || !(plot.is_logarithmic[0] && plot.is_over_time());
             for (curve, (points, left_out)) in plot.curves.iter().zip(&mut curves) {
-                let at = [x, self.measures.value(&curve.y, &moment)];
+                let at = [x, self.measures.value(&curve.y, moment)];
                 let known = Some(at).filter(|at| at.iter().all(|value| value.is_finite()));
                 let at = known.filter(|at| plot.has_place(*at));
                 left_out.of += usize::from(known.is_some() && is_counted);
                 left_out.frames += usize::from(known.is_some() && at.is_none() && is_counted);
-                points.add(CurvePoint { time: frame.time, at }, self.stride);
+                points.add(CurvePoint { time: moment.time(), at }, self.stride);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Collects the values of the bodies in histograms, in bounded memory.
 
 use crate::scene::{PlotKind, Scene};
-use crate::simulate::{Frame, Measures, MomentState};
+use crate::simulate::{Measures, MomentState};
 
 /// The largest number of values that a histogram keeps. A run with more values keeps those of evenly chosen frames.
 const MAX_VALUES: usize = 2_000_000;
@@ -31,16 +31,15 @@ impl<'a> Spreads<'a> {
     }
 
     /// Adds the values of the next frame.
-    pub(super) fn see(&mut self, frame: &Frame) {
-        let moment = MomentState::now(frame);
+    pub(super) fn see(&mut self, moment: &MomentState<'_>, frame: usize) {
         let frames = self.scene.simulation.timeline.frames();
         let mut spreads = self.spreads.iter_mut();
         for plot in &self.scene.plots {
             let PlotKind::Histogram { bodies, .. } = &plot.kind else { continue };
             let (Some(spread), Some(curve)) = (spreads.next(), plot.curves.first()) else { continue };
-            let mut values: Vec<f64> = self.measures.of_present(&curve.y, bodies, &moment).collect();
+            let mut values: Vec<f64> = self.measures.of_present(&curve.y, bodies, moment).collect();
             values.retain(|value| value.is_finite());
-            spread.add(values, frame.index, frames.saturating_mul(bodies.len()).div_ceil(MAX_VALUES).max(1));
+            spread.add(values, frame, frames.saturating_mul(bodies.len()).div_ceil(MAX_VALUES).max(1));
         }
     }
 

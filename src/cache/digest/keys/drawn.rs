@@ -25,6 +25,7 @@ pub(super) const TABLES_THAT_DRAW: &[&str] = &[
     "a plot",
     "a point light",
     "a sun",
+    "a swept area",
     "a trail",
     "an area light",
     "an angle",
@@ -39,6 +40,7 @@ pub(super) const TABLES_THAT_DRAW: &[&str] = &[
     "the part for POV-Ray",
     "the scale bar",
     "the shape of a particle",
+    "the surface of a liquid",
 ];
 
 /// The keys that only draw, by the nouns of their tables. These tables also have keys that act on the run.
@@ -64,6 +66,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
             "angle",
             "distance",
             "field",
+            "area",
             "scale_bar",
             "grid",
             "povray",
@@ -73,6 +76,7 @@ pub(super) const KEYS_THAT_DRAW: &[(&str, &[&str])] = &[
     ("a shape in SDL", &["object"]),
     ("a slider", &["look", "arrows"]),
     ("a spring", &["line", "coil"]),
+    ("buoyancy", &["surface"]),
     ("ghosts", &["arrows"]),
     (
         "the camera",

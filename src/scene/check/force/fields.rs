@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
+use super::super::showing::wanted;
 use super::super::view::View;
 use super::Reader;
 use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{BodyId, Buoyancy, Dipoles, J2};
-use crate::scene::ForceKind;
-use crate::scene::grammar::forces::{buoyancy, dipoles, j2};
+use crate::scene::grammar::forces::{buoyancy, dipoles, j2, liquid_surface};
+use crate::scene::{Color, ForceKind};
 
 impl Reader<'_, '_> {
     pub(super) fn buoyancy(&mut self, view: &View<'_>) -> Option<ForceKind> {
@@ -31,7 +32,9 @@ impl Reader<'_, '_> {
             self.no_effect(message, self.span, "without `simulation.gravity`, nothing is carried");
         }
         let (density, level) = (view.get(&buoyancy::DENSITY)?, view.get(&buoyancy::LEVEL));
-        Some(ForceKind::Buoyancy(Buoyancy { bodies: carried, density, level, gravity }))
+        let surface = wanted(view, &buoyancy::SURFACE);
+        let surface = surface.map(|surface| surface.get(&liquid_surface::COLOR).unwrap_or(Color::OF_WATER));
+        Some(ForceKind::Buoyancy { liquid: Buoyancy { bodies: carried, density, level, gravity }, surface })
     }
 
     /// Reports a body of a shape for which buoyancy cannot be computed.

@@ -6,7 +6,7 @@ use crate::scene::Measure;
 use crate::scene::grammar::scene::scene;
 
 impl<'b> Reader<'_, 'b, '_> {
-    /// Returns the first byte of the measure of a mark, its name, and the measure, if the text before a dot ends with `angle` or `distance`.
+    /// Returns the first byte of the measure of a mark, its name, and the measure, if the text before a dot ends with `angle`, `distance` or `area`.
     /// The name is the word at the beginning of `behind`, which begins at the byte `begin` of the text. `None` for other names, such as
     /// those of a body called `angle`. The inner `None` means that there is no such mark; then an error is reported.
     pub(super) fn of_mark<'t>(
@@ -15,9 +15,13 @@ impl<'b> Reader<'_, 'b, '_> {
         behind: &'t str,
         begin: usize,
     ) -> Option<(usize, &'t str, Option<Measure>)> {
-        let (noun, key) = [("angle", &scene::ANGLE), ("distance", &scene::DISTANCE)]
-            .into_iter()
-            .find(|(noun, _)| before.ends_with(noun))?;
+        let (noun, key, measure): (_, _, fn(usize) -> Measure) = [
+            ("angle", &scene::ANGLE, Measure::Angle as _),
+            ("distance", &scene::DISTANCE, Measure::Length as _),
+            ("area", &scene::AREA, Measure::Area as _),
+        ]
+        .into_iter()
+        .find(|(noun, ..)| before.ends_with(noun))?;
         let first = before.len() - noun.len();
         if before[..first].ends_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | ']')) {
             return None;
@@ -26,8 +30,7 @@ impl<'b> Reader<'_, 'b, '_> {
         let name = &behind[..end];
         let marks = self.root.named(key);
         if let Some(number) = marks.iter().position(|(known, ..)| *known == name) {
-            let measure = if noun == "angle" { Measure::Angle(number) } else { Measure::Length(number) };
-            return Some((first, name, Some(measure)));
+            return Some((first, name, Some(measure(number))));
         }
         if self.context.names.bodies.contains_key(noun) || name.is_empty() {
             return None;

@@ -77,6 +77,7 @@ impl Reader<'_, '_, '_> {
             Measure::Impacts(_) => ("", true),
             Measure::Distance(..) | Measure::Length(_) => ("m", false),
             Measure::Angle(_) => ("°", false),
+            Measure::Area(_) => ("m²", false),
             Measure::Aggregate(number) => {
                 let aggregate = &self.context.aggregates[number];
                 let is_count = aggregate.formula.is_count && aggregate.how != crate::scene::Aggregation::Mean;
