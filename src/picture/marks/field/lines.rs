@@ -71,8 +71,11 @@ impl FieldMark {
         }
         let count = |source: &Source| {
             let share = f64::from(self.drawn.count) * source.strength.abs() / strongest;
-            libm::round(share).max(1.0)
+            libm::round(share)
         };
+        // A source that is too weak for a line of its own is passed by.
+        let sources: Vec<Source> = sources.iter().copied().filter(|source| count(source) > 0.0).collect();
+        let sources = sources.as_slice();
         let mut paths: Vec<Path> = Vec::new();
         for source in sources.iter().filter(|source| source.strength > 0.0) {
             let number = count(source);

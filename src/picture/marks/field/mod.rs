@@ -20,7 +20,7 @@ use crate::scene::{Color, DrawnField, FieldStyle, Scene};
 use crate::simulate::FieldSampler;
 
 /// The radius of field lines and levels, in strokes.
-const LINE_RADIUS: f64 = 0.3;
+const LINE_RADIUS: f64 = 0.4;
 /// The number of arrows across the picture.
 const ARROWS: f64 = 18.0;
 /// The part of the picture that drawings fill.
