@@ -221,9 +221,10 @@ mod tests {
         let scene = kepler("[area.a]\nbody = 'planet'\ncenter = 'sun'\nevery = 0.123");
         let all = sectors(&scene, 5.0);
         assert_eq!(all.len(), 40);
+        // The method keeps L, so only the cubic between frames has an error: (ω h)⁴/360 of a circular motion, at the perihelion 4e-7.
         let expected = 0.5 * PI * 0.75_f64.sqrt() * 0.123;
         for sector in &all {
-            assert!((sector.area / expected - 1.0).abs() < 1e-7, "{} {}", sector.number, sector.area);
+            assert!((sector.area / expected - 1.0).abs() < 1e-6, "{} {}", sector.number, sector.area);
             // The triangles of the picture fill the sector.
             let drawn: f64 = sector.rim.windows(2).map(|pair| 0.5 * pair[0].cross(pair[1]).length()).sum();
             assert!((drawn / expected - 1.0).abs() < 2e-3, "{drawn}");
@@ -234,7 +235,7 @@ mod tests {
         assert!(turns.clone().fold(0.0, f64::max) > 5.0 * turns.fold(9.0, f64::min));
         let ring = kepler("[area.a]\nbody = 'planet'\ncenter = [1, 2, 3]\nfrom = 0.3\nuntil = 2.3");
         let [whole] = &sectors(&ring, 5.0)[..] else { panic!("one sector") };
-        assert!((whole.area / (PI * 0.75_f64.sqrt()) - 1.0).abs() < 1e-7 && (whole.turn - TAU).abs() < 1e-4);
+        assert!((whole.area / (PI * 0.75_f64.sqrt()) - 1.0).abs() < 1e-6 && (whole.turn - TAU).abs() < 1e-4);
         assert!(sectors(&ring, 2.29).is_empty());
     }
 
