@@ -75,7 +75,7 @@ const TRIED: [&str; 47] = [
 
 /// Public functions whose text argument is made by jabuka itself and never by a user: names of frames, files and meshes, and options of
 /// POV-Ray.
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 16] = [
     "emit/mod.rs: shutter",
     "emit/mod.rs: trail_files",
     "emit/showing/trails.rs: is_trail_file",
@@ -89,6 +89,7 @@ const NAMES: [&str; 15] = [
     "render/record.rs: read",
     "render/record.rs: state",
     "render/record.rs: write",
+    "scene/color_map.rs: named",
     "shape/mesh/mod.rs: new",
     "shape/mesh/mod.rs: surface",
 ];

@@ -130,7 +130,7 @@ fn colors_follow_values() {
     let pixels = |known: [f64; 3]| {
         let corner =
             (0..SIZE[0]).flat_map(|x| (0..SIZE[1]).map(move |y| DVec2::new(f64::from(x), f64::from(y))));
-        let mut corner = corner.filter(|at| at.x > 0.5 * width && at.y > 0.6 * height);
+        let mut corner = corner.filter(|at| at.x > 0.5 * width && at.y > 0.75 * height);
         corner.find(|at| near(image.at(*at), known)).map(|at| at.x)
     };
     let ends = [pixels(slow), pixels([0.128, 0.567, 0.551]), pixels(fast)];
