@@ -163,7 +163,7 @@ mod tests {
         // At x = 2, 4/2² − 1/1² = 0.
         assert!(field.at(DVec3::new(2.0, 0.0, 0.0)).length() < 1e-12);
         let found = field.at(DVec3::new(0.0, 0.0, 2.0));
-        let far = 13.0_f64.powi(3).sqrt();
+        let far = 13.0 * 13.0_f64.sqrt();
         assert!(found.abs_diff_eq(2.0 * DVec3::new(3.0 / far, 0.0, -1.0 - 2.0 / far), 1e-12), "{found}");
     }
 

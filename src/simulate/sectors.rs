@@ -162,7 +162,9 @@ impl OpenSector {
             let velocity = last.velocity_towards(now, time);
             // A straight part of the path needs no points.
             let is_end = is_complete && piece >= pieces;
-            if is_end || !(self.velocity.angle_between(velocity) < BEND / 2.0) {
+            // A body at rest has no direction.
+            let bend = self.velocity.angle_between(velocity);
+            if is_end || bend >= BEND / 2.0 || bend.is_nan() {
                 self.put(last.towards(now, time));
                 self.velocity = velocity;
             }

@@ -107,8 +107,7 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
         text += &format!("[label.l{number}]\ntext = '${{{name}:.9}}'\n[plot.p{number}]\ny = '{name}'\n");
         text += &format!(
             "[body.c{number}]\nshape.sphere.radius = 0.1\nfixed = true\nlocation = [50, {number}, 0]\n\
-             material.color.map = {{ of = '{}', range = [-50, 50], bar = false }}\n",
-            name
+             material.color.map = {{ of = '{name}', range = [-50, 50], bar = false }}\n"
         );
     }
     let scene = Scene::parse(&text).unwrap();

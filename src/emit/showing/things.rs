@@ -49,7 +49,7 @@ pub(super) fn write(out: &mut String, thing: &Thing<'_>, style: Style) {
             out.push_str(&format!(" no_shadow }} // {name}\n"));
         }
         Form::Area { points, opacity, is_liquid } => {
-            area(out, points, (*opacity, *is_liquid), &color, &name, style)
+            area(out, points, (*opacity, *is_liquid), &color, &name, style);
         }
         Form::Lines { lines } => thin(out, lines, &color, &name, style),
         Form::Rod { .. } | Form::Coil { .. } | Form::Rope { .. } | Form::Arrow { .. } => {}
