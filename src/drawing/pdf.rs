@@ -9,12 +9,12 @@ use crate::font::Step;
 use crate::svg::Rgb;
 
 /// The size of a pixel of a drawing, in the points of PDF (1/72 inch). In SVG, a pixel is 1/96 inch.
-const PIXEL: f64 = 0.75;
+const POINTS_PER_PIXEL: f64 = 0.75;
 
 impl Drawing {
     /// Returns the drawing as the bytes of a PDF file.
     pub(crate) fn pdf(&self) -> Vec<u8> {
-        let [width, height] = self.size.map(|length| number(length * PIXEL));
+        let [width, height] = self.size.map(|length| number(length * POINTS_PER_PIXEL));
         let contents = self.contents();
         let objects = [
             "<< /Type /Catalog /Pages 2 0 R >>".to_owned(),
@@ -41,7 +41,11 @@ impl Drawing {
         let [width, height] = self.size;
         let mut out = String::new();
         // From here on, positions are those of the drawing: in pixels from the upper left corner. Joins of lines are round.
-        let _ = writeln!(out, "{PIXEL} 0 0 -{PIXEL} 0 {} cm 1 j", number(height * PIXEL));
+        let _ = writeln!(
+            out,
+            "{POINTS_PER_PIXEL} 0 0 -{POINTS_PER_PIXEL} 0 {} cm 1 j",
+            number(height * POINTS_PER_PIXEL)
+        );
         rectangle(&mut out, [[0.0; 2], [width, height]], self.background);
         for item in &self.items {
             match item {

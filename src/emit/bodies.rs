@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::materials::{MaterialText, SHADE};
+use super::materials::{MaterialText, SHADE_IDENTIFIER};
 use super::meshes::Meshes;
 use super::sdl::Style;
 use super::showing::color;
@@ -120,7 +120,7 @@ impl Block {
             sorted.sort_by_key(|(item, _)| color(item));
             for of_color in sorted.chunk_by(|(one, _), (other, _)| color(one) == color(other)) {
                 let shade = &self.shades[map][color(of_color[0].0)];
-                let _ = writeln!(out, "#local {SHADE} = {shade};");
+                let _ = writeln!(out, "#local {SHADE_IDENTIFIER} = {shade};");
                 self.together(out, group.shared.as_deref(), of_color.iter().copied())?;
             }
         }

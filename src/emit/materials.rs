@@ -21,7 +21,7 @@ enum Kind {
 }
 
 /// The identifier of the color of the next bodies in scripts, for materials whose color follows a value.
-pub(super) const SHADE: &str = "Shade";
+pub(super) const SHADE_IDENTIFIER: &str = "Shade";
 
 /// The values of a material that templates can use.
 #[derive(Clone, Debug, Serialize)]
@@ -162,7 +162,7 @@ impl MaterialText {
 
     /// Returns the SDL text of the material between the braces of `material { }`.
     fn inside(&self) -> String {
-        if self.mapped { format!("{}({SHADE})", self.identifier) } else { self.identifier.clone() }
+        if self.mapped { format!("{}({SHADE_IDENTIFIER})", self.identifier) } else { self.identifier.clone() }
     }
 
     /// Returns the SDL text that gives a body this material.

@@ -152,6 +152,31 @@ mod tests {
         assert_eq!(strengths, [3e-6, -1e-6]);
     }
 
+    /// A scene that is turned and shifted has the turned field, whatever the names and the order of its bodies are.
+    #[test]
+    fn the_field_depends_on_no_axes_origin_or_order() {
+        let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -0.7);
+        let shift = DVec3::new(40.0, -7.0, 3.0);
+        let places = [DVec3::ZERO, DVec3::new(2.0, 0.5, -1.0), DVec3::new(-1.0, 1.0, 0.0)];
+        let charges = [3e-6, -1e-6, 2e-6];
+        let text = |order: [usize; 3], place: &dyn Fn(DVec3) -> DVec3| {
+            let bodies = order.map(|k| {
+                let [x, y, z] = place(places[k]).to_array();
+                let charge = charges[k];
+                format!("[body.b{k}]\nshape.sphere.radius = 0.1\nlocation = [{x}, {y}, {z}]\ncharge = {charge:e}\n")
+            });
+            format!("{}[force.q.coulomb]\n[field.e]\nforce = 'q'", bodies.concat())
+        };
+        let mut plain = sampler(&text([0, 1, 2], &|place| place));
+        let mut turned = sampler(&text([2, 0, 1], &|place| turn * place + shift));
+        for point in [DVec3::new(1.0, 2.0, 3.0), DVec3::new(-4.0, 0.2, 0.1), DVec3::new(0.5, -0.5, 0.5)] {
+            let (expected, found) = (turn * plain.at(point), turned.at(turn * point + shift));
+            assert!(found.abs_diff_eq(expected, 1e-11 * expected.length()), "{found}, not {expected}");
+            let [one, other] = [plain.potential(point), turned.potential(turn * point + shift)];
+            assert!((one - other).abs() < 1e-11 * one.abs().max(1e4), "{one}, {other}");
+        }
+    }
+
     /// The field of gravitation points to the masses, of both groups if there are two.
     #[test]
     fn the_field_of_masses_follows_newton() {

@@ -10,7 +10,7 @@ use crate::scene::{Area, Color, Scene};
 use crate::simulate::place;
 
 /// The opacity of every second sector, and that of the paler ones between them.
-const OPACITY: [f64; 2] = [0.7, 0.35];
+const SECTOR_OPACITIES: [f64; 2] = [0.7, 0.35];
 /// The angle by which the sectors of one turn may exceed a full turn, rad. The orbit of a coarse step turns a little.
 const TURN_TOLERANCE: f64 = 0.02;
 
@@ -50,7 +50,7 @@ impl Mark for AreaMark {
             }
             let rim = sector.rim.iter().map(|point| center + *point);
             let points = std::iter::once(center).chain(rim).collect();
-            thing(Form::Area { points, opacity: OPACITY[sector.number % 2], is_liquid: false });
+            thing(Form::Area { points, opacity: SECTOR_OPACITIES[sector.number % 2], is_liquid: false });
         }
         let [begin, _] = self.area.times(0);
         let is_sweeping = frame.time >= begin && frame.time <= self.area.until;

@@ -10,8 +10,8 @@ use crate::picture::thing::{Form, Line, Thing};
 use crate::scene::{Color, ForceKind, Scene};
 
 /// Half of the sides of the rectangle across the view and along it, relative to the width in view.
-const HALF: [f64; 2] = [0.48, 0.3];
-const OPACITY: f64 = 0.55;
+const HALF_SIDES: [f64; 2] = [0.48, 0.3];
+const SURFACE_OPACITY: f64 = 0.55;
 
 #[derive(Debug)]
 struct SurfaceMark {
@@ -31,7 +31,7 @@ pub(super) fn marks(scene: &Scene, camera: &Placed, view: f64) -> Vec<Arc<dyn Ma
         // A camera that looks straight down sees no direction along its view.
         let right = camera.screen().right();
         let across = (right - up * right.dot(up)).normalize_or(up.any_orthonormal_vector());
-        let [across, along] = [across * (HALF[0] * view), across.cross(up) * (HALF[1] * view)];
+        let [across, along] = [across * (HALF_SIDES[0] * view), across.cross(up) * (HALF_SIDES[1] * view)];
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let corners = corners.map(|[a, b]| middle + across * a + along * b);
         marks.push(Arc::new(SurfaceMark {
@@ -48,7 +48,7 @@ impl Mark for SurfaceMark {
         let radius = HELPING_LINE_RADIUS * scale.stroke;
         let line =
             |number: usize| Line { from: self.corners[number], to: self.corners[(number + 1) % 4], radius };
-        let area = Form::Area { points: self.corners.to_vec(), opacity: OPACITY, is_liquid: true };
+        let area = Form::Area { points: self.corners.to_vec(), opacity: SURFACE_OPACITY, is_liquid: true };
         for form in [area, Form::Lines { lines: (0..4).map(line).collect() }] {
             sketch.things.push(Thing { name: self.name.as_str().into(), form, color: self.color });
         }

@@ -6,7 +6,7 @@ use super::{Axes, inside};
 use crate::scene::Color;
 
 /// The part of its room that a bar fills from left to right.
-const FILLED: f64 = 0.7;
+const FILLED_PART_OF_SLOT: f64 = 0.7;
 /// The part of a bin that a bar of a histogram leaves free on each side.
 const FREE_IN_BIN: f64 = 0.03;
 /// The largest part of a bin that counts as a rounding error at its edge.
@@ -34,7 +34,13 @@ pub(super) fn beside_each_other(
     let mut bars = Vec::new();
     let mut middle = 0.5;
     for (value, color) in values {
-        bars.extend(bar([middle - FILLED / 2.0, middle + FILLED / 2.0], value, color, axes, area));
+        bars.extend(bar(
+            [middle - FILLED_PART_OF_SLOT / 2.0, middle + FILLED_PART_OF_SLOT / 2.0],
+            value,
+            color,
+            axes,
+            area,
+        ));
         middle += 1.0;
     }
     bars

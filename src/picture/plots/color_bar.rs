@@ -11,13 +11,13 @@ use crate::scene::{Color, ColorMap, Corner, PlotPlace, Scene};
 use crate::simulate::Survey;
 
 /// The number of colors from which the strip is drawn. Between them, colors are mixed.
-const STOPS: usize = 33;
+const COLORS_OF_STRIP: usize = 33;
 /// The height of the strip, in lines of text.
-const STRIP: f64 = 0.8;
+const STRIP_HEIGHT: f64 = 0.8;
 /// The length of the marks at the numbers, in lines of text.
-const MARK: f64 = 0.25;
+const MARK_LENGTH: f64 = 0.25;
 /// The height of the row with the title, in lines of text.
-const TITLE_ROW: f64 = 1.35;
+const TITLE_ROW_HEIGHT: f64 = 1.35;
 /// The smallest space between two numbers, in lines of text.
 const BETWEEN_NUMBERS: f64 = 0.7;
 /// The largest numbers of intervals between numbers that are tried.
@@ -25,7 +25,7 @@ const MAX_INTERVALS: [f64; 6] = [6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
 
 /// Returns the height of a color bar, in lines of text.
 const fn height() -> f64 {
-    2.0 * PADDING + NUMBERS_ROW + STRIP + TITLE_ROW
+    2.0 * PADDING + NUMBERS_ROW + STRIP_HEIGHT + TITLE_ROW_HEIGHT
 }
 
 /// Returns the maps of a scene that have a color bar, with the corner of the bar. A map that no body has needs no bar.
@@ -91,8 +91,11 @@ fn bar(
     let foot = pad + NUMBERS_ROW * line;
     let (begin, end) = (beside, wide - beside);
     // A quantity that keeps its value has the color in the middle.
-    let strip =
-        Strip { from: [begin, foot], to: [end, foot + STRIP * line], colors: map.palette.colors(STOPS) };
+    let strip = Strip {
+        from: [begin, foot],
+        to: [end, foot + STRIP_HEIGHT * line],
+        colors: map.palette.colors(COLORS_OF_STRIP),
+    };
     let text = |says: String, at: [f64; 2]| Text {
         name: "color bar",
         says: says.into(),
@@ -105,14 +108,14 @@ fn bar(
     };
     let unit = axis.unit(map.of.unit().unwrap_or_default());
     let title = if unit.is_empty() { map.title.clone() } else { format!("{} ({unit})", map.title) };
-    let title_at = [wide / 2.0, foot + (STRIP + 0.5) * line];
+    let title_at = [wide / 2.0, foot + (STRIP_HEIGHT + 0.5) * line];
     let mut texts = vec![text(cut(&title, wide - 2.0 * pad, line), title_at)];
     let mut lines = Vec::new();
     for tick in axis.ticks() {
         let x = begin + tick.at * (end - begin);
         texts.push(text(with_sign(tick.says, scene.output.decimal), [x, foot - 1.05 * line]));
         let color = mixed(ink, paper, 0.25);
-        lines.push(PlotLine { from: [x, foot - MARK * line], to: [x, foot], color, is_axis: true });
+        lines.push(PlotLine { from: [x, foot - MARK_LENGTH * line], to: [x, foot], color, is_axis: true });
     }
     PlannedPlot {
         name: map.title.clone(),

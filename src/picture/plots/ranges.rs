@@ -6,7 +6,7 @@ use crate::scene::{Plot, PlotKind, Scene};
 use crate::simulate::{CurvePoint, Spread, Survey};
 
 /// The ends of a linear axis without values, and those of a logarithmic one.
-const UNKNOWN: [[f64; 2]; 2] = [[0.0, 1.0], [0.1, 1.0]];
+const SPANS_OF_UNKNOWN_VALUES: [[f64; 2]; 2] = [[0.0, 1.0], [0.1, 1.0]];
 
 /// The values of a plot in the whole run.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl<'a> Values<'a> {
 
 /// Returns what the horizontal and the vertical axis of a plot must show.
 pub(super) fn scales(scene: &Scene, plot: &Plot, values: &Values<'_>) -> [Scale; 2] {
-    let unknown = |axis: usize| UNKNOWN[usize::from(plot.is_logarithmic[axis])];
+    let unknown = |axis: usize| SPANS_OF_UNKNOWN_VALUES[usize::from(plot.is_logarithmic[axis])];
     let scale = |axis: usize, range: Range| match plot.is_logarithmic[axis] {
         true => Scale::Logarithmic(range),
         false => Scale::Linear(range),

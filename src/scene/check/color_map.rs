@@ -11,7 +11,7 @@ use crate::physics::Shape;
 use crate::scene::grammar::materials::{color_map, mapped_color, material};
 use crate::scene::read;
 use crate::scene::value::Text;
-use crate::scene::{Color, ColorMap, Corner, Material, MeasureFormula, Palette, Subject};
+use crate::scene::{Color, ColorMap, Corner, Material, Palette, Subject};
 
 /// A color map as it is written in the scene.
 pub(super) struct Written {
@@ -92,10 +92,12 @@ pub(super) fn read(
     }
     maps.into_iter()
         .filter_map(|Written { of: (of, span), palette, range, title, bar, .. }| {
-            let formula = formula(root, (&of, span), things, context);
+            let formula = text(root, (&of, span), things, context, |reader| {
+                reader.formula_with_unit(0..reader.text.len())
+            });
             let name = of.rsplit_once(':').map_or(of.as_str(), |(formula, _)| formula).trim();
             let title = match &title {
-                Some((title, span)) => set(root, (title, *span), things, context),
+                Some((title, span)) => text(root, (title, *span), things, context, set),
                 None => Some(name.to_owned()),
             };
             Some(ColorMap { of: formula?, palette, range, title: title?, bar })
@@ -103,42 +105,28 @@ pub(super) fn read(
         .collect()
 }
 
-/// Reads the formula of a map, in which a name such as `speed` means the measure of each body itself.
-fn formula(
+/// Reads a text of a map. A name such as `speed` in it means the measure of each body itself. Reports a text that is too long.
+fn text<T>(
     root: &View<'_>,
     (text, span): (&str, Span),
     things: Things<'_>,
     context: &mut Context<'_>,
-) -> Option<MeasureFormula> {
-    if is_too_long((text, span), context) {
-        return None;
-    }
-    let own = OwnBody { body: Subject::Each, ghosts: false };
-    Reader::new("color", (text, span), root, Some(own), things, context).formula_with_unit(0..text.len())
-}
-
-/// Sets the subscripts and superscripts of a title. Reports the letters that the font does not have.
-fn set(
-    root: &View<'_>,
-    (text, span): (&str, Span),
-    things: Things<'_>,
-    context: &mut Context<'_>,
-) -> Option<String> {
-    if is_too_long((text, span), context) {
-        return None;
-    }
-    let mut reader = Reader::new("color", (text, span), root, None, things, context);
-    reader.note_letters(0..text.len());
-    reader.report_missing();
-    reader.set(0..text.len())
-}
-
-/// Returns true and reports an error if a text is too long.
-fn is_too_long((text, span): (&str, Span), context: &mut Context<'_>) -> bool {
+    read: impl FnOnce(&mut Reader<'_, '_, '_>) -> Option<T>,
+) -> Option<T> {
     if text.len() > MAX_LENGTH {
         let error =
             Diagnostic::error(Code::BadColorMap, format!("this text has more than {MAX_LENGTH} bytes"));
         context.diagnostics.push(error.at(span, "write a shorter one"));
+        return None;
     }
-    text.len() > MAX_LENGTH
+    let own = OwnBody { body: Subject::Each, ghosts: false };
+    read(&mut Reader::new("color", (text, span), root, Some(own), things, context))
+}
+
+/// Sets the subscripts and superscripts of a title. Reports the letters that the font does not have.
+fn set(reader: &mut Reader<'_, '_, '_>) -> Option<String> {
+    let all = 0..reader.text.len();
+    reader.note_letters(all.clone());
+    reader.report_missing();
+    reader.set(all)
 }

@@ -7,19 +7,19 @@ use crate::picture::marks::HELPING_LINE_RADIUS;
 use crate::picture::thing::{Form, Line, Thing};
 use crate::simulate::FieldSampler;
 
-/// The part of the grid's points at which the field is stronger than the one with the longest arrow. Near its sources, a field can be
+/// The part of the grid's points at which arrows have the largest length, although the field differs there. Near its sources, a field can be
 /// arbitrarily strong.
-const STRONGER: f64 = 0.15;
+const PART_WITH_LONGEST_ARROWS: f64 = 0.15;
 /// The length of the longest arrow, in distances between arrows.
-const LONGEST: f64 = 0.85;
+const MAX_ARROW_LENGTH: f64 = 0.85;
 /// The shortest arrow that is drawn, in distances between arrows.
-const SHORTEST: f64 = 0.06;
+const MIN_ARROW_LENGTH: f64 = 0.06;
 /// The radius of an arrow's shaft, in strokes.
-const SHAFT: f64 = 0.4;
+const SHAFT_RADIUS: f64 = 0.4;
 /// The cosine of the angle between arrow and view from which on the arrow is a sign.
-const END_ON: f64 = 0.97;
+const MIN_COSINE_END_ON: f64 = 0.97;
 /// The radius of a sign, in distances between arrows.
-const SIGN: f64 = 0.16;
+const SIGN_RADIUS: f64 = 0.16;
 
 /// The strength of the field that has the longest arrow.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the index is that of a point")]
@@ -28,7 +28,7 @@ pub(super) fn strongest(sampler: &mut FieldSampler, grid: &[DVec3]) -> f64 {
     let mut strengths: Vec<f64> = grid.iter().map(|point| sampler.at(*point).length()).collect();
     strengths.retain(|strength| strength.is_finite());
     strengths.sort_by(f64::total_cmp);
-    let number = ((1.0 - STRONGER) * strengths.len() as f64) as usize;
+    let number = ((1.0 - PART_WITH_LONGEST_ARROWS) * strengths.len() as f64) as usize;
     strengths.get(number.min(strengths.len().saturating_sub(1))).copied().unwrap_or(0.0)
 }
 
@@ -52,17 +52,18 @@ impl FieldMark {
             let length = match self.drawn.scale {
                 Some(scale) => scale * strength,
                 // The root shows weak parts of the field as well.
-                None => LONGEST * spacing * (strength / self.strongest).min(1.0).sqrt(),
+                None => MAX_ARROW_LENGTH * spacing * (strength / self.strongest).min(1.0).sqrt(),
             };
-            let Some(direction) = field.try_normalize().filter(|_| length > SHORTEST * spacing) else {
+            let Some(direction) = field.try_normalize().filter(|_| length > MIN_ARROW_LENGTH * spacing)
+            else {
                 continue;
             };
             let along = direction.dot(to_camera);
-            if along.abs() > END_ON {
-                sketch.things.extend(self.sign(point, along > 0.0, length / LONGEST, scale));
+            if along.abs() > MIN_COSINE_END_ON {
+                sketch.things.extend(self.sign(point, along > 0.0, length / MAX_ARROW_LENGTH, scale));
             } else {
                 let half = direction * (length / 2.0);
-                sketch.things.push(self.arrow(point - half, point + half, SHAFT * scale.stroke));
+                sketch.things.push(self.arrow(point - half, point + half, SHAFT_RADIUS * scale.stroke));
             }
         }
     }
@@ -71,7 +72,7 @@ impl FieldMark {
     fn sign(&self, point: DVec3, is_towards: bool, size: f64, scale: &Scale<'_>) -> Vec<Thing<'_>> {
         const CORNERS: u32 = 20;
         let (right, up) = (scale.screen.right(), scale.screen.up());
-        let (radius, thick) = (SIGN * size, HELPING_LINE_RADIUS * scale.stroke);
+        let (radius, thick) = (SIGN_RADIUS * size, HELPING_LINE_RADIUS * scale.stroke);
         let on_circle = |corner: u32| {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
             point + (right * cos + up * sin) * radius

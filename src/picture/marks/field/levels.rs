@@ -8,15 +8,15 @@ use crate::picture::thing::Line;
 use crate::simulate::FieldSampler;
 
 /// The number of cells across and up.
-const CELLS: [usize; 2] = [120, 68];
+const CELLS_ACROSS_AND_UP: [usize; 2] = [120, 68];
 /// The part of the points whose potential is lower, and the part whose potential is higher, than those that the levels divide. Near its
 /// sources, a potential can be arbitrarily large.
-const EXTREME: f64 = 0.06;
+const EXTREME_PART: f64 = 0.06;
 /// The number of levels between these potentials.
-const LEVELS: f64 = 14.0;
+const USUAL_NUMBER_OF_LEVELS: f64 = 14.0;
 /// The part of the points whose potential is lower, and the part whose potential is higher, than all levels. The lines of higher potentials
 /// could not be told apart.
-const BEYOND_LEVELS: f64 = 0.012;
+const PART_BEYOND_LEVELS: f64 = 0.012;
 
 /// The levels of a potential: multiples of a spacing within bounds, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,10 +30,12 @@ pub(super) struct Levels {
 #[allow(clippy::cast_precision_loss, reason = "there are few cells")]
 fn potentials(sampler: &mut FieldSampler, region: &Region) -> Vec<f64> {
     let at = |k: usize, cells: usize| 2.0 * k as f64 / cells as f64 - 1.0;
-    let mut values = Vec::with_capacity((CELLS[0] + 1) * (CELLS[1] + 1));
-    for up in 0..=CELLS[1] {
-        for across in 0..=CELLS[0] {
-            values.push(sampler.potential(region.point([at(across, CELLS[0]), at(up, CELLS[1])])));
+    let mut values = Vec::with_capacity((CELLS_ACROSS_AND_UP[0] + 1) * (CELLS_ACROSS_AND_UP[1] + 1));
+    for up in 0..=CELLS_ACROSS_AND_UP[1] {
+        for across in 0..=CELLS_ACROSS_AND_UP[0] {
+            values.push(sampler.potential(
+                region.point([at(across, CELLS_ACROSS_AND_UP[0]), at(up, CELLS_ACROSS_AND_UP[1])]),
+            ));
         }
     }
     values
@@ -48,10 +50,10 @@ pub(super) fn levels(sampler: &mut FieldSampler, region: &Region) -> Levels {
     values.sort_by(f64::total_cmp);
     let at = |part: f64| values.get((part * values.len() as f64) as usize).copied();
     let range = |part: f64| at(part).zip(at(1.0 - part));
-    let [Some((low, high)), Some((lowest, highest))] = [EXTREME, BEYOND_LEVELS].map(range) else {
+    let [Some((low, high)), Some((lowest, highest))] = [EXTREME_PART, PART_BEYOND_LEVELS].map(range) else {
         return Levels::default();
     };
-    let spacing = if high > low { round_above((high - low) / LEVELS) } else { 0.0 };
+    let spacing = if high > low { round_above((high - low) / USUAL_NUMBER_OF_LEVELS) } else { 0.0 };
     Levels { spacing, low: lowest, high: highest }
 }
 
@@ -64,13 +66,16 @@ pub(super) fn lines(sampler: &mut FieldSampler, region: &Region, levels: Levels,
     }
     let values = potentials(sampler, region);
     let place = |across: usize, up: usize| {
-        region.point([2.0 * across as f64 / CELLS[0] as f64 - 1.0, 2.0 * up as f64 / CELLS[1] as f64 - 1.0])
+        region.point([
+            2.0 * across as f64 / CELLS_ACROSS_AND_UP[0] as f64 - 1.0,
+            2.0 * up as f64 / CELLS_ACROSS_AND_UP[1] as f64 - 1.0,
+        ])
     };
     let mut lines = Vec::new();
-    for up in 0..CELLS[1] {
-        for across in 0..CELLS[0] {
+    for up in 0..CELLS_ACROSS_AND_UP[1] {
+        for across in 0..CELLS_ACROSS_AND_UP[0] {
             let corners = [(across, up), (across + 1, up), (across + 1, up + 1), (across, up + 1)];
-            let cell = corners.map(|(i, k)| (place(i, k), values[k * (CELLS[0] + 1) + i]));
+            let cell = corners.map(|(i, k)| (place(i, k), values[k * (CELLS_ACROSS_AND_UP[0] + 1) + i]));
             let [low, high] = [f64::min, f64::max]
                 .map(|end| cell.iter().map(|(_, value)| *value).reduce(end).unwrap_or(f64::NAN));
             let last = libm::floor(high.min(levels.high) / spacing);

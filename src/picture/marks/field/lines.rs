@@ -9,17 +9,18 @@ use crate::picture::thing::Line;
 use crate::simulate::FieldSampler;
 
 /// The length of a step along a line, relative to half the width of the region.
-const STEP: f64 = 0.012;
+const STEP_LENGTH: f64 = 0.012;
 /// The largest number of steps along a line.
 const MAX_STEPS: usize = 1500;
-/// How far a line may leave the region, relative to its half width and height. It may come back.
-const BEYOND: f64 = 1.6;
+/// The position in the region at which a line ends, relative to the region's half width and height. A line that leaves the region before may
+/// come back.
+const MAX_POSITION: f64 = 1.6;
 /// The distance from its source at which a line begins, in radii of the body.
-const BEGIN: f64 = 1.02;
+const BEGIN_DISTANCE: f64 = 1.02;
 /// The smallest radius at which a line begins and ends, relative to half the width of the region.
 const MIN_RADIUS: f64 = 0.01;
 /// The length of the arrow in the middle of a line, relative to half the width of the region.
-const ARROW: f64 = 0.035;
+const ARROW_LENGTH: f64 = 0.035;
 
 /// A line from its begin to its end, in the direction of the field.
 struct Path {
@@ -49,7 +50,7 @@ impl FieldMark {
             let visible: Vec<DVec3> =
                 path.points.iter().copied().filter(|point| self.is_inside(*point)).collect();
             if let [.., before, here] = visible[..visible.len().div_ceil(2)] {
-                let along = (here - before).normalize_or_zero() * (ARROW * size / 2.0);
+                let along = (here - before).normalize_or_zero() * (ARROW_LENGTH * size / 2.0);
                 sketch.things.push(self.arrow(here - along, here + along, 0.4 * scale.stroke));
             }
         }
@@ -142,7 +143,7 @@ impl FieldMark {
     fn seed(&self, source: &Source, angle: f64) -> DVec3 {
         let (sin, cos) = libm::sincos(angle);
         let [across, up] = self.region.axes;
-        source.at + (across * cos + up * sin) * (BEGIN * self.reach(source))
+        source.at + (across * cos + up * sin) * (BEGIN_DISTANCE * self.reach(source))
     }
 
     /// The distance from a source at which lines begin and end.
@@ -160,7 +161,7 @@ impl FieldMark {
     /// Follows the field from a point, or against it if `sign` is −1, until the line ends at a source or leaves the region. Steps have equal
     /// lengths, by the classical Runge–Kutta method.
     fn path(&self, sampler: &mut FieldSampler, sources: &[Source], from: DVec3, sign: f64) -> Option<Path> {
-        let step = STEP * self.region.half[0];
+        let step = STEP_LENGTH * self.region.half[0];
         let region = self.region;
         let mut direction = |point: DVec3| (region.within(sampler.at(point)) * sign).try_normalize();
         let mut points = vec![from];
@@ -176,7 +177,7 @@ impl FieldMark {
             if reached.is_some() {
                 return Some(Path { points, end: reached });
             }
-            if self.region.position(here).iter().any(|part| part.abs() > BEYOND) {
+            if self.region.position(here).iter().any(|part| part.abs() > MAX_POSITION) {
                 break;
             }
         }

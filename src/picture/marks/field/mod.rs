@@ -22,11 +22,11 @@ use crate::simulate::FieldSampler;
 /// The radius of field lines and levels, in strokes.
 const LINE_RADIUS: f64 = 0.4;
 /// The number of arrows across the picture.
-const ARROWS: f64 = 18.0;
+const ARROWS_ACROSS_PICTURE: f64 = 18.0;
 /// The part of the picture that drawings fill.
-const FILLED: f64 = 0.96;
+const FILLED_PART_OF_PICTURE: f64 = 0.96;
 /// The smallest cosine between the view of the camera and the normal of a plane. A flatter plane is drawn as if it had this one.
-const MIN_TILT: f64 = 0.3;
+const MIN_COSINE_OF_TILT: f64 = 0.3;
 
 /// The part of a plane in which a field is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +118,7 @@ impl Region {
         let at = drawn.at.or(of_sources).unwrap_or(camera.look_at());
         // The camera looks at a point in front of the plane or behind it.
         let along = (camera.look_at() - at).dot(normal) / towards.dot(normal);
-        let middle = match along.is_finite() && towards.dot(normal).abs() > MIN_TILT {
+        let middle = match along.is_finite() && towards.dot(normal).abs() > MIN_COSINE_OF_TILT {
             true => camera.look_at() - towards * along,
             false => camera.look_at() - normal * (camera.look_at() - at).dot(normal),
         };
@@ -126,8 +126,8 @@ impl Region {
         let across = (right - normal * right.dot(normal)).normalize_or(normal.any_orthonormal_vector());
         let up = normal.cross(across);
         let aspect = f64::from(scene.output.height) / f64::from(scene.output.width);
-        let tilt = towards.dot(normal).abs().max(MIN_TILT);
-        let half = [FILLED * view / 2.0, FILLED * view / 2.0 * aspect / tilt];
+        let tilt = towards.dot(normal).abs().max(MIN_COSINE_OF_TILT);
+        let half = [FILLED_PART_OF_PICTURE * view / 2.0, FILLED_PART_OF_PICTURE * view / 2.0 * aspect / tilt];
         Region { middle, axes: [across, up], half }
     }
 
@@ -162,7 +162,7 @@ fn nearest_axis(direction: DVec3) -> DVec3 {
 impl FieldMark {
     /// The distance between two arrows, m.
     fn spacing(&self) -> f64 {
-        self.drawn.spacing.unwrap_or(2.0 * self.region.half[0] / ARROWS)
+        self.drawn.spacing.unwrap_or(2.0 * self.region.half[0] / ARROWS_ACROSS_PICTURE)
     }
 
     /// The points of a grid that fills the region, symmetric about its middle.
