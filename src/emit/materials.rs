@@ -90,7 +90,6 @@ fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> O
         name: format!("{}, ghost", material.name),
         identifier: identifiers.add("Ghost", &material.name),
         color: Some(color),
-        mapped: false,
         on_plane: false,
         ..material.clone()
     })

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
 
+use super::color_maps::shade;
 use super::colors;
 use crate::decimal::decimal_step;
 use crate::scene::{Color, Scene};
@@ -36,8 +37,12 @@ pub struct Trail {
     pub fineness: f64,
     /// True if the trail tapers towards its oldest point.
     pub tapers: bool,
-    /// The color of the trail.
+    /// The color of the trail. If the color follows a value, the middle one of its map.
     pub color: Color,
+    /// The color map of the trail, by its index in the scene. `None` for a trail of one color.
+    pub map: Option<usize>,
+    /// The color of each point, as an index into the colors of the map. Empty for a trail of one color.
+    pub shades: Vec<u16>,
 }
 
 /// A complete part of a trail. Its points are bit-identical in all later frames, for any width of the trail. `stride` and `number`
@@ -84,6 +89,8 @@ struct Planned {
     trail: Trail,
     /// The smallest distance between two points, m. It is the same in all frames, so that stretches can be reused.
     least: f64,
+    /// The values of the first and the last color. `None` for a trail of one color.
+    range: Option<[f64; 2]>,
     stretches: Arc<Remembered>,
 }
 
@@ -105,13 +112,17 @@ struct Made {
 /// finite.
 #[derive(Clone, Debug)]
 struct Part {
-    points: Arc<[DVec3]>,
+    points: Arc<[Spot]>,
     reach: f64,
 }
 
+/// A point of a trail (m), and its color as an index into the colors of the map; 0 for a trail of one color.
+type Spot = (DVec3, u16);
+
 impl Part {
-    fn of(points: Vec<DVec3>) -> Part {
-        let far = |point: &DVec3| if point.is_finite() { point.abs().max_element() } else { f64::INFINITY };
+    fn of(points: Vec<Spot>) -> Part {
+        let far =
+            |(point, _): &Spot| if point.is_finite() { point.abs().max_element() } else { f64::INFINITY };
         Part { reach: points.iter().map(far).fold(0.0, f64::max), points: points.into() }
     }
 }
@@ -136,8 +147,8 @@ impl Remembered {
 
 impl Trails {
     /// Plans the trails of a scene. `narrowest` is the smallest default width of a trail in the run (m). It
-    /// determines the fineness of trails without a given width.
-    pub(super) fn new(scene: &Scene, narrowest: f64) -> Trails {
+    /// determines the fineness of trails without a given width. `ranges` are the values of the first and the last color of each color map.
+    pub(super) fn new(scene: &Scene, narrowest: f64, ranges: &[[f64; 2]]) -> Trails {
         let mut trails = Vec::new();
         for (number, body) in scene.bodies.iter().enumerate() {
             let Some(trail) = body.showing.trail else { continue };
@@ -153,8 +164,11 @@ impl Trails {
                 fineness: decimal_step(least / FINEST),
                 tapers: trail.duration.is_some(),
                 color: trail.color.or(of_body).unwrap_or(AMBER),
+                map: scene.trail_map_of(body),
+                shades: Vec::new(),
             };
-            trails.push(Planned { trail, least, stretches: Arc::default() });
+            let range = trail.map.map(|map| ranges.get(map).copied().unwrap_or([0.0, 1.0]));
+            trails.push(Planned { trail, least, range, stretches: Arc::default() });
         }
         Trails { trails }
     }
@@ -168,10 +182,11 @@ impl Trails {
     pub(super) fn up_to(&self, frame: &Frame, stroke: f64) -> Vec<Trail> {
         let trail = |path: &TrailPath| {
             let of = self.trails.binary_search_by_key(&path.body, |planned| planned.trail.body).ok()?;
-            let Planned { trail, least, stretches } = &self.trails[of];
-            let Line { points, stretches, reach, .. } = Line::along(path, *least, stretches);
+            let Planned { trail, least, range, stretches } = &self.trails[of];
+            let Line { points, shades, stretches, reach, .. } = Line::along(path, *least, *range, stretches);
             let is_line = points.len() >= 2 && reach.is_finite();
-            is_line.then(|| Trail { points, stretches, reach, ..trail.clone().of_width(stroke) })
+            let shades = if range.is_some() { shades } else { Vec::new() };
+            is_line.then(|| Trail { points, shades, stretches, reach, ..trail.clone().of_width(stroke) })
         };
         frame.past.trails.iter().filter_map(trail).collect()
     }
@@ -180,6 +195,8 @@ impl Trails {
 /// A trail under construction along a path.
 struct Line {
     points: Vec<DVec3>,
+    /// The color of each point.
+    shades: Vec<u16>,
     stretches: Vec<Stretch>,
     /// The largest absolute value of the coordinates, m, or infinite if a coordinate is not finite.
     reach: f64,
@@ -189,15 +206,16 @@ struct Line {
 
 impl Line {
     /// Computes the points of a trail along a path, at least `least` (m) apart. The points of a stretch depend only on its own part of the
-    /// path.
-    fn along(path: &TrailPath, least: f64, remembered: &Remembered) -> Line {
-        let mut line = Line { points: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
+    /// path. `range` has the values of the first and the last color.
+    fn along(path: &TrailPath, least: f64, range: Option<[f64; 2]>, remembered: &Remembered) -> Line {
+        let mut line =
+            Line { points: Vec::new(), shades: Vec::new(), stretches: Vec::new(), reach: 0.0, least };
         let mut rest = path.points.as_slice();
         while rest.len() > 1 {
             let found = stretch_at(rest, path.stride);
             let number = found.map(|(number, _)| number);
             let end = found.map_or_else(|| until_stretch(rest, path.stride), |(_, end)| end);
-            let make = || Part::of(between(&rest[..=end], least));
+            let make = || Part::of(between(&rest[..=end], least, range));
             let Part { points, reach } = match number {
                 Some(number) => remembered.part((path.stride, number), make),
                 None => make(),
@@ -206,11 +224,13 @@ impl Line {
             match number {
                 Some(number) if points.len() > 1 => {
                     // If both parts have a point in common, keep only one copy, in the new stretch.
-                    if line.points.last() == points.first() {
+                    if line.points.last() == points.first().map(|(point, _)| point) {
                         line.points.pop();
+                        line.shades.pop();
                     }
                     let first = line.points.len();
-                    line.points.extend_from_slice(&points);
+                    line.points.extend(points.iter().map(|(point, _)| *point));
+                    line.shades.extend(points.iter().map(|(_, shade)| *shade));
                     line.stretches.push(Stretch {
                         stride: path.stride,
                         number,
@@ -226,9 +246,10 @@ impl Line {
     }
 
     /// Appends a point to the trail. Skips points that are too near to the last point.
-    fn put(&mut self, point: DVec3) {
+    fn put(&mut self, (point, shade): Spot) {
         if self.points.last().is_none_or(|last| last.distance(point) > self.least) {
             self.points.push(point);
+            self.shades.push(shade);
         }
     }
 }
@@ -252,12 +273,14 @@ fn until_stretch(points: &[TrailPoint], stride: usize) -> usize {
 }
 
 /// Computes the points of a trail along a part of a path, at least `least` (m) apart. Both ends are included unless the whole part is
-/// shorter than `least`.
-fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
-    let mut line: Vec<DVec3> = path.first().map(|point| point.location).into_iter().collect();
-    let mut put = |point: DVec3| {
-        if line.last().is_none_or(|last| last.distance(point) > least) {
-            line.push(point);
+/// shorter than `least`. `range` has the values of the first and the last color.
+fn between(path: &[TrailPoint], least: f64, range: Option<[f64; 2]>) -> Vec<Spot> {
+    let shade = |value: Option<f64>| range.map_or(0, |range| shade(value, range));
+    let spot = |point: &TrailPoint| (point.location, shade(point.value));
+    let mut line: Vec<Spot> = path.first().map(spot).into_iter().collect();
+    let mut put = |point: DVec3, value: Option<f64>| {
+        if line.last().is_none_or(|(last, _)| last.distance(point) > least) {
+            line.push((point, shade(value)));
         }
     };
     for pair in path.windows(2) {
@@ -265,13 +288,14 @@ fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
         let pieces = from.pieces_towards(to);
         let mut piece = 1.0;
         while piece <= pieces {
-            put(from.towards(to, from.time + (to.time - from.time) * piece / pieces));
+            let time = from.time + (to.time - from.time) * piece / pieces;
+            put(from.towards(to, time), from.value_towards(to, time));
             piece += 1.0;
         }
     }
     // The part must end exactly where the next part begins.
-    if let Some(end) = path.last().map(|point| point.location) {
-        let is_near = |point: &DVec3| point.distance(end) <= least;
+    if let Some(end) = path.last().map(spot) {
+        let is_near = |(point, _): &Spot| point.distance(end.0) <= least;
         while line.len() > 1 && line.last().is_some_and(is_near) {
             line.pop();
         }
@@ -285,25 +309,36 @@ fn between(path: &[TrailPoint], least: f64) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::Frames;
+    use crate::simulate::{Frames, survey};
 
     /// The trails of a frame do not depend on the cache: frames in any order, or one frame alone, have the same trails.
     #[test]
     fn what_is_remembered_of_a_trail_changes_nothing() {
         let scene = Scene::parse(
             "simulation.duration = 60\n[body.b]\nshape.sphere.radius = 0.1\ntrail = true\n\
-             motion.formula.location = ['cos(t)', 'sin(t)', 't/9']",
+             motion.formula.location = ['cos(t)', 'sin(t)', 't/9']\nmaterial.color.map.of = 'x'",
         );
         let scene = scene.unwrap();
-        let often = Trails::new(&scene, 0.01);
+        let ranges = survey(&scene, |_| {}).unwrap().color_ranges;
+        let often = Trails::new(&scene, 0.01, &ranges);
         let frames: Vec<Frame> = Frames::new(&scene).map(Result::unwrap).collect();
         for frame in frames.iter().chain(frames.iter().rev()).step_by(37) {
             let trails = often.up_to(frame, 0.01);
-            assert_eq!(trails, Trails::new(&scene, 0.01).up_to(frame, 0.01), "{}", frame.index);
+            assert_eq!(trails, Trails::new(&scene, 0.01, &ranges).up_to(frame, 0.01), "{}", frame.index);
             let far = |trail: &Trail| {
                 trail.points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max)
             };
             assert!(trails.iter().all(|trail| trail.reach == far(trail)));
+            // The color at x is that of the palette at (x + 1)/2. Between two frames, x differs from a straight line by less than 10⁻³.
+            for trail in &trails {
+                assert_eq!(trail.points.len(), trail.shades.len());
+                for (point, shade) in trail.points.iter().zip(&trail.shades) {
+                    assert!(
+                        (f64::from(*shade) + 0.5 - 128.0 * (point.x + 1.0)).abs() < 2.0,
+                        "{point} {shade}"
+                    );
+                }
+            }
         }
         let remembered = often.trails[0].stretches.made.lock().unwrap();
         assert!((17..=REMEMBERED).contains(&remembered.len()), "{}", remembered.len());

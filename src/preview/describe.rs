@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::{DQuat, DVec3};
 use serde::Serialize;
 
-use super::run::{Outcome, PreviewRun};
+use super::run::{Outcome, PreviewRun, TrailValues};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
 use crate::scene::{Body, Color, Look, Scene, Sky};
@@ -151,6 +151,11 @@ struct Trail {
     radius: Option<f64>,
     color: Color3,
     tapers: bool,
+    /// The index of the color map. `None` for a trail of one color.
+    map: Option<usize>,
+    /// The color at each `every`-th frame, as an index into the colors of the map. Empty for a trail of one color.
+    shades: Vec<u16>,
+    every: usize,
 }
 
 /// Describes a run, as far as it has been simulated.
@@ -320,15 +325,26 @@ fn lights(lights: &[PlacedLight]) -> Vec<super::shown::Light> {
     lights.iter().map(super::shown::Light::of).collect()
 }
 
-fn trail(scene: &Scene, planned: &crate::picture::Trail) -> Trail {
+fn trail(scene: &Scene, plan: &Plan, values: &TrailValues, planned: &crate::picture::Trail) -> Trail {
+    let (body, map) = (planned.body, planned.map);
+    let values_of_body = values.of_bodies.get(&body).into_iter().flatten();
+    let shades = map.map(|map| values_of_body.map(|value| plan.shade(map, *value)).collect());
     let width = scene.bodies[planned.body].showing.trail.and_then(|trail| trail.width);
     let radius = width.map(|width| width / 2.0);
-    Trail { body: planned.body, radius, color: planned.color.0, tapers: planned.tapers }
+    Trail {
+        body,
+        radius,
+        color: planned.color.0,
+        tapers: planned.tapers,
+        map,
+        shades: shades.unwrap_or_default(),
+        every: values.every,
+    }
 }
 
 fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
     let (plan, survey) = (&outcome.plans[0], &outcome.survey);
-    let stage = plan.stage();
+    let (stage, values) = (plan.stage(), run.trail_values());
     Stage {
         center: stage.center.to_array(),
         size: stage.size,
@@ -346,7 +362,7 @@ fn stage(run: &PreviewRun, outcome: &Outcome) -> Stage {
         steps_per_frame: survey.steps_per_frame,
         drift: survey.drift,
         drift_scale: survey.drift_scale.name(),
-        trails: plan.planned_trails().iter().map(|planned| trail(&run.scene, planned)).collect(),
+        trails: plan.planned_trails().iter().map(|it| trail(&run.scene, plan, &values, it)).collect(),
         grids: outcome.plans.iter().map(|plan| plan.still_grid().cloned()).collect(),
         plots: super::shown::plots(&run.scene, plan),
         maps: plan

@@ -1,5 +1,6 @@
 //! Simulates a run of a scene in the background, while the page already shows it.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -45,7 +46,43 @@ struct PastOfRun {
     lagging: Vec<Vec<Lagging>>,
     /// The complete sectors of each swept area.
     areas: Vec<Vec<Arc<Sector>>>,
+    trail_values: TrailValues,
     bounds: Option<Bounds>,
+}
+
+/// The values that the colors of trails follow.
+#[derive(Clone, Default)]
+pub(super) struct TrailValues {
+    /// The number of frames from one value to the next.
+    pub(super) every: usize,
+    /// The values of each trail whose color follows one, by the index of its body. `None` while a value is undefined.
+    pub(super) of_bodies: BTreeMap<usize, Vec<Option<f64>>>,
+}
+
+impl TrailValues {
+    /// The largest number of values of all trails together. In longer runs, only the values of some frames are kept.
+    const MOST_VALUES: usize = 500_000;
+
+    fn new(scene: &Scene) -> TrailValues {
+        let bodies = scene.bodies.iter().enumerate();
+        let bodies = bodies.filter(|(_, body)| scene.trail_map_of(body).is_some());
+        let of_bodies: BTreeMap<_, _> = bodies.map(|(number, _)| (number, Vec::new())).collect();
+        let values = scene.simulation.timeline.frames().saturating_mul(of_bodies.len());
+        TrailValues { every: values.div_ceil(TrailValues::MOST_VALUES).max(1), of_bodies }
+    }
+
+    /// Adds the values of the next frame.
+    fn note(&mut self, frame: &Frame) {
+        if !frame.index.is_multiple_of(self.every) {
+            return;
+        }
+        for path in &frame.past.trails {
+            if let Some(values) = self.of_bodies.get_mut(&path.body) {
+                let here = path.points.last().filter(|point| point.time == frame.time);
+                values.push(here.and_then(|point| point.value));
+            }
+        }
+    }
 }
 
 /// The results of a run that are known after its last frame.
@@ -170,6 +207,11 @@ impl PreviewRun {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).ghosts.clone()
     }
 
+    /// Returns the values that the colors of trails follow. Empty until the run is finished.
+    pub(super) fn trail_values(&self) -> TrailValues {
+        self.past.lock().unwrap_or_else(PoisonError::into_inner).trail_values.clone()
+    }
+
     /// Returns the box around the motion so far. `None` before the first frame.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.past.lock().unwrap_or_else(PoisonError::into_inner).bounds
@@ -237,12 +279,15 @@ impl PreviewRun {
         Ok(recorded)
     }
 
-    /// Collects the ghosts, swept areas and lagging cameras of all frames, if the scene has any.
+    /// Collects the ghosts, swept areas, values of trails and lagging cameras of all frames, if the scene has any.
     fn remember(&self, recorded: &Recorded<'_>) -> Result<(), Report> {
-        let mut collected = PastOfRun { bounds: recorded.survey().bounds(), ..PastOfRun::default() };
+        let bounds = recorded.survey().bounds();
+        let trail_values = TrailValues::new(&self.scene);
+        let mut collected = PastOfRun { bounds, trail_values, ..PastOfRun::default() };
         if Frames::recorded(&self.scene, recorded.recording()).remember_anything() {
             for frame in recorded.frames() {
                 let frame = frame.map_err(|error| error.report())?;
+                collected.trail_values.note(&frame);
                 collected.ghosts = frame.past.ghosts;
                 collected.areas = frame.past.areas;
                 if !frame.past.lagging.is_empty() {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::run::PreviewRun;
 use crate::lettering;
 use crate::picture::{self, Lens, Placed, PlacedLight, Plan, Thing, Vertical};
-use crate::scene::{LabelPlace, Scene, Side};
+use crate::scene::{Color, LabelPlace, Scene, Side};
 use crate::simulate::Frame;
 
 type Vector = [f64; 3];
@@ -156,6 +156,8 @@ pub(super) struct Ghost {
     body: usize,
     location: Vector,
     orientation: [f64; 4],
+    /// The linear color of the ghost. `None` for the pale color of its material.
+    color: Option<Vector>,
 }
 
 impl Camera {
@@ -190,11 +192,13 @@ pub(super) fn frames(
 
 /// Returns the ghosts that are known so far, in order of time.
 pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
+    let plan = run.outcome().and_then(Result::ok).map(|outcome| &outcome.plans[0]);
     let ghost = |ghost: &crate::simulate::Ghost| Ghost {
         time: ghost.time,
         body: ghost.body.id,
         location: ghost.body.location.to_array(),
         orientation: ghost.body.orientation.to_array(),
+        color: plan.and_then(|plan| plan.ghost_color(ghost)).map(Color::linear),
     };
     run.ghosts().iter().map(|each| ghost(each)).collect()
 }

@@ -260,6 +260,12 @@ impl Scene {
         self.materials[body.material?].color_map
     }
 
+    /// Returns the color map of a body's trail. `None` without a trail, or if the trail has one color.
+    pub fn trail_map_of(&self, body: &Body) -> Option<usize> {
+        body.showing.trail.filter(|trail| trail.color.is_none())?;
+        self.color_map_of(body)
+    }
+
     /// Reads and checks the scene in a file.
     ///
     /// # Errors

@@ -179,7 +179,7 @@ impl<'a> Frames<'a> {
     fn remember(&mut self, entry: Entry) {
         self.history.note_moment(&entry);
         if let Some(index) = entry.frame {
-            let frame = Frame::of(index, entry.snapshot);
+            let frame = Frame::of_entry(index, entry);
             self.clouds.note(&frame);
             self.history.note(&frame);
         }

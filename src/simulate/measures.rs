@@ -13,6 +13,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::build::forces;
+use super::simulation::Entry;
 use super::{AngleNow, DistanceNow, Frame, Ghost, ImpactCounts, Sector, shown};
 use crate::physics::{
     Balance, BodyId, BodySnapshot, Coordinate, Force, Loads, Moment, Presence, Reaction, RigidBody, World,
@@ -70,6 +71,27 @@ impl<'a> MomentState<'a> {
     /// Returns the moment of a frame without a past, with these complete sectors of each swept area.
     pub(super) fn with_areas(frame: &'a Frame, areas: &'a [Vec<Arc<Sector>>]) -> MomentState<'a> {
         MomentState { areas, ..MomentState::now(frame) }
+    }
+
+    /// Returns a moment of the run, which may lie between two frames. `latest` is the number of the frame before it; `areas` has the
+    /// complete sectors of each swept area up to that frame.
+    pub(super) fn of_entry(
+        entry: &'a Entry,
+        latest: usize,
+        areas: &'a [Vec<Arc<Sector>>],
+    ) -> MomentState<'a> {
+        let moment = &entry.snapshot;
+        MomentState {
+            time: moment.time,
+            frame: entry.frame.unwrap_or(latest),
+            balance: Some(&moment.balance),
+            bodies: &moment.bodies,
+            reactions: &moment.reactions,
+            angles: &moment.angles,
+            impacts: Some(&entry.counts),
+            areas,
+            computed: Computed::default(),
+        }
     }
 
     /// The time of the moment, s.

@@ -7,6 +7,7 @@ mod corners;
 #[cfg(test)]
 mod tests;
 mod trail_path;
+mod values;
 
 use std::sync::Arc;
 
@@ -16,10 +17,11 @@ pub(super) use trail_path::BEND;
 pub use trail_path::{TrailPath, TrailPoint};
 
 use self::trail_path::{cut, stride, thin};
+use self::values::Values;
 use super::sectors::Sweeps;
 use super::simulation::Entry;
-use super::{Frame, Lagging, Sector};
-use crate::physics::{BodySnapshot, ContactSnapshot, Impact, Snapshot};
+use super::{Frame, Lagging, MomentState, Sector};
+use crate::physics::{BodySnapshot, ContactSnapshot, Impact};
 use crate::scene::{Scene, Showing, Timeline, Trail};
 
 /// The earlier positions of bodies, as a frame shows them.
@@ -44,6 +46,8 @@ pub struct Ghost {
     pub body: BodySnapshot,
     /// The contacts of the body at the time of the ghost. Empty unless the ghost shows contact forces.
     pub contacts: Vec<ContactSnapshot>,
+    /// The value at the time of the ghost that its color follows. `None` if the color stays, or if the value is not finite.
+    pub value: Option<f64>,
 }
 
 /// Collects the trails, ghosts and delayed camera targets of a run, frame by frame.
@@ -57,6 +61,12 @@ pub(super) struct History {
     paths: Vec<Vec<(usize, TrailPoint)>>,
     /// The state of each body with a trail in the last frame. `None` if the body was absent.
     last: Vec<Option<corners::At>>,
+    /// The value in the last frame that the color of each trail follows.
+    last_values: Vec<Option<f64>>,
+    /// The values that the colors of trails and ghosts follow. `None` if all of these colors stay.
+    values: Option<Arc<Values>>,
+    /// The number of the last frame.
+    latest: usize,
     /// The impacts since the last frame.
     impacts: Vec<Impact>,
     /// For each body with a trail, whether it was absent in the last frame.
@@ -87,6 +97,9 @@ impl History {
         History {
             masses: requests.iter().map(mass).collect(),
             last: vec![None; requests.len()],
+            last_values: vec![None; requests.len()],
+            values: Values::new(scene).map(Arc::new),
+            latest: 0,
             impacts: Vec::new(),
             paths: vec![Vec::new(); requests.len()],
             is_away: vec![false; requests.len()],
@@ -105,13 +118,14 @@ impl History {
 
     /// Stores the ghosts at a moment, and the impacts since the moment before.
     pub(super) fn note_moment(&mut self, entry: &Entry) {
-        self.note_ghosts(&entry.snapshot);
+        self.note_ghosts(entry);
         if !self.requests.is_empty() {
             self.impacts.extend_from_slice(&entry.impacts);
         }
     }
 
-    fn note_ghosts(&mut self, moment: &Snapshot) {
+    fn note_ghosts(&mut self, entry: &Entry) {
+        let moment = &entry.snapshot;
         // A ghost's time that differs from the moment's time only by rounding counts as equal.
         let slack = self.timeline.slack();
         let mut due: Vec<(f64, usize)> = Vec::new();
@@ -130,8 +144,11 @@ impl History {
             let touches = moment.contacts.iter().filter(|contact| contact.bodies.contains(&body)).copied();
             if self.requests.iter().any(shows) { touches.collect() } else { Vec::new() }
         };
-        let ghost = |(time, body): (f64, usize)| {
-            Some(Arc::new(Ghost { time, body: *moment.body(body)?, contacts: contacts(body) }))
+        let state = MomentState::of_entry(entry, self.latest, self.sweeps.complete());
+        let value = |body: usize| self.values.as_ref()?.of(body, &state);
+        let ghost = |(time, id): (f64, usize)| {
+            let body = *moment.body(id)?;
+            Some(Arc::new(Ghost { time, body, contacts: contacts(id), value: value(id) }))
         };
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
@@ -140,17 +157,20 @@ impl History {
     pub(super) fn note(&mut self, frame: &Frame) {
         self.lagging.iter_mut().for_each(|lagging| *lagging = lagging.at(frame));
         self.sweeps.note(frame);
+        self.latest = frame.index;
+        let values = self.values_of_trails(frame);
         for number in 0..self.requests.len() {
             let (body, showing) = &self.requests[number];
             let Some(trail) = showing.trail else { continue };
             let present = frame.body(*body);
-            let corners = self.corners(number, frame, trail);
+            let corners = self.corners(number, (frame, values[number]), trail);
             let (trail_path, is_away) = (&mut self.paths[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
                 // A body may return at another place, so clear the trail from before its absence.
                 trail_path.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
+            self.last_values[number] = values[number];
             // The stride depends on the number of the present frame alone, so every reader keeps the same points.
             let stride = stride(trail, self.timeline.interval(), frame.index);
             if let Some(duration) = trail.duration {
@@ -164,15 +184,32 @@ impl History {
             if frame.index.is_multiple_of(stride) {
                 let Some(body) = present else { continue };
                 let point = TrailPoint::of(frame.time, body, trail);
-                trail_path.push((frame.index, TrailPoint { frame: Some(frame.index), ..point }));
+                let point = TrailPoint { frame: Some(frame.index), value: values[number], ..point };
+                trail_path.push((frame.index, point));
             }
             thin(trail_path);
         }
         self.impacts.clear();
     }
 
-    /// Computes the points of a trail at the impacts since the last frame.
-    fn corners(&self, number: usize, moment: &Frame, trail: Trail) -> Vec<TrailPoint> {
+    /// Returns the value at a frame, or at a moment after the last frame, that the color of each trail follows.
+    fn values_of_trails(&self, frame: &Frame) -> Vec<Option<f64>> {
+        let moment = MomentState::with_areas(frame, self.sweeps.complete());
+        let value = |(body, showing): &(usize, Showing)| {
+            showing.trail.filter(|trail| trail.color.is_none())?;
+            self.values.as_ref()?.of(*body, &moment)
+        };
+        self.requests.iter().map(value).collect()
+    }
+
+    /// Computes the points of a trail at the impacts since the last frame. `now_value` is the value at the moment that the color of the trail
+    /// follows.
+    fn corners(
+        &self,
+        number: usize,
+        (moment, now_value): (&Frame, Option<f64>),
+        trail: Trail,
+    ) -> Vec<TrailPoint> {
         let id = self.requests[number].0;
         let (Some(before), Some(now)) = (&self.last[number], moment.body(id)) else { return Vec::new() };
         let impulse = |impact: &Impact| match impact.bodies {
@@ -180,18 +217,22 @@ impl History {
             [_, second] if second == id => impact.impulse,
             _ => DVec3::ZERO,
         };
-        corners::between((before, &(moment.time, *now)), &self.impacts, impulse, self.masses[number], trail)
+        let now = (moment.time, *now);
+        let values = [self.last_values[number], now_value];
+        corners::between((before, &now), values, &self.impacts, impulse, self.masses[number], trail)
     }
 
     /// The trails, ghosts and delayed camera targets of a moment at or after the last frame.
     pub(super) fn before(&self, moment: &Frame) -> Past {
         let mut trails = Vec::new();
+        let values = self.values_of_trails(moment);
         for (number, ((body, showing), trail_path)) in self.requests.iter().zip(&self.paths).enumerate() {
             let Some(trail) = showing.trail else { continue };
             let mut points: Vec<TrailPoint> = trail_path.iter().map(|(_, point)| *point).collect();
-            points.extend(self.corners(number, moment, trail));
+            points.extend(self.corners(number, (moment, values[number]), trail));
             if points.last().is_none_or(|last| last.time < moment.time) {
-                points.extend(moment.body(*body).map(|body| TrailPoint::of(moment.time, body, trail)));
+                let here = moment.body(*body).map(|body| TrailPoint::of(moment.time, body, trail));
+                points.extend(here.map(|here| TrailPoint { value: values[number], ..here }));
             }
             if let Some(duration) = trail.duration {
                 cut(&mut points, moment.time - duration);

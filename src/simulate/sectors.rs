@@ -100,7 +100,13 @@ impl Sweeps {
 fn end_of_line(area: &Area, time: f64, bodies: &[BodySnapshot]) -> Option<TrailPoint> {
     let (center, drift) = marks::motion(area.center, bodies)?;
     let body = find(bodies, area.body)?;
-    Some(TrailPoint { time, location: body.location - center, velocity: body.velocity - drift, frame: None })
+    Some(TrailPoint {
+        time,
+        location: body.location - center,
+        velocity: body.velocity - drift,
+        frame: None,
+        value: None,
+    })
 }
 
 impl Line {

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use jabuka::Run;
 use jabuka::scene::Scene;
 
-use crate::image::{Image, Rgb, is_green, is_red};
+use crate::image::{Image, Rgb, is_blue, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all, run};
 use crate::scene::{DARK, script, script_of};
@@ -174,6 +174,32 @@ fn ghosts_and_trail_are_where_the_body_was() {
     for t in [0.1, 0.73, 1.31, 1.8] {
         assert!(near(&trail, at(t), is_green), "the trail at {t}");
     }
+}
+
+/// The color follows x, from red at -3 m to blue at 3 m, in both layouts and for both kinds of trails.
+#[test]
+fn a_trail_and_ghosts_have_the_colors_of_their_values() {
+    let scene = |keys: &str| {
+        let text = format!(
+            "simulation = {{ duration = 2, integrator = 'rk4' }}\n[output]\nlayout = 'self-contained'
+            [body.ball]\nshape.sphere.radius = 0.3\nlocation = [-3, 0, 0]\nvelocity = [3, 0, 0]\n{keys}
+            material = {{ finish = 'luminous', color.map = {{ of = 'x', palette = ['red', 'blue'], range = [-3, 3], bar = false }} }}
+            {}{DARK}",
+            front().toml()
+        );
+        script_of(&text, 50)
+    };
+    let keys = ["trail.width = 0.2", "trail = { width = 0.2, duration = 9 }", "ghosts.every = 0.5"];
+    let [trail, tapering, ghosts] = render_all(keys.map(scene), SIZE);
+    let at = |x: f64| front().sees(DVec3::X * x);
+    for image in [trail, tapering] {
+        let [red, middle, blue] = [-2.2, 0.0, 2.2].map(|x| image.at(at(x)));
+        assert!(is_red(red) && is_blue(blue), "{red:?} {blue:?}");
+        assert!(middle[0].abs_diff(middle[2]) < 20 && middle[1] < 30, "{middle:?}");
+    }
+    let [first, second, fourth] = [-3.0, -1.5, 1.5].map(|x| ghosts.at(at(x)));
+    assert!(first[0] > first[2] + 60 && fourth[2] > fourth[0] + 60, "{first:?} {fourth:?}");
+    assert!(first[0] > second[0] && second[0] > fourth[0], "{second:?}");
 }
 
 #[test]

@@ -104,3 +104,113 @@ fn a_model_has_the_colors_of_its_first_frame() {
         assert!(text.contains(color), "{color}");
     }
 }
+
+/// A ball that falls from rest with 10 m/s², so that its speed is 10 t, from black at 0 m/s to white at 10 m/s. Its color is that of the
+/// exact speed at each time.
+const FALL: &str = "
+    simulation = { duration = 1, gravity = [0, -10, 0], integrator = 'velocity-verlet', frame_rate = 50 }
+    [body.ball]
+    shape.sphere.radius = 0.1
+    location = [0, 5, 0]
+    material.color.map = { of = 'speed', palette = ['black', 'white'], range = [0, 10] }
+    ";
+
+/// Returns the colors that a script declares for the next bodies.
+fn declared(script: &str) -> Vec<f64> {
+    let red = |line: &str| line.strip_prefix("#local Shade = <")?.split(',').next()?.parse().ok();
+    script.lines().filter_map(red).collect()
+}
+
+#[test]
+fn a_ghost_has_the_color_of_its_time() {
+    // The ghosts are between frames and in frames.
+    let text = format!("{FALL}ghosts.every = 0.25\n");
+    let found = declared(&script(&text, 50));
+    let pale = |speed: f64| {
+        let color = (256.0 * speed / 10.0).floor().min(255.0) / 255.0;
+        color + 0.5 * (0.93 - color)
+    };
+    let expected = [1.0, pale(0.0), pale(2.5), pale(5.0), pale(7.5)];
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        // Rounding may give the neighbor of a color.
+        assert!((found - expected).abs() < 0.5 / 255.0 + 1e-6, "{found} instead of {expected}");
+    }
+}
+
+/// Measures of the whole run are known between frames as well, and a recording knows what the simulation knew.
+#[test]
+fn a_ghost_between_frames_knows_the_measures_of_the_run() {
+    let of = "'total + 1000*impacts + ball.y'";
+    let text = format!("{FALL}ghosts.every = 0.13\ntrail = true\nlocation = [0, 1, 0]\n")
+        .replacen("location = [0, 5, 0]\n", "", 1)
+        .replace("'speed'", of)
+        .replace("frame_rate", "contacts = 'event-driven', frame_rate");
+    let scene = Scene::parse(&text).unwrap();
+    let run = Run::new(&scene).unwrap();
+    let live = jabuka::simulate::Frames::new(&scene).last().unwrap().unwrap();
+    let recorded = run.frames().last().unwrap().unwrap();
+    assert_eq!(live.past, recorded.past);
+    assert_eq!(live.past.ghosts.len(), 8);
+    for ghost in &live.past.ghosts {
+        // It hits the ground at t = √(0.18) s, with its center 0.1 m above it.
+        let impacts = f64::from(ghost.time > 0.18_f64.sqrt());
+        let expected = 10.0 + 1000.0 * impacts + ghost.body.location.y;
+        let value = ghost.value.unwrap();
+        // At the impact, a part of the energy is lost.
+        assert!(
+            (value - expected).abs() < if impacts > 0.0 { 10.0 } else { 1e-9 },
+            "{value} at {} s",
+            ghost.time
+        );
+    }
+}
+
+/// Each point of a trail has the color of the value at its time, in every layout. The arrays of colors are as long as those of points.
+#[test]
+fn a_trail_has_the_colors_of_its_values() {
+    for layout in ["shared", "self-contained"] {
+        let text = format!("{FALL}trail = true\n[output]\nlayout = '{layout}'");
+        let scene = Scene::parse(&text).unwrap();
+        let run = Run::new(&scene).unwrap();
+        let frame = run.frames().last().unwrap().unwrap();
+        let trails = run.emitter().plan().trails(&frame);
+        let [trail] = &trails[..] else { panic!("{trails:?}") };
+        for (point, shade) in trail.points.iter().zip(&trail.shades) {
+            let speed = (20.0 * (5.0 - point.y)).max(0.0).sqrt();
+            // Between frames, the color is that of the interpolated value, which is exact here.
+            let exact = (256.0 * speed / 10.0).min(255.0);
+            assert!((f64::from(*shade) + 0.5 - exact).abs() < 1.0, "{point}: {shade} instead of {exact}");
+        }
+        let files: String =
+            run.emitter().trail_files(&frame, &|_| false).iter().map(|it| &*it.text).collect();
+        let all = run.script(&frame).unwrap() + &files;
+        let sizes = |word: &str| -> Vec<String> {
+            let parts = all
+                .split(word)
+                .skip(1)
+                .filter_map(|rest| Some(rest.split_once("array[")?.1.split_once(']')?.0));
+            parts.map(str::to_owned).collect()
+        };
+        let (points, shades) = match layout {
+            "shared" => (sizes("#declare Trail_"), sizes("#declare Shades_")),
+            _ => (sizes("#local Points"), sizes("#local Shades")),
+        };
+        assert_eq!(points, shades);
+        assert!(!points.is_empty(), "{all}");
+    }
+}
+
+/// A color of its own, and a body of one color, give a trail of one color.
+#[test]
+fn a_trail_with_a_color_of_its_own_keeps_it() {
+    let given = script(&format!("{FALL}trail.color = 'red'\n"), 9);
+    let plain = script(
+        &format!("{FALL}trail = true\nmaterial.color = 'red'\n").replace("material.color.map", "# "),
+        9,
+    );
+    for script in [given, plain] {
+        assert!(script.contains("  Trail(Points, ") && !script.contains("Shaded_trail"), "{script}");
+        assert!(!script.contains("Colors_of_map"));
+    }
+}

@@ -1,9 +1,10 @@
 //! Writes ghosts, which show the earlier poses of bodies at regular intervals, in SDL.
 
 use super::super::bodies::Block;
-use super::super::materials::MaterialText;
+use super::super::materials::{MaterialText, SHADE_IDENTIFIER};
 use super::super::meshes::Meshes;
 use super::super::sdl::Style;
+use super::color;
 use crate::picture::Plan;
 use crate::scene::{Body, Scene};
 use crate::simulate::Frame;
@@ -12,6 +13,7 @@ use crate::simulate::Frame;
 pub(super) struct Ghosts {
     /// The indices of the bodies that have ghosts, in ascending order, each with its planned text.
     bodies: Vec<(usize, Block)>,
+    style: Style,
 }
 
 impl Ghosts {
@@ -22,13 +24,17 @@ impl Ghosts {
             let pale = Body { material: pale.or(body.material), ..body.clone() };
             (number, Block::of(&pale, materials, meshes, style))
         };
-        Ghosts { bodies: bodies.map(block).collect() }
+        Ghosts { bodies: bodies.map(block).collect(), style }
     }
 
     /// Appends the ghosts that a frame shows.
     pub(super) fn write(&self, out: &mut String, plan: &Plan, frame: &Frame) {
         for ghost in plan.ghosts(frame) {
             if let Ok(of) = self.bodies.binary_search_by_key(&ghost.body.id, |(number, _)| *number) {
+                if let Some(shade) = plan.ghost_color(ghost) {
+                    let shade = color(shade, self.style);
+                    out.push_str(&format!("#local {SHADE_IDENTIFIER} = {shade};\n"));
+                }
                 self.bodies[of].1.write_single(out, &ghost.body);
             }
         }

@@ -18,7 +18,7 @@ use super::materials::MaterialText;
 use super::meshes::Meshes;
 use super::sdl::Style;
 use crate::picture::{Plan, Thing, Written, has_texts};
-use crate::scene::{Color, ForceKind, Layout, PlotKind, Scene, SpringLine, SpringLook};
+use crate::scene::{Body, Color, ForceKind, Layout, PlotKind, Scene, SpringLine, SpringLook};
 use crate::simulate::Frame;
 
 pub use trails::{TrailFile, is_trail_file};
@@ -50,8 +50,10 @@ pub(super) struct NeededMacros {
     color_bars: bool,
     /// True if plots contain bars.
     bars: bool,
-    /// True if bodies have trails.
+    /// True if bodies have trails of one color.
     trails: bool,
+    /// True if bodies have trails whose color follows a value.
+    shaded_trails: bool,
 }
 
 impl NeededMacros {
@@ -59,6 +61,7 @@ impl NeededMacros {
         let is_coil = |look: &SpringLook| matches!(look.line, SpringLine::Coil { .. });
         let is_wound = |kind: &ForceKind| matches!(kind, ForceKind::Spring { look: Some(look), links } if is_coil(look) && !links.is_empty());
         let has_surface = |kind: &ForceKind| matches!(kind, ForceKind::Buoyancy { surface: Some(_), .. });
+        let has_trail = |body: &Body| body.showing.trail.is_some();
         let has_color_bars = scene.color_maps.iter().any(|map| map.bar.is_some());
         NeededMacros {
             arrows: scene.bodies.iter().any(|body| body.showing.has_arrows())
@@ -70,7 +73,8 @@ impl NeededMacros {
             plots: !scene.plots.is_empty() || has_color_bars,
             color_bars: has_color_bars,
             bars: scene.plots.iter().any(|plot| plot.kind != PlotKind::Curves),
-            trails: scene.bodies.iter().any(|body| body.showing.trail.is_some()),
+            trails: scene.bodies.iter().any(|body| has_trail(body) && scene.trail_map_of(body).is_none()),
+            shaded_trails: scene.bodies.iter().any(|body| scene.trail_map_of(body).is_some()),
         }
     }
 }
@@ -93,8 +97,9 @@ impl Showing {
         }
     }
 
-    /// Appends the declarations of plots to the common part of all scripts.
+    /// Appends the declarations of plots and trails to the common part of all scripts.
     pub(super) fn declare(out: &mut String, plan: &Plan, layout: Layout, style: Style) {
+        trails::declare(out, plan, layout, style);
         plots::declare(out, plan.planned_plots(), layout, style);
     }
 

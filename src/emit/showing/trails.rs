@@ -1,6 +1,7 @@
 //! Writes the trails of bodies in SDL.
 //!
-//! The points of a trail are an array, and the macro `Trail` draws the array. In the layout `shared`, each finished stretch of a trail is
+//! The points of a trail are an array, and the macro `Trail` draws the array. If the color of a trail follows a value, a second array has the
+//! number of each point's color, and the macro `Shaded_trail` draws both. In the layout `shared`, each finished stretch of a trail is
 //! a separate file. A script then contains only the remaining part of the trail, and does not repeat the whole path of a body. The name of
 //! a file contains the digest of its text, so the text of a file never changes.
 
@@ -55,8 +56,7 @@ impl Trails {
                     let word = self.word(&trail, stretch);
                     let name = file_name(&word);
                     if !has(&name) {
-                        let array = self.array(&trail, stretch.first, stretch.last);
-                        files.push(TrailFile { name, text: format!("#declare Trail_{word} = {array}") });
+                        files.push(TrailFile { name, text: self.text(&trail, stretch, &word) });
                     }
                 }
             }
@@ -88,14 +88,18 @@ impl Trails {
         let mut at = 0;
         for (stretch, word) in stretches.iter().zip(&words) {
             self.own(out, trail, at, stretch.first);
-            self.call(out, trail, &format!("Trail_{word}"), stretch.first);
+            self.call(out, trail, [&format!("Trail_{word}"), &format!("Shades_{word}")], stretch.first);
             at = stretch.last;
         }
         self.own(out, trail, at, trail.points.len() - 1);
-        let color = color(trail.color, self.style);
-        out.push_str(&format!(
-            "  pigment {{ color srgb {color} }} finish {{ ambient 0 emission 0.75 diffuse 0.25 }} no_shadow no_reflection\n}}\n"
-        ));
+        out.push_str("  ");
+        if trail.map.is_none() {
+            let color = color(trail.color, self.style);
+            out.push_str(&format!(
+                "pigment {{ color srgb {color} }} finish {{ ambient 0 emission 0.75 diffuse 0.25 }} "
+            ));
+        }
+        out.push_str("no_shadow no_reflection\n}\n");
     }
 
     /// Appends the part of a trail from point `first` to point `last`, as an array in the script itself.
@@ -109,13 +113,20 @@ impl Trails {
         let is_line = last > first + 1 || text(first) != text(last);
         if last > first && is_line {
             out.push_str(&format!("  #local Points = {}", self.array(trail, first, last)));
-            self.call(out, trail, "Points", first);
+            if trail.map.is_some() {
+                out.push_str(&format!("  #local Shades = {}", shades(trail, first, last)));
+            }
+            self.call(out, trail, ["Points", "Shades"], first);
         }
     }
 
-    /// Appends the macro call that draws an array of points. `first` is the index of the array's first point in the trail.
-    fn call(&self, out: &mut String, trail: &Trail, points: &str, first: usize) {
-        out.push_str(&format!("  Trail({points}, "));
+    /// Appends the macro call that draws an array of points. `shades` is the array of their colors, for a trail whose color follows a
+    /// value. `first` is the index of the array's first point in the trail.
+    fn call(&self, out: &mut String, trail: &Trail, [points, shades]: [&str; 2], first: usize) {
+        match trail.map {
+            Some(map) => out.push_str(&format!("  Shaded_trail({points}, {shades}, {}, ", colors(map))),
+            None => out.push_str(&format!("  Trail({points}, ")),
+        }
         self.style.length(out, trail.radius_at(first));
         out.push_str(", ");
         self.style.length(out, trail.radius_at(1) - trail.radius_at(0));
@@ -132,6 +143,16 @@ impl Trails {
         out
     }
 
+    /// Returns the SDL text that declares the arrays of a stretch. `word` is part of their names.
+    fn text(&self, trail: &Trail, stretch: &Stretch, word: &str) -> String {
+        let Stretch { first, last, .. } = *stretch;
+        let mut text = format!("#declare Trail_{word} = {}", self.array(trail, first, last));
+        if trail.map.is_some() {
+            text.push_str(&format!("#declare Shades_{word} = {}", shades(trail, first, last)));
+        }
+        text
+    }
+
     /// Appends a point of a trail, rounded to the precision that is visible. More digits would make up most of a script.
     fn point(&self, out: &mut String, trail: &Trail, number: usize) {
         let step = trail.fineness;
@@ -143,11 +164,40 @@ impl Trails {
         let key = (trail.body, stretch.stride, stretch.number);
         let mut words = self.words.lock().unwrap_or_else(PoisonError::into_inner);
         let word = || {
-            let digest = Sha256::digest(self.array(trail, stretch.first, stretch.last));
+            let mut text = self.array(trail, stretch.first, stretch.last);
+            if trail.map.is_some() {
+                text.push_str(&shades(trail, stretch.first, stretch.last));
+            }
+            let digest = Sha256::digest(text);
             digest[..8].iter().map(|byte| format!("{byte:02x}")).collect()
         };
         words.entry(key).or_insert_with(word).clone()
     }
+}
+
+/// Appends the colors of the color maps that trails have.
+pub(super) fn declare(out: &mut String, plan: &Plan, layout: Layout, style: Style) {
+    let scope = match layout {
+        Layout::Shared => "declare",
+        Layout::SelfContained => "local",
+    };
+    let maps = plan.mapped_colors();
+    for map in plan.maps_of_trails() {
+        let of_map: Vec<String> = maps[map].iter().map(|it| color(*it, style)).collect();
+        let list = of_map.join(",\n");
+        out.push_str(&format!("#{scope} {} = array[{}] {{\n{list}\n}}\n", colors(map), of_map.len()));
+    }
+}
+
+/// Returns the name of the array with the colors of a map.
+fn colors(map: usize) -> String {
+    format!("Colors_of_map_{map}")
+}
+
+/// Returns the numbers of the colors of a trail's points from `first` to `last`, as an SDL array.
+fn shades(trail: &Trail, first: usize, last: usize) -> String {
+    let shades: Vec<String> = trail.shades[first..=last].iter().map(u16::to_string).collect();
+    format!("array[{}] {{ {} }}\n", shades.len(), shades.join(", "))
 }
 
 fn file_name(word: &str) -> String {

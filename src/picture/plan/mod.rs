@@ -148,7 +148,7 @@ impl Plan {
             unseen_plots: plots.unseen(scene, survey),
             links,
             ghosts: Ghosts::new(scene),
-            trails: Trails::new(scene, stroke(narrowest, scene.output)),
+            trails: Trails::new(scene, stroke(narrowest, scene.output), &survey.color_ranges),
             ruled: still.map(|ruler| ruler.whole(sizes.stroke, sizes.view)),
             ruler,
             bar,
@@ -250,6 +250,11 @@ impl Plan {
         self.ghosts.drawn(frame)
     }
 
+    /// The color of a ghost, which follows the value at the time of the ghost. `None` if the color of its body stays.
+    pub fn ghost_color(&self, ghost: &Ghost) -> Option<Color> {
+        self.color_maps.of_ghost(ghost)
+    }
+
     /// The arrows of a ghost in the picture of a frame. Empty if the ghosts of its body have no arrows.
     pub(super) fn ghost_arrows(&self, frame: &Frame, ghost: &Ghost) -> Vec<Arrow> {
         self.arrows.of_ghost(ghost, self.sizes(frame).arrows, &self.eye.at(frame))
@@ -315,6 +320,19 @@ impl Plan {
     /// The colors of each color map, from the lowest value to the highest; the last one is for undefined values.
     pub fn mapped_colors(&self) -> Vec<Vec<Color>> {
         self.color_maps.colors()
+    }
+
+    /// The color of a value, as an index into the [colors](Plan::mapped_colors) of a map. `None` means an undefined value.
+    pub fn shade(&self, map: usize, value: Option<f64>) -> u16 {
+        self.color_maps.shade(map, value)
+    }
+
+    /// The color maps of trails, as indices in the scene, in increasing order.
+    pub fn maps_of_trails(&self) -> Vec<usize> {
+        let mut maps: Vec<usize> = self.planned_trails().iter().filter_map(|trail| trail.map).collect();
+        maps.sort_unstable();
+        maps.dedup();
+        maps
     }
 
     /// The color of each body in a frame, as an index into the [colors](Plan::mapped_colors) of its map. Bodies without a map have 0. Empty

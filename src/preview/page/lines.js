@@ -103,14 +103,18 @@ function axes(lines, { location, orientation, length: arm }) {
   });
 }
 
-/** Adds the trail of a body up to the present position in the film, as far as its frames have been fetched. */
-export function trail(lines, run, { body, radius, color, tapers }, position, most) {
+/**
+ * Adds the trail of a body up to the present position in the film, as far as its frames have been fetched. If its color follows a value,
+ * `palette` has the colors of its map, and `shades` the index of the color at each `every`-th frame.
+ */
+export function trail(lines, run, { body, radius, color, tapers, palette, shades, every }, position, most) {
   const rate = run.rate;
   const { duration, at = [0, 0, 0] } = run.description.bodies[body].trail ?? {};
   const isCentre = at.every((number) => number === 0);
   const pointOf = (pose) => (isCentre ? pose.slice(0, 3) : add(pose.slice(0, 3), turned(pose.slice(3), at)));
   const first = duration ? Math.max(0, position - duration * rate) : 0;
-  const points = [];
+  const colorAt = (frame) => (palette ? palette[shades[Math.min(Math.round(frame / every), shades.length - 1)]] ?? color : color);
+  const [points, colors] = [[], []];
   const stride = Math.max(1, Math.ceil((position - first) / Math.min(1500, most)));
   let away = false;
   for (let frame = Math.ceil(first); frame < position; frame += stride) {
@@ -119,18 +123,27 @@ export function trail(lines, run, { body, radius, color, tapers }, position, mos
     const wasAway = away;
     away = place !== undefined && !isThere(place);
     // The trail restarts when an absent body appears again.
-    if (!place || (wasAway && !away)) points.length = 0;
-    if (place && !away) points.push(place);
+    if (!place || (wasAway && !away)) points.length = colors.length = 0;
+    if (place && !away) {
+      points.push(place);
+      colors.push(colorAt(frame));
+    }
   }
   const here = run.posesAt(position)?.(body);
   if (here && isThere(here)) {
-    if (away) points.length = 0;
+    if (away) points.length = colors.length = 0;
     points.push(pointOf(here));
+    colors.push(colorAt(position));
   }
-  const smooth = points.length * 8 < most ? rounded(points) : points;
+  const places = points.length * 8 < most ? bends(points) : points.map((_, i) => i);
+  const smooth = places.map((place) => onCurve(points, place));
   for (let i = 1; i < smooth.length; i++) {
     const width = (k) => radius * (tapers ? 0.15 + (0.85 * k) / (smooth.length - 1) : 1);
-    lines.add(smooth[i - 1], smooth[i], width(i - 1), color, width(i));
+    // A piece has the color of its middle.
+    const middle = (places[i - 1] + places[i]) / 2;
+    const [from, to] = [colors[Math.floor(middle)], colors[Math.ceil(middle)]];
+    const mixed = from === to ? from : from.map((part, k) => part + (middle % 1) * (to[k] - part));
+    lines.add(smooth[i - 1], smooth[i], width(i - 1), mixed, width(i));
   }
 }
 
@@ -140,21 +153,32 @@ function poseIn(poses, bodies, body) {
   return [...poses.subarray(3 * body, 3 * body + 3), ...poses.subarray(turn, turn + 4)];
 }
 
-/** Adds points to a polyline where it bends, on a Catmull–Rom spline through all of its points. */
-function rounded(points) {
-  if (points.length < 3 || points.length > 800) return points;
-  const out = [points[0]];
+/** Returns the four points of a polyline around its piece from point `i - 1` to point `i`. */
+function around(points, i) {
+  return [points[Math.max(0, i - 2)], points[i - 1], points[i], points[Math.min(points.length - 1, i + 1)]];
+}
+
+/** Returns the places at which a polyline needs points to look round, as fractional indices. It has more of them where it bends. */
+function bends(points) {
+  const places = points.map((_, i) => i);
+  if (points.length < 3 || points.length > 800) return places;
+  const out = [0];
   for (let i = 1; i < points.length; i++) {
-    const [a, b, c, d] = [points[Math.max(0, i - 2)], points[i - 1], points[i], points[Math.min(points.length - 1, i + 1)]];
+    const [a, b, c, d] = around(points, i);
     const [u, v, w] = [sub(b, a), sub(c, b), sub(d, c)];
     const bend = Math.max(angle(u, v), angle(v, w));
-    const pieces = bend < Math.PI / 2 ? Math.min(8, Math.ceil(bend / 0.06)) : 1;
-    for (let k = 1; k <= pieces; k++) {
-      const s = k / pieces;
-      out.push(b.map((_, j) => 0.5 * (2 * b[j] + (c[j] - a[j]) * s + (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * s * s + (3 * b[j] - a[j] - 3 * c[j] + d[j]) * s ** 3)));
-    }
+    const pieces = bend < Math.PI / 2 ? Math.max(1, Math.min(8, Math.ceil(bend / 0.06))) : 1;
+    for (let k = 1; k <= pieces; k++) out.push(i - 1 + k / pieces);
   }
   return out;
+}
+
+/** Returns the point at a fractional index of a polyline, on a Catmull–Rom spline through all of its points. */
+function onCurve(points, place) {
+  const s = place % 1;
+  if (s === 0) return points[place];
+  const [a, b, c, d] = around(points, Math.ceil(place));
+  return b.map((_, j) => 0.5 * (2 * b[j] + (c[j] - a[j]) * s + (2 * a[j] - 5 * b[j] + 4 * c[j] - d[j]) * s * s + (3 * b[j] - a[j] - 3 * c[j] + d[j]) * s ** 3));
 }
 
 function angle(a, b) {

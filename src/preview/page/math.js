@@ -89,6 +89,9 @@ export function short(number, digits = 4) {
 /** Converts a color from sRGB to linear light. */
 export const linear = (color) => color.map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
 
+/** Converts a color from linear light to sRGB. */
+export const encoded = (color) => color.map((c) => (c <= 0.0031308 ? c * 12.92 : 1.055 * c ** (1 / 2.4) - 0.055));
+
 export const css = (color) => `rgb(${color.map((c) => Math.round(255 * Math.min(1, Math.max(0, c)))).join(" ")})`;
 
 /** Returns true if a body is present. The pose of an absent body consists of NaNs. */

@@ -1,6 +1,6 @@
 // Draws a picture with WebGL2.
 
-import { add, axes as axesOf, isThere, length, lookAt, orthographic, product, sub, times, turned, unit } from "./math.js";
+import { add, axes as axesOf, isThere, length, linear, lookAt, orthographic, product, sub, times, turned, unit } from "./math.js";
 import { FIRST_LAMP, surroundings } from "./surroundings.js";
 import { areaVertices, corners, instances, lineVertices, NUMBERS, pickTarget, poseTexture, program, SHADOW, shadowMap, upload } from "./gl.js";
 import { PARTICLE } from "./run.js";
@@ -61,7 +61,7 @@ export class Painter {
     const { gl, description, space } = this;
     const byBody = this.piecesByBody(description);
     const groups = new Map();
-    for (const { body, pose } of bodies) {
+    for (const { body, pose, color } of bodies) {
       for (const piece of byBody[body] ?? []) {
         const material = description.materials[description.bodies[body].material] ?? PLAIN;
         const clear = !piece.color && material.color[3] < 1;
@@ -70,7 +70,7 @@ export class Painter {
         const group = groups.get(key);
         const isMapped = (material.map ?? null) !== null && !piece.color && !pale;
         if (isMapped) group.mapped.push({ body, map: material.map, at: group.numbers.length + COLOR });
-        group.numbers.push(...instance(piece, material, pose, space.size, pale));
+        group.numbers.push(...instance(piece, material, pose, space.size, pale && (color ?? material.pale)));
       }
     }
     const made = [...groups.values()].map(({ form, ball, clear, numbers: list, mapped }) => {
@@ -111,7 +111,7 @@ export class Painter {
     const numbers = new Float32Array(NUMBERS * count);
     for (let i = 0; i < count; i++) {
       const [x, y, z, , , , radius, r, g, b, shines] = particles.subarray(PARTICLE * i, PARTICLE * (i + 1));
-      const [far, color] = [radius / size, [r, g, b].map(linear)];
+      const [far, color] = [radius / size, linear([r, g, b])];
       const place = [(x - center[0]) / size, (y - center[1]) / size, (z - center[2]) / size];
       numbers.set([...place, 0, 0, 0, 1, far, far, far, ...color, 1, 1, 1, 1, 0, 0, 0.5, shines, 0, far], NUMBERS * i);
     }
@@ -414,17 +414,14 @@ export function spaceOf({ stage, bounds }) {
   return { center: times(add(bounds[0], bounds[1]), 0.5), size: length(sub(bounds[1], bounds[0])) || 1 };
 }
 
-function linear(c) {
-  return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
-}
-
 /** The position of the color among the numbers of an instance: behind location, turn and scale. */
 const COLOR = 10;
 
+/** Returns the numbers of an instance. `pale` is the color of a ghost; false for a body. */
 function instance(piece, material, pose, size, pale) {
-  const own = piece.color?.map(linear);
-  const plain = Boolean(own) || pale;
-  const color = own ? [...own, 1] : pale ? [...material.pale, 1] : material.color;
+  const own = piece.color && linear(piece.color);
+  const plain = Boolean(own || pale);
+  const color = own ? [...own, 1] : pale ? [...pale, 1] : material.color;
   const second = [...(material.second ?? [1, 1, 1]), plain ? 0 : MOTIFS[material.motif]];
   const look = [own ? 0 : material.metallic, own ? 0.5 : material.roughness, !own && material.emissive ? 1 : 0, pose];
   return [

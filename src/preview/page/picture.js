@@ -1,7 +1,7 @@
 // Composes the picture of a frame.
 
 import { camera as cameraLines, Lines, thing, trail } from "./lines.js";
-import { isThere, length, short, sub, unit } from "./math.js";
+import { encoded, isThere, length, short, sub, unit } from "./math.js";
 import { PARTICLE } from "./run.js";
 import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./parts.js";
 
@@ -119,11 +119,20 @@ function drawLines(lines, run, shown, at, view) {
   const grid = shown?.grid ?? stage?.grids[Math.min(open.view, stage.grids.length - 1)];
   if (grid) thing(lines, grid);
   const stroke = shown?.stroke ?? 0;
-  stage?.trails.forEach((each) => trail(lines, run, { ...each, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length));
+  stage?.trails.forEach((each) => {
+    const palette = each.map === null ? undefined : paletteOf(run, each.map);
+    trail(lines, run, { ...each, palette, radius: each.radius ?? stroke / 2 }, player.position, MOST_POINTS / stage.trails.length);
+  });
   shown?.things.forEach((each) => thing(lines, each));
   if (panel.body !== undefined && !run.description.pieces.every((piece) => piece.body !== panel.body)) {
     mark(lines, view, at(panel.body), run.description.pieces.filter((piece) => piece.body === panel.body && !piece.plane));
   }
+}
+
+/** Returns the colors of a color map, in sRGB. */
+function paletteOf(run, map) {
+  run.palettes ??= [];
+  return (run.palettes[map] ??= run.description.stage.maps[map].map(encoded));
 }
 
 /** Adds four lines around the chosen body, to its left and right, above and below. */
@@ -161,7 +170,7 @@ function strobes(run, position, at) {
   const key = `${run.id} ${past.length} ${apart.map((ghost) => past.indexOf(ghost)).join()}`;
   if (open.strobes !== key) {
     open.strobes = key;
-    open.painter.put("ghosts", apart.map(({ body }, pose) => ({ body, pose })), true);
+    open.painter.put("ghosts", apart.map(({ body, color }, pose) => ({ body, pose, color })), true);
   }
   if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation]);
 }

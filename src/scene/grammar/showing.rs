@@ -151,7 +151,7 @@ table! {
         .unit("m")
         .default("three thousandths of the picture's")
         .also(&["thickness", "radius"]),
-    COLOR: Option<value::Color> = super::COLOR.default("that of the body"),
+    COLOR: Option<value::Color> = super::COLOR.default("that of the body, along its way"),
     AT: DVec3 = KeySpec::new(
         "at",
         VECTOR,

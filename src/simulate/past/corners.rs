@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::trail_path::TrailPoint;
+use super::trail_path::{self, TrailPoint};
 use crate::physics::{BodySnapshot, Impact};
 use crate::scene::Trail;
 
@@ -13,13 +13,14 @@ pub(super) const MAX_CORNER_IMPACTS: usize = 4;
 pub(super) type At = (f64, BodySnapshot);
 
 /// Computes the points of a trail at the impacts between two moments. Each impact gives two points at one place, with the velocities
-/// before and after the impact. `impulse` returns the impulse of an impact on the body, N s. Returns no points if there are more than
+/// before and after the impact. `values` are those at both moments that the color of the trail follows. `impulse` returns the impulse of an impact on the body, N s. Returns no points if there are more than
 /// [`MAX_CORNER_IMPACTS`] impacts.
 ///
 /// An impact has a time, but no position of the body's center. The path is therefore computed forward from the first moment and backward
 /// from the second, with a constant acceleration and the velocity jumps of the impacts. The result is exact under a constant force.
 pub(super) fn between(
     (before, after): (&At, &At),
+    values: [Option<f64>; 2],
     impacts: &[Impact],
     impulse: impl Fn(&Impact) -> DVec3,
     mass: f64,
@@ -49,7 +50,8 @@ pub(super) fn between(
             // Each of the two paths is most accurate near the moment it starts from, so interpolate between them.
             let part = (forth.time - before.0) / (after.0 - before.0);
             let location = forth.location.lerp(back.location, part);
-            let point = |velocity| TrailPoint { time: forth.time, location, velocity, frame: None };
+            let value = trail_path::between(values, part);
+            let point = |velocity| TrailPoint { time: forth.time, location, velocity, frame: None, value };
             [point(forth.velocity), point(back.velocity)]
         })
         .collect()

@@ -37,6 +37,9 @@ pub struct TrailPoint {
     /// The number of the frame, for a point that is stored for later frames. `None` at an impact, and for interpolated and present
     /// positions.
     pub frame: Option<usize>,
+    /// The value at this time that the color of the trail follows. It is interpolated linearly between two frames. `None` if the color
+    /// stays, or if the value is not finite.
+    pub value: Option<f64>,
 }
 
 impl TrailPoint {
@@ -55,6 +58,11 @@ impl TrailPoint {
             + (s3 - 2.0 * s2 + s) * span * self.velocity
             + (3.0 * s2 - 2.0 * s3) * next.location
             + (s3 - s2) * span * next.velocity
+    }
+
+    /// Interpolates the value that the color follows, linearly in time. `None` if it is unknown at one of the points.
+    pub fn value_towards(&self, next: &TrailPoint, time: f64) -> Option<f64> {
+        between([self.value, next.value], (time - self.time) / (next.time - self.time))
     }
 
     /// The velocity (m/s) at a time (s), on the same path as [`towards`](Self::towards).
@@ -77,8 +85,14 @@ impl TrailPoint {
 
     pub(super) fn of(time: f64, body: &BodySnapshot, trail: Trail) -> TrailPoint {
         let (location, velocity) = body.point(trail.at);
-        TrailPoint { time, location, velocity, frame: None }
+        TrailPoint { time, location, velocity, frame: None, value: None }
     }
+}
+
+/// Returns the value at a part, from 0 to 1, of the way between two values.
+pub(super) fn between([from, to]: [Option<f64>; 2], part: f64) -> Option<f64> {
+    let (from, to) = (from?, to?);
+    Some(if part.is_finite() { from + part * (to - from) } else { to })
 }
 
 /// Removes the part of a path before a time (s). The path then starts at exactly that time, which may lie between two points.
@@ -89,7 +103,13 @@ pub(super) fn cut(points: &mut Vec<TrailPoint>, from: f64) {
         let point = points[last];
         let part = (from - point.time) / (next.time - point.time);
         let velocity = point.velocity.lerp(next.velocity, part);
-        points[last] = TrailPoint { time: from, location: point.towards(&next, from), velocity, frame: None };
+        points[last] = TrailPoint {
+            time: from,
+            location: point.towards(&next, from),
+            velocity,
+            frame: None,
+            value: point.value_towards(&next, from),
+        };
     }
     points.drain(..last);
 }
