@@ -35,6 +35,8 @@ fn write_all(text: &mut impl Write, scene: &Scene, moments: &Moments) -> fmt::Re
         emitters: _,
         materials: _,
         color_maps: _,
+        value_maps: _,
+        conditions: _,
         camera: _,
         views: _,
         lights: _,

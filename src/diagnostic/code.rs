@@ -48,6 +48,7 @@ codes! {
     BadInclude = "bad-include",
     BadIntegrator = "bad-integrator",
     BadJoint = "bad-joint",
+    BadLook = "bad-look",
     BadMark = "bad-mark",
     BadMesh = "bad-mesh",
     BadPlot = "bad-plot",

@@ -10,13 +10,14 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use super::materials::{MaterialText, SHADE_IDENTIFIER};
+use super::materials::{GLOW_IDENTIFIER, MaterialText, SHADE_IDENTIFIER, TRANSPARENCY_IDENTIFIER};
 use super::meshes::Meshes;
 use super::sdl::Style;
 use super::showing::color;
 use super::{shapes, text};
 use crate::physics::{BodySnapshot, Shape};
-use crate::scene::{Body, Color, Scene};
+use crate::picture::Looks;
+use crate::scene::{Body, Color, LookAspect, Scene};
 use crate::simulate::Frame;
 
 /// The planned text of all bodies, without their poses.
@@ -33,8 +34,38 @@ struct Group {
     bodies: Vec<Item>,
     /// The SDL text of the bodies' common material. `None` for a single body.
     shared: Option<String>,
+    /// What in the look of the bodies follows a value.
+    follows: Follows,
+}
+
+/// What in the look of bodies of one material follows a value of each body.
+#[derive(Clone, Copy, Default)]
+struct Follows {
     /// The color map of the bodies, by its index in the scene. `None` if their color stays.
     map: Option<usize>,
+    transparency: bool,
+    glow: bool,
+}
+
+impl Follows {
+    fn of(scene: &Scene, body: &Body) -> Follows {
+        let follows = |aspect| scene.value_map_of(body, aspect).is_some();
+        Follows {
+            map: scene.color_map_of(body),
+            transparency: follows(LookAspect::Transparency),
+            glow: follows(LookAspect::Glow),
+        }
+    }
+
+    /// Returns the look of a body in a frame, as far as it follows a value: the index of its color, and the bits of its transparency and glow.
+    /// Numbers that are not negative have the same order as their bits.
+    fn key(self, id: usize, looks: &Looks) -> (usize, u64, u64) {
+        let bits = |follows: bool, numbers: &[f64]| {
+            if follows { numbers.get(id).map_or(0, |number| number.to_bits()) } else { 0 }
+        };
+        let color = self.map.and_then(|_| looks.colors.get(id)).map_or(0, |color| usize::from(*color));
+        (color, bits(self.transparency, &looks.transparency), bits(self.glow, &looks.glow))
+    }
 }
 
 /// One body in the block: its index in the scene, the index of its text template, and its name.
@@ -60,6 +91,8 @@ struct TextTemplate {
 enum Place {
     /// The center of the body, as a vector.
     Centre,
+    /// The center and the radius of a ball whose size follows a value. The number is its largest radius, m.
+    Ball(f64),
     /// A transform matrix. The quaternion rotates the shape before the orientation of the body is applied.
     Matrix(DQuat),
     /// The normal of a plane, and its distance from the origin. The vector is the normal in body axes.
@@ -97,7 +130,7 @@ impl Block {
                 }
                 None => single(&scene.bodies[bodies[0]], materials, bodies[0], meshes, style, &mut forms),
             };
-            Group { map: scene.color_map_of(&scene.bodies[bodies[0]]), ..group }
+            Group { follows: Follows::of(scene, &scene.bodies[bodies[0]]), ..group }
         };
         let groups = together.iter().map(plan).collect();
         let shades =
@@ -105,26 +138,41 @@ impl Block {
         Block { style, groups, forms, shades }
     }
 
-    /// Appends the bodies that are present in a frame. `colors` has the color of each body, as an index into the colors of its map. The error
-    /// is the index of the first body whose location is not finite in POV-Ray units.
-    pub(super) fn write(&self, out: &mut String, frame: &Frame, colors: &[u16]) -> Result<(), usize> {
+    /// Appends the bodies that are present in a frame, with their looks. The error is the index of the first body whose location is not finite
+    /// in POV-Ray units.
+    pub(super) fn write(&self, out: &mut String, frame: &Frame, looks: &Looks) -> Result<(), usize> {
         for group in &self.groups {
-            let there = group.bodies.iter().filter_map(|item| Some((item, frame.body(item.id)?)));
-            let Some(map) = group.map else {
-                self.together(out, group.shared.as_deref(), there)?;
+            let drawn = group.bodies.iter().filter(|item| looks.draws(item.id));
+            let there = drawn.filter_map(|item| Some((item, frame.body(item.id)?)));
+            let follows = group.follows;
+            if follows.map.is_none() && !follows.transparency && !follows.glow {
+                self.together(out, group.shared.as_deref(), there, looks)?;
                 continue;
-            };
-            // Bodies of one color stand together. The sort keeps their order.
-            let color = |item: &Item| colors.get(item.id).map_or(0, |color| usize::from(*color));
+            }
+            // Bodies of one look stand together. The sort keeps their order.
+            let key = |item: &Item| follows.key(item.id, looks);
             let mut sorted: Vec<(&Item, &BodySnapshot)> = there.collect();
-            sorted.sort_by_key(|(item, _)| color(item));
-            for of_color in sorted.chunk_by(|(one, _), (other, _)| color(one) == color(other)) {
-                let shade = &self.shades[map][color(of_color[0].0)];
-                let _ = writeln!(out, "#local {SHADE_IDENTIFIER} = {shade};");
-                self.together(out, group.shared.as_deref(), of_color.iter().copied())?;
+            sorted.sort_by_cached_key(|(item, _)| key(item));
+            for of_look in sorted.chunk_by(|(one, _), (other, _)| key(one) == key(other)) {
+                let (color, transparency, glow) = key(of_look[0].0);
+                if let Some(map) = follows.map {
+                    let _ = writeln!(out, "#local {SHADE_IDENTIFIER} = {};", self.shades[map][color]);
+                }
+                self.local(out, TRANSPARENCY_IDENTIFIER, follows.transparency.then_some(transparency));
+                self.local(out, GLOW_IDENTIFIER, follows.glow.then_some(glow));
+                self.together(out, group.shared.as_deref(), of_look.iter().copied(), looks)?;
             }
         }
         Ok(())
+    }
+
+    /// Appends the declaration of a number for the next bodies, given its bits.
+    fn local(&self, out: &mut String, identifier: &str, bits: Option<u64>) {
+        if let Some(bits) = bits {
+            let _ = write!(out, "#local {identifier} = ");
+            self.style.number(out, f64::from_bits(bits));
+            out.push_str(";\n");
+        }
     }
 
     /// Appends bodies as one object with a common material, or a single body with its own.
@@ -133,6 +181,7 @@ impl Block {
         out: &mut String,
         shared: Option<&str>,
         mut bodies: impl Iterator<Item = (&'a Item, &'a BodySnapshot)> + Clone,
+        looks: &Looks,
     ) -> Result<(), usize> {
         if shared.is_some() {
             // POV-Ray warns about a union of one object. The texts for one body and for several differ only in the word before the
@@ -143,7 +192,7 @@ impl Block {
                 _ => out.push_str("union {\n"),
             }
         }
-        bodies.try_for_each(|(item, body)| self.item(out, item, body))?;
+        bodies.try_for_each(|(item, body)| self.item(out, item, body, looks.scale_of(item.id)))?;
         if let Some(material) = shared {
             out.push_str("  ");
             out.push_str(material);
@@ -159,31 +208,38 @@ impl Block {
         Block { style, groups, forms, shades: Vec::new() }
     }
 
-    /// Appends the only body of a block at another pose, as for a ghost.
-    pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot) {
+    /// Appends the only body of a block at another pose, as for a ghost. `scale` is its size, relative to its largest one.
+    pub(super) fn write_single(&self, out: &mut String, body: &BodySnapshot, scale: f64) {
         for item in self.groups.iter().flat_map(|group| &group.bodies) {
             // A ghost whose location cannot be written is left out: a body's earlier location is no reason to refuse the picture.
-            let _ = self.item(out, item, body);
+            let _ = self.item(out, item, body, scale);
         }
     }
 
-    fn item(&self, out: &mut String, item: &Item, body: &BodySnapshot) -> Result<(), usize> {
+    fn item(&self, out: &mut String, item: &Item, body: &BodySnapshot, scale: f64) -> Result<(), usize> {
         if !self.style.can_write(body.location) {
             return Err(item.id);
         }
         let form = &self.forms[item.form];
         out.push_str(&form.before);
-        self.place(out, &form.place, body);
+        self.place(out, &form.place, body, scale);
         out.push_str(&form.after);
         out.push_str(&item.name);
         out.push('\n');
         Ok(())
     }
 
-    fn place(&self, out: &mut String, place: &Place, body: &BodySnapshot) {
+    fn place(&self, out: &mut String, place: &Place, body: &BodySnapshot, scale: f64) {
         match place {
             Place::Centre => self.style.point(out, body.location),
-            Place::Matrix(turn) => self.style.matrix(out, body.orientation * *turn, body.location),
+            Place::Ball(radius) => {
+                self.style.point(out, body.location);
+                out.push_str(", ");
+                self.style.length(out, radius * scale);
+            }
+            Place::Matrix(turn) => {
+                self.style.scaled_matrix(out, body.orientation * *turn, body.location, scale);
+            }
             Place::Plane(normal) => {
                 let normal = body.orientation * *normal;
                 self.style.vector(out, normal);
@@ -214,7 +270,11 @@ fn of_one_material(
         let form = TextTemplate { before: format!("  {before}"), place, after: format!("{after} }} // ") };
         Item { id, form: number(form, forms), name: in_comment(body) }
     };
-    Group { bodies: bodies.iter().map(item).collect(), shared: Some(material.usage()), map: None }
+    Group {
+        bodies: bodies.iter().map(item).collect(),
+        shared: Some(material.usage()),
+        follows: Follows::default(),
+    }
 }
 
 /// Plans one body with its own material.
@@ -229,7 +289,7 @@ fn single(
     let material = body.material.map(|material| &materials[material]);
     let mut group = |form: TextTemplate| {
         let item = Item { id, form: number(form, forms), name: in_comment(body) };
-        Group { bodies: vec![item], shared: None, map: None }
+        Group { bodies: vec![item], shared: None, follows: Follows::default() }
     };
     let plane_macro = material.and_then(MaterialText::plane_macro);
     if let (&Shape::Plane { normal }, Some(plane)) = (&body.shape, plane_macro) {
@@ -251,7 +311,7 @@ fn single(
             before.truncate(before.trim_end_matches(' ').len());
             let _ = write!(before, "{usage} ");
         }
-        Place::Centre | Place::Plane(_) => after.push_str(&usage),
+        Place::Centre | Place::Ball(_) | Place::Plane(_) => after.push_str(&usage),
     }
     after.push_str(" } // ");
     group(TextTemplate { before, place, after })
@@ -282,6 +342,9 @@ fn shape(body: &Body, uniform: bool, meshes: &Meshes, style: Style) -> (String, 
         return (shapes::open_sdl(object, body.look.scale, style), place, String::new());
     }
     match body.drawn() {
+        Shape::Sphere { radius } if uniform && body.look.scale_map.is_some() => {
+            ("sphere { ".to_owned(), Place::Ball(radius), String::new())
+        }
         Shape::Sphere { radius } if uniform => {
             let mut after = ", ".to_owned();
             style.length(&mut after, radius);

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::sdl::Style;
 use super::text::Identifiers;
 use crate::picture;
-use crate::scene::{Body, Color, Look, Material, Pattern, Scene};
+use crate::scene::{Body, Color, Look, LookNumber, Material, Pattern, Scene};
 use sha2::{Digest, Sha256};
 
 /// The kind of a material. Templates see it in lower case: `plain`.
@@ -22,6 +22,10 @@ enum Kind {
 
 /// The identifier of the color of the next bodies in scripts, for materials whose color follows a value.
 pub(super) const SHADE_IDENTIFIER: &str = "Shade";
+/// The identifier of the transparency of the next bodies in scripts, for materials whose transparency follows a value.
+pub(super) const TRANSPARENCY_IDENTIFIER: &str = "Transparency";
+/// The identifier of the glow of the next bodies in scripts, for materials whose glow follows a value.
+pub(super) const GLOW_IDENTIFIER: &str = "Glow";
 
 /// The values of a material that templates can use.
 #[derive(Clone, Debug, Serialize)]
@@ -33,8 +37,15 @@ pub(super) struct MaterialText {
     kind: Kind,
     /// The color in sRGB, for a plain material or a material of the library.
     pub(super) color: Option<[f64; 3]>,
-    /// True if the color follows a value. The material is then a macro of the color, since each body has its own.
+    /// True if the color follows a value.
     mapped: bool,
+    /// The transparency: a number, or its identifier if it follows a value. `None` for an opaque material.
+    transparency: Option<String>,
+    /// The part of the color that shines by itself: a number, or its identifier if it follows a value. `None` for none.
+    glow: Option<String>,
+    /// The identifiers of what follows a value. If there are any, the material is a macro with these parameters, since each body has its own
+    /// values.
+    parameters: Vec<&'static str>,
     /// The name of the finish, for a plain material.
     finish: Option<&'static str>,
     /// The name of the material in the library, for a material of the library.
@@ -43,7 +54,7 @@ pub(super) struct MaterialText {
     family: Option<&'static str>,
     /// The index of refraction, for a transparent material of the library.
     ior: Option<f64>,
-    /// True if the material emits light. Such a body casts no shadow.
+    /// True if the material shines all by itself. Such a body casts no shadow.
     glows: bool,
     /// True if a plane has this material. The material of a plane must be able to fade into the haze.
     on_plane: bool,
@@ -91,22 +102,39 @@ fn pale(material: &MaterialText, dark: bool, identifiers: &mut Identifiers) -> O
         identifier: identifiers.add("Ghost", &material.name),
         color: Some(color),
         on_plane: false,
+        // A ghost is opaque where the body follows a value: this value is not kept.
+        transparency: material.transparency.clone().filter(|it| it != TRANSPARENCY_IDENTIFIER),
+        glow: material.glow.clone().filter(|glow| glow != GLOW_IDENTIFIER),
+        parameters: material.parameters.iter().copied().filter(|it| *it == SHADE_IDENTIFIER).collect(),
         ..material.clone()
     })
 }
 
 fn text(material: &Material, identifiers: &mut Identifiers) -> MaterialText {
+    let number = |number: LookNumber, identifier: &str| match number {
+        LookNumber::Fixed(0.0) => None,
+        LookNumber::Fixed(number) => Some(number.to_string()),
+        LookNumber::Mapped(_) => Some(identifier.to_owned()),
+    };
+    let parameters = [
+        (material.color_map.is_some(), SHADE_IDENTIFIER),
+        (material.transparency.map().is_some(), TRANSPARENCY_IDENTIFIER),
+        (material.glow.map().is_some(), GLOW_IDENTIFIER),
+    ];
     let mut text = MaterialText {
         name: material.name.clone(),
         identifier: identifiers.add("Material", &material.name),
         kind: Kind::Plain,
         color: material.look.color().map(|color| color.0),
         mapped: material.color_map.is_some(),
+        transparency: number(material.transparency, TRANSPARENCY_IDENTIFIER),
+        glow: number(material.glow, GLOW_IDENTIFIER),
+        parameters: parameters.into_iter().filter(|(is_one, _)| *is_one).map(|(_, name)| name).collect(),
         finish: None,
         like: None,
         family: None,
         ior: None,
-        glows: material.look.glows(),
+        glows: material.glows(),
         on_plane: false,
         texture: None,
         sdl: None,
@@ -161,7 +189,10 @@ impl MaterialText {
 
     /// Returns the SDL text of the material between the braces of `material { }`.
     fn inside(&self) -> String {
-        if self.mapped { format!("{}({SHADE_IDENTIFIER})", self.identifier) } else { self.identifier.clone() }
+        match &self.parameters[..] {
+            [] => self.identifier.clone(),
+            parameters => format!("{}({})", self.identifier, parameters.join(", ")),
+        }
     }
 
     /// Returns the SDL text that gives a body this material.

@@ -193,7 +193,7 @@ impl Emitter {
         }
         // The blocks of all frames have similar lengths. Reserving the length at once avoids a buffer of up to twice the size.
         let mut solids_sdl = String::with_capacity(self.longest.load(Ordering::Relaxed));
-        let written = self.block.write(&mut solids_sdl, frame, &self.plan.colors(frame));
+        let written = self.block.write(&mut solids_sdl, frame, &self.plan.looks(frame));
         written.map_err(|body| out_of_range(format!("`{}`", self.names[body])))?;
         let mut showing_sdl = String::with_capacity(self.longest_beside.load(Ordering::Relaxed));
         let written = self.particles.write(&mut showing_sdl, frame);

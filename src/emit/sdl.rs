@@ -46,7 +46,12 @@ impl Style {
     /// Appends the transform from body axes to world axes. POV-Ray multiplies row vectors, so the rows in the script are the columns of
     /// the rotation, and the last row is the translation.
     pub(super) fn matrix(&self, out: &mut String, orientation: DQuat, location: DVec3) {
-        let rotation = DMat3::from_quat(orientation);
+        self.scaled_matrix(out, orientation, location, 1.0);
+    }
+
+    /// Appends the same transform of a body that is drawn `scale` times as large.
+    pub(super) fn scaled_matrix(&self, out: &mut String, orientation: DQuat, location: DVec3, scale: f64) {
+        let rotation = DMat3::from_quat(orientation) * scale;
         out.push_str("matrix <");
         for column in [rotation.x_axis, rotation.y_axis, rotation.z_axis] {
             for entry in column.to_array() {

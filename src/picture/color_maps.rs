@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::scene::{Color, ColorMap, Scene};
-use crate::simulate::{Frame, Ghost, Measures, MomentState, Survey};
+use crate::simulate::{Ghost, Measures, MomentState, Survey};
 
 use super::colors::pale;
 
@@ -70,19 +70,18 @@ impl ColorMaps {
     pub(super) fn of_ghost(&self, ghost: &Ghost) -> Option<Color> {
         let is_of = |mapped: &&Mapped| mapped.bodies.binary_search(&ghost.body.id).is_ok();
         let Mapped { range, pale, .. } = self.maps.iter().find(is_of)?;
-        pale.get(usize::from(shade(ghost.value, *range))).copied()
+        pale.get(usize::from(shade(ghost.look.color, *range))).copied()
     }
 
-    /// The color of each body in a frame, as an index into the [colors](ColorMaps::colors) of its map. Bodies without a map have 0. Empty if
+    /// The color of each body at a frame, as an index into the [colors](ColorMaps::colors) of its map. Bodies without a map have 0. Empty if
     /// the scene has no maps.
-    pub(super) fn at(&self, frame: &Frame) -> Vec<u16> {
+    pub(super) fn at(&self, moment: &MomentState<'_>) -> Vec<u16> {
         if self.maps.is_empty() {
             return Vec::new();
         }
-        let moment = MomentState::now(frame);
         let mut colors = vec![0; self.bodies];
         for Mapped { map, range, bodies, .. } in &self.maps {
-            let values = self.measures.of_each(&map.of, bodies.iter().copied(), &moment);
+            let values = self.measures.of_each(&map.of, bodies.iter().copied(), moment);
             for (body, value) in bodies.iter().zip(values) {
                 colors[*body] = shade(Some(value), *range);
             }

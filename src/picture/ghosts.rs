@@ -40,7 +40,7 @@ impl Ghosts {
                 let turned = is_turned(now.orientation.dot(ghost.body.orientation));
                 ghost.body.location.distance(now.location) > near || turned
             });
-            ghost.body.is_finite() && is_elsewhere
+            ghost.look.is_drawn && ghost.body.is_finite() && is_elsewhere
         })
     }
 }

@@ -8,9 +8,9 @@ use serde::Serialize;
 use super::run::{Outcome, PreviewRun, TrailValues};
 use crate::physics::{self, Shape};
 use crate::picture::{PlacedLight, Plan, Thing, has_texts, pale};
-use crate::scene::{Body, Color, Look, Scene, Sky};
+use crate::scene::{Body, Color, Look, LookNumber, Scene, Sky, Visibility};
 use crate::simulate::Bounds;
-use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance, ground, pieces};
+use crate::surface::{Appearance, BaseShape, Detail, Piece, SurfacePattern, appearance_of, ground, pieces};
 
 /// The description of a run, without its frames. Unless noted otherwise, lengths are in meters, angles in degrees, and colors in linear
 /// light.
@@ -98,13 +98,19 @@ struct Surface {
     color: [f64; 4],
     metallic: f64,
     roughness: f64,
-    emissive: bool,
+    glow: f64,
     motif: &'static str,
     second: Option<Color3>,
     /// The color of ghosts (earlier poses) of bodies with this material, linear.
     pale: Color3,
     /// The index of the color map that gives each body its own color. `None` if the color stays.
     map: Option<usize>,
+    /// True if the material has a transparency, fixed or following a value.
+    transparent: bool,
+    /// True if the transparency of each body follows a value.
+    clears: bool,
+    /// True if the glow of each body follows a value.
+    glows: bool,
 }
 
 #[derive(Serialize)]
@@ -186,7 +192,10 @@ pub(super) fn describe(run: &PreviewRun) -> Description<'_> {
             .iter()
             .map(|m| Surface {
                 map: m.color_map,
-                ..surface(&appearance(&m.look, preset), Some(&m.look), dark)
+                transparent: m.transparency != LookNumber::Fixed(0.0),
+                clears: m.transparency.map().is_some(),
+                glows: m.glow.map().is_some(),
+                ..surface(&appearance_of(m, preset), Some(&m.look), dark)
             })
             .collect(),
         tiles: surface(&ground(preset), None, dark),
@@ -287,7 +296,7 @@ fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
         color: look.color,
         metallic: look.metallic,
         roughness: look.roughness,
-        emissive: look.emissive,
+        glow: look.glow,
         motif: match look.pattern {
             SurfacePattern::None => "none",
             SurfacePattern::Checkered => "checkered",
@@ -298,6 +307,9 @@ fn surface(look: &Appearance, of: Option<&Look>, dark: bool) -> Surface {
         second: look.second,
         pale,
         map: None,
+        transparent: false,
+        clears: false,
+        glows: false,
     }
 }
 
@@ -318,6 +330,8 @@ fn shows(scene: &Scene, outcome: Option<&Outcome>) -> bool {
         || trails
         || texts
         || !scene.color_maps.is_empty()
+        || !scene.value_maps.is_empty()
+        || scene.bodies.iter().any(|body| body.look.visible != Visibility::Always)
         || outcome.is_some_and(|outcome| outcome.plans.iter().any(moves))
 }
 

@@ -31,6 +31,14 @@ pub(super) struct Shown<'a> {
     plots: Vec<PlotNow>,
     /// The color of each body, as an index into the colors of its material's map. Empty if no color follows a value.
     colors: Vec<u16>,
+    /// The transparency of each body, from 0 to 255. Empty if none follows a value.
+    transparency: Vec<u8>,
+    /// The glow of each body, from 0 to 255. Empty if none follows a value.
+    glow: Vec<u8>,
+    /// The size of each body, relative to its largest one. Empty if none follows a value.
+    scale: Vec<f64>,
+    /// Whether each body is drawn. Empty if all are.
+    drawn: Vec<bool>,
 }
 
 /// The position, direction and lens of a camera at one time, for the page.
@@ -158,6 +166,8 @@ pub(super) struct Ghost {
     orientation: [f64; 4],
     /// The linear color of the ghost. `None` for the pale color of its material.
     color: Option<Vector>,
+    /// The size of the ghost, relative to the largest one of its body.
+    scale: f64,
 }
 
 impl Camera {
@@ -199,8 +209,9 @@ pub(super) fn ghosts(run: &PreviewRun) -> Vec<Ghost> {
         location: ghost.body.location.to_array(),
         orientation: ghost.body.orientation.to_array(),
         color: plan.and_then(|plan| plan.ghost_color(ghost)).map(Color::linear),
+        scale: plan.map_or(1.0, |plan| plan.ghost_scale(ghost)),
     };
-    run.ghosts().iter().map(|each| ghost(each)).collect()
+    run.ghosts().iter().filter(|each| each.look.is_drawn).map(|each| ghost(each)).collect()
 }
 
 fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
@@ -222,6 +233,7 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
         thickness: bar.thickness,
         color: bar.color.0,
     };
+    let looks = plan.looks(frame);
     Shown {
         camera: Camera::of(&plan.camera(frame)),
         lights: plan.lights_move().then(|| plan.lights(frame.time).iter().map(Light::of).collect()),
@@ -231,8 +243,18 @@ fn shown<'a>(scene: &Scene, plan: &'a Plan, frame: &Frame) -> Shown<'a> {
         texts: plan.texts(frame).iter().map(|each| text(scene, screen.as_ref(), each)).collect(),
         bar: plan.bar(frame).map(bar),
         plots: plan.plots(frame).iter().map(now).collect(),
-        colors: plan.colors(frame),
+        colors: looks.colors,
+        transparency: bytes(&looks.transparency),
+        glow: bytes(&looks.glow),
+        scale: looks.scale,
+        drawn: looks.is_drawn,
     }
+}
+
+/// Returns parts from 0 to 1 as bytes, which are shorter in JSON, and as fine as the colors of a screen.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the conversion saturates")]
+fn bytes(parts: &[f64]) -> Vec<u8> {
+    parts.iter().map(|part| (part * 255.0).round() as u8).collect()
 }
 
 /// The height of the picture, relative to its width.

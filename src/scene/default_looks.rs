@@ -56,11 +56,7 @@ impl DefaultLooks {
         materials: &mut Vec<Material>,
     ) -> usize {
         *self.by_name.entry(material.name).or_insert_with(|| {
-            materials.push(Material {
-                name: material.name.to_owned(),
-                look: material.look(None),
-                color_map: None,
-            });
+            materials.push(Material::new(material.name, material.look(None)));
             materials.len() - 1
         })
     }
@@ -80,13 +76,11 @@ impl DefaultLooks {
 
 fn material(usual: DefaultLook) -> Material {
     match usual {
-        DefaultLook::Checkered => {
-            Material { name: "checkered".to_owned(), look: Look::Checkered, color_map: None }
-        }
+        DefaultLook::Checkered => Material::new("checkered", Look::Checkered),
         DefaultLook::Color(number) => {
             let (name, color) = DEFAULT_COLORS[number];
             let look = Look::Plain { color, finish: Finish::Glossy };
-            Material { name: format!("palette {name}"), look, color_map: None }
+            Material::new(&format!("palette {name}"), look)
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::sdl::FileKind;
 use super::timed::{Timed, TimedVector};
-use super::{Asset, Color, LibraryMaterial, Pattern, Preset};
+use super::{Asset, Color, LibraryMaterial, LookNumber, Pattern, Preset};
 use crate::physics::Surface;
 
 /// A named material that bodies can have.
@@ -18,6 +18,29 @@ pub struct Material {
     pub look: Look,
     /// The color map that gives each body its own color, by its index in the scene. `None` for a color that stays.
     pub color_map: Option<usize>,
+    /// The part of the light that passes through a convex body: from 0 for opaque to 1 for invisible.
+    pub transparency: LookNumber,
+    /// The part of the color that shines by itself: from 0 for none to 1 for a luminous body.
+    pub glow: LookNumber,
+}
+
+impl Material {
+    /// Returns a material of one look, whose color stays.
+    pub(in crate::scene) fn new(name: &str, look: Look) -> Material {
+        let zero = LookNumber::Fixed(0.0);
+        Material { name: name.to_owned(), look, color_map: None, transparency: zero, glow: zero }
+    }
+
+    /// Returns whether two materials differ at most in their names.
+    pub fn looks_like(&self, other: &Material) -> bool {
+        let numbers = |material: &Material| [material.transparency, material.glow];
+        self.look == other.look && self.color_map == other.color_map && numbers(self) == numbers(other)
+    }
+
+    /// Returns whether the material shines all by itself, so that a body with it casts no shadow.
+    pub fn glows(&self) -> bool {
+        self.look.glows() || self.glow == LookNumber::Fixed(1.0)
+    }
 }
 
 /// The look of a material: its color, pattern and finish.

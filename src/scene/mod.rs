@@ -107,6 +107,7 @@ pub mod timed;
 mod timeline;
 mod units;
 mod value;
+mod value_map;
 mod view;
 
 use std::path::{Path, PathBuf};
@@ -140,6 +141,7 @@ pub use preset::Preset;
 pub use showing::{Arrow, BodyAxes, Ghosts, Quantity, Showing, SpringLine, SpringLook, Trail};
 pub use source::Override;
 pub use timeline::Timeline;
+pub use value_map::{LookAspect, LookNumber, ValueMap, Visibility};
 
 use crate::diagnostic::Report;
 use crate::physics::Surface;
@@ -173,6 +175,10 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// The color maps of materials, each once.
     pub color_maps: Vec<ColorMap>,
+    /// The maps of the numbers of looks that follow values, such as transparencies.
+    pub value_maps: Vec<ValueMap>,
+    /// The conditions under which bodies are drawn: formulas that are not 0 then.
+    pub conditions: Vec<MeasureFormula>,
     /// The main camera, from `[camera]`.
     pub camera: Camera,
     /// The additional cameras (`[view.NAME]`), in the order of the file.
@@ -241,9 +247,11 @@ impl Scene {
         labels.chain(angles).chain(distances).chain(arrows).chain(components)
     }
 
-    /// Returns whether the pictures show values of the moment, in letters or as colors.
+    /// Returns whether the pictures show values of the moment, in letters or as looks.
     pub fn shows_measures(&self) -> bool {
-        self.writes_measures() || !self.color_maps.is_empty()
+        let has_looks =
+            !self.color_maps.is_empty() || !self.value_maps.is_empty() || !self.conditions.is_empty();
+        has_looks || self.writes_measures()
     }
 
     /// Returns whether the pictures have texts with values: labels, plots, color bars, or marks.
@@ -258,6 +266,16 @@ impl Scene {
     /// Returns the color map of a body. `None` if the color of the body stays.
     pub fn color_map_of(&self, body: &Body) -> Option<usize> {
         self.materials[body.material?].color_map
+    }
+
+    /// Returns the map that a part of a body's look follows. `None` if this part stays.
+    pub fn value_map_of(&self, body: &Body, aspect: LookAspect) -> Option<usize> {
+        let material = || body.material.map(|material| &self.materials[material]);
+        match aspect {
+            LookAspect::Transparency => material()?.transparency.map(),
+            LookAspect::Glow => material()?.glow.map(),
+            LookAspect::Scale => body.look.scale_map,
+        }
     }
 
     /// Returns the color map of a body's trail. `None` without a trail, or if the trail has one color.

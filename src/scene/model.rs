@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::motion::BodyMotion;
-use super::{Collider, ContactLaw, Showing, Timeline};
+use super::{Collider, ContactLaw, Showing, Timeline, Visibility};
 use crate::physics::{Method, Presence, RigidBody, Shape};
 
 /// The settings of the simulation: times, integrator, gravity and contacts.
@@ -54,8 +54,12 @@ pub struct Body {
 /// The scale and the POV-Ray code with which a body is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyLook {
-    /// The factor by which the drawn body is larger than the simulated body.
+    /// The factor by which the drawn body is larger than the simulated body. If it follows a value, the largest factor.
     pub scale: f64,
+    /// The map that the factor follows, by its index in the scene. `None` if it stays.
+    pub scale_map: Option<usize>,
+    /// Whether the body is drawn.
+    pub visible: Visibility,
     /// POV-Ray code for the object to draw, with lengths in meters. `None` to draw the shape of the body.
     pub object: Option<Arc<str>>,
     /// POV-Ray code that is inserted in the body's object before its transformation.

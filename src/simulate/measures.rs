@@ -153,7 +153,13 @@ impl Measures {
             .flat_map(|plot| std::iter::once(&plot.x).chain(plot.curves.iter().map(|curve| &curve.y)));
         let of_aggregates = scene.aggregates.iter().map(|it| &it.formula);
         let of_colors = scene.color_maps.iter().map(|map| &map.of);
-        let formulas = of_texts.chain(of_plots).chain(of_aggregates).chain(of_colors);
+        let of_numbers = scene.value_maps.iter().map(|map| &map.of);
+        let formulas = of_texts
+            .chain(of_plots)
+            .chain(of_aggregates)
+            .chain(of_colors)
+            .chain(of_numbers)
+            .chain(&scene.conditions);
         let shown = formulas.flat_map(|formula| &formula.inputs).filter_map(|measure| match measure {
             Measure::Force(force, ..) => Some((*force, ShownForce(forces(&scene.forces[*force].kind)))),
             _ => None,
@@ -342,6 +348,11 @@ fn power(loads: &Loads, at: &BodySnapshot) -> f64 {
     let [force, torque] =
         [&loads.force, &loads.torque].map(|all| all.get(at.id).copied().unwrap_or_default());
     force.dot(at.velocity) + torque.dot(at.angular_velocity)
+}
+
+/// Returns whether the value of a condition means that it holds. An undefined value means that it does not.
+pub fn is_true(value: f64) -> bool {
+    value.is_finite() && value != 0.0
 }
 
 fn of_force(loads: &Loads, at: &BodySnapshot, measure: ForceMeasure) -> f64 {

@@ -46,8 +46,19 @@ pub struct Ghost {
     pub body: BodySnapshot,
     /// The contacts of the body at the time of the ghost. Empty unless the ghost shows contact forces.
     pub contacts: Vec<ContactSnapshot>,
-    /// The value at the time of the ghost that its color follows. `None` if the color stays, or if the value is not finite.
-    pub value: Option<f64>,
+    /// The values at the time of the ghost that its look follows.
+    pub look: GhostLook,
+}
+
+/// The values that the look of a ghost follows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GhostLook {
+    /// The value that the color follows. `None` if the color stays, or if the value is not finite.
+    pub color: Option<f64>,
+    /// The value that the size follows. `None` if the size stays, or if the value is not finite.
+    pub scale: Option<f64>,
+    /// Whether the body was drawn then.
+    pub is_drawn: bool,
 }
 
 /// Collects the trails, ghosts and delayed camera targets of a run, frame by frame.
@@ -145,10 +156,13 @@ impl History {
             if self.requests.iter().any(shows) { touches.collect() } else { Vec::new() }
         };
         let state = MomentState::of_entry(entry, self.latest, self.sweeps.complete());
-        let value = |body: usize| self.values.as_ref()?.of(body, &state);
+        let look = |body: usize| match &self.values {
+            Some(values) => values.of_ghost(body, &state),
+            None => GhostLook { color: None, scale: None, is_drawn: true },
+        };
         let ghost = |(time, id): (f64, usize)| {
             let body = *moment.body(id)?;
-            Some(Arc::new(Ghost { time, body, contacts: contacts(id), value: value(id) }))
+            Some(Arc::new(Ghost { time, body, contacts: contacts(id), look: look(id) }))
         };
         self.ghosts.extend(due.into_iter().filter_map(ghost));
     }
@@ -159,18 +173,18 @@ impl History {
         self.sweeps.note(frame);
         self.latest = frame.index;
         let values = self.values_of_trails(frame);
-        for number in 0..self.requests.len() {
+        for (number, value) in values.into_iter().enumerate() {
             let (body, showing) = &self.requests[number];
             let Some(trail) = showing.trail else { continue };
             let present = frame.body(*body);
-            let corners = self.corners(number, (frame, values[number]), trail);
+            let corners = self.corners(number, (frame, value), trail);
             let (trail_path, is_away) = (&mut self.paths[number], &mut self.is_away[number]);
             if std::mem::replace(is_away, present.is_none()) && present.is_some() {
                 // A body may return at another place, so clear the trail from before its absence.
                 trail_path.clear();
             }
             self.last[number] = present.map(|body| (frame.time, *body));
-            self.last_values[number] = values[number];
+            self.last_values[number] = value;
             // The stride depends on the number of the present frame alone, so every reader keeps the same points.
             let stride = stride(trail, self.timeline.interval(), frame.index);
             if let Some(duration) = trail.duration {
@@ -184,7 +198,7 @@ impl History {
             if frame.index.is_multiple_of(stride) {
                 let Some(body) = present else { continue };
                 let point = TrailPoint::of(frame.time, body, trail);
-                let point = TrailPoint { frame: Some(frame.index), value: values[number], ..point };
+                let point = TrailPoint { frame: Some(frame.index), value, ..point };
                 trail_path.push((frame.index, point));
             }
             thin(trail_path);
@@ -197,7 +211,7 @@ impl History {
         let moment = MomentState::with_areas(frame, self.sweeps.complete());
         let value = |(body, showing): &(usize, Showing)| {
             showing.trail.filter(|trail| trail.color.is_none())?;
-            self.values.as_ref()?.of(*body, &moment)
+            self.values.as_ref()?.of_trail(*body, &moment)
         };
         self.requests.iter().map(value).collect()
     }

@@ -2,21 +2,21 @@
 //!
 //! The survey is made while frames are recorded, or while a recording is read.
 
-mod color_ranges;
 mod corrected;
 mod crossing;
 mod curves;
+mod ranges;
 mod spreads;
 mod stretched;
 #[cfg(test)]
 mod tests;
 
-use color_ranges::ColorRanges;
 pub use corrected::Corrected;
 pub use crossing::Crossing;
 use crossing::{Falls, Watched, free, planes};
 use curves::Curves;
 pub use curves::{CurvePoint, LeftOut};
+use ranges::Ranges;
 pub use spreads::Spread;
 use spreads::Spreads;
 use stretched::Gaps;
@@ -69,6 +69,8 @@ pub struct Survey {
     pub curves: Vec<Vec<CurvePoint>>,
     /// The values of the first and the last color of each color map, in the order of the scene.
     pub color_ranges: Vec<[f64; 2]>,
+    /// The values of the first and the last number of each map of other looks, in the order of the scene.
+    pub value_ranges: Vec<[f64; 2]>,
     /// How many values of each of these curves a logarithmic axis leaves out.
     pub left_out: Vec<LeftOut>,
     /// The values of the bodies in each histogram, in the order of the scene.
@@ -152,7 +154,7 @@ pub struct Surveyor<'a> {
     error: EnergyError,
     sweeps: Sweeps,
     curves: Curves<'a>,
-    color_ranges: ColorRanges<'a>,
+    ranges: Ranges<'a>,
     spreads: Spreads<'a>,
 }
 
@@ -190,7 +192,7 @@ impl<'a> Surveyor<'a> {
             error: EnergyError::default(),
             sweeps: Sweeps::new(scene),
             curves: Curves::new(scene),
-            color_ranges: ColorRanges::new(scene),
+            ranges: Ranges::new(scene),
             spreads: Spreads::new(scene),
         }
     }
@@ -252,7 +254,7 @@ impl<'a> Surveyor<'a> {
         self.sweeps.note(frame);
         let moment = MomentState::with_areas(frame, self.sweeps.complete());
         self.curves.see(&moment);
-        self.color_ranges.see(&moment);
+        self.ranges.see(&moment);
         self.spreads.see(&moment, frame.index);
     }
 
@@ -272,7 +274,7 @@ impl<'a> Surveyor<'a> {
             gaps,
             error,
             curves,
-            color_ranges,
+            ranges,
             spreads,
             ..
         } = self;
@@ -282,6 +284,7 @@ impl<'a> Surveyor<'a> {
         let law = scene.simulation.contacts;
         let (drift_scale, drift_energy) = error.scale(law);
         let (curves, left_out) = curves.finish();
+        let (color_ranges, value_ranges) = ranges.finish();
         Survey {
             without_strays: spans.without_strays(scene),
             spans: spans.finish(),
@@ -296,7 +299,8 @@ impl<'a> Surveyor<'a> {
             curves,
             left_out,
             spreads: spreads.finish(),
-            color_ranges: color_ranges.finish(),
+            color_ranges,
+            value_ranges,
             drift: error.drift(law),
             drift_scale,
             drift_energy,

@@ -1,6 +1,6 @@
 //! Approximates materials for renderers other than POV-Ray.
 
-use crate::scene::{Color, Finish, LibraryMaterial, Look, PlainLook, Preset};
+use crate::scene::{Color, Finish, LibraryMaterial, Look, LookNumber, Material, PlainLook, Preset};
 
 /// The appearance of a material in a renderer other than POV-Ray, described by metallic-roughness shading, as in glTF. Colors are linear,
 /// with components from 0 to 1.
@@ -12,8 +12,8 @@ pub struct Appearance {
     pub metallic: f64,
     /// The roughness of the surface: from 0 for a perfect mirror to 1 for chalk.
     pub roughness: f64,
-    /// True if the material emits light of its own color.
-    pub emissive: bool,
+    /// The part of its color that the material emits by itself, from 0 to 1. The rest is reflected.
+    pub glow: f64,
     /// The pattern of the material.
     pub pattern: SurfacePattern,
     /// The second color of the pattern: red, green, blue. `None` without a pattern.
@@ -64,18 +64,19 @@ impl Appearance {
     fn new(color: [f64; 3], metallic: f64, roughness: f64) -> Appearance {
         let [red, green, blue] = color.map(|part| part.min(1.0));
         let color = [red, green, blue, 1.0];
-        Appearance {
-            color,
-            metallic,
-            roughness,
-            emissive: false,
-            pattern: SurfacePattern::None,
-            second: None,
-        }
+        Appearance { color, metallic, roughness, glow: 0.0, pattern: SurfacePattern::None, second: None }
     }
 
     fn patterned(self, pattern: SurfacePattern, second: Color) -> Appearance {
         Appearance { pattern, second: Some(second.linear()), ..self }
+    }
+
+    /// Returns the same appearance with a transparency and a glow, both from 0 to 1.
+    #[must_use]
+    pub fn with(self, transparency: f64, glow: f64) -> Appearance {
+        let [red, green, blue, cover] = self.color;
+        let glow = self.glow.max(glow);
+        Appearance { color: [red, green, blue, cover * (1.0 - transparency)], glow, ..self }
     }
 
     /// The colors of the pattern, in the order of [`SurfacePattern::split`]. Without a pattern, only the color of the material.
@@ -121,6 +122,14 @@ pub fn appearance(look: &Look, preset: Preset) -> Appearance {
     }
 }
 
+/// Approximates a material in an environment. A transparency or a glow that follows a value is left out, since each body has its own in each
+/// frame.
+#[must_use]
+pub fn appearance_of(material: &Material, preset: Preset) -> Appearance {
+    let fixed = |number: LookNumber| number.fixed().unwrap_or(0.0);
+    appearance(&material.look, preset).with(fixed(material.transparency), fixed(material.glow))
+}
+
 /// True if a text in POV-Ray's language contains a keyword for transparency.
 fn is_clear(text: &str) -> bool {
     let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
@@ -136,7 +145,7 @@ fn plain(color: Color, finish: Finish) -> Appearance {
         Finish::Metal => Appearance::new(color, 1.0, 0.25),
         // A mirror has a nearly colorless reflection, with a slight tint of its color.
         Finish::Mirror => Appearance::new(color.map(|part| 0.85 + 0.06 * part), 1.0, 0.03),
-        Finish::Luminous => Appearance { emissive: true, ..Appearance::new(color, 0.0, 1.0) },
+        Finish::Luminous => Appearance { glow: 1.0, ..Appearance::new(color, 0.0, 1.0) },
     }
 }
 
@@ -153,7 +162,7 @@ fn library(material: &LibraryMaterial, tint: Color) -> Appearance {
         _ => look,
     };
     let [red, green, blue, _] = look.color;
-    Appearance { color: [red, green, blue, cover], emissive: material.glows(), ..look }
+    Appearance { color: [red, green, blue, cover], glow: if material.glows() { 1.0 } else { 0.0 }, ..look }
 }
 
 /// The mean of six colors in linear light.
@@ -210,7 +219,7 @@ mod tests {
             let found = appearance(&look(material), Preset::Daylight);
             let part = |part: f64| (0.0..=1.0).contains(&part);
             assert!(found.color.into_iter().chain([found.metallic, found.roughness]).all(part), "{found:?}");
-            assert_eq!(found.emissive, material.glows(), "{}", material.name);
+            assert_eq!(found.glow == 1.0, material.glows(), "{}", material.name);
             assert_eq!(found.color[3] < 1.0, material.ior.is_some(), "{}", material.name);
             assert_eq!(found.metallic == 1.0, material.family == "metals", "{}", material.name);
             let usual = Appearance::new(found.color[..3].try_into().unwrap(), 0.0, 0.5);
@@ -224,7 +233,7 @@ mod tests {
         for finish in Finish::ALL {
             let found = appearance(&Look::Plain { color: red, finish }, Preset::Daylight);
             assert!(found.color[0] > found.color[1] && found.color[3] == 1.0, "{finish:?}");
-            assert_eq!(found.emissive, finish == Finish::Luminous);
+            assert_eq!(found.glow == 1.0, finish == Finish::Luminous);
         }
     }
 

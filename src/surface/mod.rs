@@ -22,7 +22,7 @@ mod tests;
 
 use glam::DVec3;
 
-pub use appearance::{Appearance, BEACH_BALL, SurfacePattern, appearance, ground};
+pub use appearance::{Appearance, BEACH_BALL, SurfacePattern, appearance, appearance_of, ground};
 pub use base_shape::{BaseShape, Detail};
 pub use piece::{Piece, pieces};
 

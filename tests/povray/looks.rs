@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::image::{brightness, is_blue, is_green, is_red};
 use crate::pinhole::{Pinhole, SIZE};
 use crate::povray::{render, render_all};
-use crate::scene::{script, shining_ball};
+use crate::scene::{DARK, script, shining_ball};
 
 fn front() -> Pinhole {
     Pinhole::new([0.0, 1.5, 8.0], [0.0, 0.5, 0.0])
@@ -135,4 +135,59 @@ fn colors_follow_values() {
     };
     let ends = [pixels(slow), pixels([0.128, 0.567, 0.551]), pixels(fast)];
     assert!(ends.iter().all(Option::is_some) && ends.is_sorted(), "{ends:?}");
+}
+
+/// Half of the light passes through a body of transparency 0.5, and a body of transparency 1 leaves no trace: no highlight, no reflection and
+/// no shadow. This holds for every finish, and for a material of the library.
+#[test]
+fn a_transparent_body_lets_light_through() {
+    let behind = shining_ball("behind", [0.0, 1.0, -8.0], 6.0, "white");
+    let dark = |keys: &str| script(&(ball_of(keys) + &behind + DARK));
+    let lit = |keys: &str| script(&ball_of(keys));
+    let none = ball_of("").replace("[body.ball]", "[body.ball]\nend = 0.5\nstart = 0.2");
+    let images = [
+        dark("color = 'red'\nfinish = 'luminous'\ntransparency = 0.5\n"),
+        dark("color = 'red'\nfinish = 'luminous'\ntransparency.map = { of = 't', range = [-1, 1] }\n"),
+        script(&none),
+        lit("color = 'red'\ntransparency.map = { of = 't', range = [-1, 0] }\n"),
+        lit("finish = 'metal'\ntransparency = 1\n"),
+        lit("like = 'marble'\ntransparency = 1\n"),
+        lit("color = 'blue'\ntransparency = 0\n"),
+        lit("color = 'blue'\n"),
+    ];
+    let [half, mapped, none, plain, metal, marble, opaque, blue] = render_all(images, SIZE);
+    let (middle, _) = middle_and_crown();
+    for image in [half, mapped] {
+        let [red, green, blue] = image.at(middle);
+        // Half of the white light is 188 of 255 in sRGB. The red is that of both.
+        assert!(red > 250 && green.abs_diff(188) < 4 && blue.abs_diff(188) < 4, "{red} {green} {blue}");
+    }
+    for (image, name) in [(plain, "plain"), (metal, "metal"), (marble, "marble")] {
+        assert!(none.difference(&image) < 0.02, "{name}: {}", none.difference(&image));
+    }
+    assert!(opaque.difference(&blue) == 0.0 && is_blue(opaque.at(middle)));
+}
+
+/// A glow of 1 is the finish `luminous`, and a glow of 0.5 is between it and none.
+#[test]
+fn a_glowing_body_shines_by_itself() {
+    let dark = |keys: &str| {
+        script(&(ball_of(keys) + "\n[light.weak]\nsun.direction = [0, 0, -1]\nintensity = 0.05\n" + DARK))
+    };
+    let color = "color = [0.8, 0.4, 0.2]\n";
+    let images = [
+        "finish = 'luminous'",
+        "glow = 1",
+        "glow.map = { of = 't', range = [-1, 0] }",
+        "glow = 0.5",
+        "glow = 0",
+    ];
+    let images = render_all(images.map(|keys| dark(&format!("{color}{keys}\n"))), SIZE);
+    let (middle, _) = middle_and_crown();
+    let [luminous, full, mapped, half, none] = images.each_ref().map(|image| image.at(middle));
+    assert_eq!(luminous, [204, 102, 51]);
+    assert_eq!([full, mapped], [luminous; 2]);
+    assert!(half[0] > none[0] + 40 && half[0] + 20 < full[0], "{none:?} {half:?} {full:?}");
+    // Half of the light of the color, and at most as much of the lamp.
+    assert!((143..=160).contains(&half[0]), "{half:?}");
 }

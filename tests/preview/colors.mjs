@@ -24,4 +24,24 @@ await tests({
     assert.ok(red[0] > red[2] + 60, `the first ghost: ${red}`);
     assert.ok(blue[2] > blue[0] + 60, `the last ghost: ${blue}`);
   },
+
+  async transparency_glow_size_and_visibility_follow_values({ open }) {
+    const page = await open();
+    await until(page, (jabuka) => jabuka.settled);
+    const at = (place) => projected(page, place).then((spot) => color(page, spot));
+    const isWhite = (rgb) => rgb.every((part) => part > 240);
+    const frame = async (number) => {
+      await seek(page, number);
+      const [veil, lamp, beside, hides] = [await at([-3, 0, 0]), await at([0, 0, 0]), await at([3.8, 0, 0]), await at([0, 2, 0])];
+      return { veil, lamp, beside, hides };
+    };
+    const [first, middle, last] = [await frame(0), await frame(10), await frame(20)];
+    assert.ok(isRed(first.veil) && first.veil[1] < 10, `opaque: ${first.veil}`);
+    assert.ok(middle.veil[0] > 240 && middle.veil[1] > 100 && middle.veil[1] < 160, `half: ${middle.veil}`);
+    assert.ok(isWhite(last.veil), `invisible: ${last.veil}`);
+    assert.ok(first.lamp[2] < middle.lamp[2] && middle.lamp[2] < last.lamp[2], `${first.lamp} ${middle.lamp} ${last.lamp}`);
+    assert.deepEqual(last.lamp, [0, 0, 255], "it shines in its color");
+    assert.ok(isWhite(first.beside) && isRed(last.beside), `${first.beside} ${last.beside}`);
+    assert.ok(isRed(first.hides) && isWhite(middle.hides) && isWhite(last.hides), `${first.hides} ${middle.hides}`);
+  },
 });

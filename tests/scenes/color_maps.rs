@@ -62,7 +62,7 @@ fn a_range_and_a_formula_choose_the_color() {
         let text = BALLS.replace("'speed',", &format!("'{of}', range = [-10, 10],"));
         let scene = Scene::parse(&text).unwrap();
         let run = Run::new(&scene).unwrap();
-        run.emitter().plan().colors(&run.frames().next().unwrap().unwrap())
+        run.emitter().plan().looks(&run.frames().next().unwrap().unwrap()).colors
     };
     // The last body is absent, so its value is undefined.
     let undefined = u16::try_from(ColorMap::COLORS).unwrap();
@@ -156,7 +156,7 @@ fn a_ghost_between_frames_knows_the_measures_of_the_run() {
         // It hits the ground at t = √(0.18) s, with its center 0.1 m above it.
         let impacts = f64::from(ghost.time > 0.18_f64.sqrt());
         let expected = 10.0 + 1000.0 * impacts + ghost.body.location.y;
-        let value = ghost.value.unwrap();
+        let value = ghost.look.color.unwrap();
         // At the impact, a part of the energy is lost.
         assert!(
             (value - expected).abs() < if impacts > 0.0 { 10.0 } else { 1e-9 },

@@ -7,6 +7,7 @@ mod contacts;
 mod first;
 mod given_motion;
 mod joints;
+mod looks;
 mod many;
 mod measures;
 mod not_drawn;

@@ -130,7 +130,7 @@ fn each_measure_has_one_value_in_labels_plots_and_tables() {
             said(number)
         );
     }
-    let colors = plan.colors(&last);
+    let colors = plan.looks(&last).colors;
     // A name such as `kinetic` alone means the body that gets the color.
     let is_of_colored_body = |name: &str| BodyMeasure::ALL.iter().any(|(known, ..)| *known == name);
     for (number, name) in names.iter().enumerate().filter(|(_, name)| !is_of_colored_body(name)) {

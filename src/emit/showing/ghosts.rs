@@ -35,7 +35,7 @@ impl Ghosts {
                     let shade = color(shade, self.style);
                     out.push_str(&format!("#local {SHADE_IDENTIFIER} = {shade};\n"));
                 }
-                self.bodies[of].1.write_single(out, &ghost.body);
+                self.bodies[of].1.write_single(out, &ghost.body, plan.ghost_scale(ghost));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Writes the trails of bodies in SDL.
 //!
 //! The points of a trail are an array, and the macro `Trail` draws the array. If the color of a trail follows a value, a second array has the
-//! number of each point's color, and the macro `Shaded_trail` draws both. In the layout `shared`, each finished stretch of a trail is
+//! number of each point's color, and the macro `Shaded_trail` draws both: a piece has the color of its end. In the layout `shared`, each finished stretch of a trail is
 //! a separate file. A script then contains only the remaining part of the trail, and does not repeat the whole path of a body. The name of
 //! a file contains the digest of its text, so the text of a file never changes.
 

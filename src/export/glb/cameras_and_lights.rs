@@ -3,10 +3,11 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::document::{Camera, CameraLens, Light, Orthographic, Perspective};
+use super::materials::MappedLook;
 use super::motion::{NodePose, Recorder, SampledMotion};
 use crate::export::ExportError;
 use crate::picture::{Lamp, Lens, Placed, PlacedLight, Plan, Stage};
-use crate::scene::{Body, Color, Output, Scene};
+use crate::scene::{Body, LookAspect, Output, Scene, Visibility};
 use crate::simulate::{Recorded, Selection};
 
 /// The widest angle of view in the file, degrees. glTF does not allow 180 degrees.
@@ -19,8 +20,10 @@ pub(super) struct CamerasAndLights {
     /// The main camera, followed by the cameras of the views.
     pub(super) cameras: Vec<Camera>,
     pub(super) lights: Vec<Light>,
-    /// The color of each body in the first frame, if it follows a value. Models cannot animate colors.
-    pub(super) colors: Vec<Option<Color>>,
+    /// The look of each body in the first frame, if it follows a value. Models cannot animate looks.
+    pub(super) looks: Vec<Option<MappedLook>>,
+    /// The size of each body in the first frame, relative to its largest one; 0 if it is not drawn then.
+    pub(super) sizes: Vec<f64>,
 }
 
 impl CamerasAndLights {
@@ -55,24 +58,45 @@ impl CamerasAndLights {
         let cameras = names.into_iter().zip(seen);
         let cameras = cameras.map(|(name, seen)| seen.camera(name, scene.output, &stage)).collect();
         let lights = lights(scene, &plans[0], selection, motion)?;
-        let colors = colors(run, &plans[0], selection)?;
-        Ok(CamerasAndLights { cameras, lights, stage, colors })
+        let (looks, sizes) = looks(run, &plans[0], selection)?;
+        Ok(CamerasAndLights { cameras, lights, stage, looks, sizes })
     }
 }
 
-/// Returns the color of each body in the first of the selected frames, if it follows a value.
-fn colors(run: &Recorded<'_>, plan: &Plan, selection: &Selection) -> Result<Vec<Option<Color>>, ExportError> {
+/// Returns the look of each body in the first of the selected frames, if it follows a value, and its relative size; 0 if it is not drawn.
+fn looks(
+    run: &Recorded<'_>,
+    plan: &Plan,
+    selection: &Selection,
+) -> Result<(Vec<Option<MappedLook>>, Vec<f64>), ExportError> {
     let scene = run.scene();
-    let first = match scene.color_maps.is_empty() {
+    let is_usual = |body: &Body| {
+        let mut numbers = LookAspect::ALL.into_iter();
+        let follows = numbers.any(|aspect| scene.value_map_of(body, aspect).is_some());
+        !follows && scene.color_map_of(body).is_none() && body.look.visible == Visibility::Always
+    };
+    let first = match scene.bodies.iter().all(is_usual) {
         true => None,
         false => run.exposures(selection).next().transpose()?,
     };
-    let (maps, colors) = (plan.mapped_colors(), first.map_or(Vec::new(), |first| plan.colors(&first.frame)));
-    let color = |(number, body): (usize, &Body)| {
-        let map = scene.color_map_of(body)?;
-        maps[map].get(usize::from(*colors.get(number)?)).copied()
+    let bodies = scene.bodies.len();
+    let Some(first) = first else { return Ok((vec![None; bodies], vec![1.0; bodies])) };
+    let (maps, looks) = (plan.mapped_colors(), plan.looks(&first.frame));
+    let size = |body: usize| if looks.draws(body) { looks.scale_of(body) } else { 0.0 };
+    let sizes = (0..bodies).map(size).collect();
+    let look = |(number, body): (usize, &Body)| {
+        let color = scene.color_map_of(body);
+        let color = color.and_then(|map| maps[map].get(usize::from(*looks.colors.get(number)?)).copied());
+        let part = |aspect, numbers: &[f64]| {
+            scene.value_map_of(body, aspect)?;
+            numbers.get(number).copied()
+        };
+        let transparency = part(LookAspect::Transparency, &looks.transparency);
+        let glow = part(LookAspect::Glow, &looks.glow);
+        let follows = color.is_some() || transparency.is_some() || glow.is_some();
+        follows.then(|| MappedLook::new(color, transparency, glow))
     };
-    Ok(scene.bodies.iter().enumerate().map(color).collect())
+    Ok((scene.bodies.iter().enumerate().map(look).collect(), sizes))
 }
 
 /// Returns the pose of a camera in glTF's convention: it looks along −z, with y up.

@@ -74,15 +74,19 @@ impl DocumentBuilder<'_> {
         let scale = (!way.shown.at_first()).then_some([0.0; 3]);
         let number = self.node(Node { name: body.name.to_string(), scale, ..at(way.start) });
         let single = pieces.len() == 1;
-        let color = self.sight.colors.get(id).copied().flatten();
-        let material = match (body.material, color) {
-            (Some(material), Some(color)) => PaintedObject::Mapped(material, color.0.map(f64::to_bits)),
+        let look = self.sight.looks.get(id).copied().flatten();
+        let material = match (body.material, look) {
+            (Some(material), Some(look)) => PaintedObject::Mapped(material, look),
             (Some(material), None) => PaintedObject::Material(material),
             (None, _) => PaintedObject::Unknown,
         };
         // A pattern is designed for a ball of radius 1. A body gets the pattern of a ball with the same volume.
         let ball = body.shape.radius_of_ball();
-        for mut piece in pieces {
+        let size = self.sight.sizes.get(id).copied().unwrap_or(1.0);
+        // A body that is not drawn in the first frame keeps its node, which has no mesh.
+        for mut piece in pieces.into_iter().filter(|_| size > 0.0) {
+            piece.scale *= size;
+            piece.location *= size;
             let mut pattern = ball;
             if piece.form == BaseShape::PLANE {
                 self.spread(&mut piece, way);

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::document::{Material, Shading};
-use crate::scene::{Color, Finish, Look, Scene};
-use crate::surface::{Appearance, SurfacePattern, appearance, ground};
+use crate::scene::{self, Color, Finish, Look, LookNumber, Scene};
+use crate::surface::{Appearance, SurfacePattern, appearance, appearance_of, ground};
 
 /// The key of a glTF material: what it colors, and how.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -20,8 +20,8 @@ pub(super) struct MaterialKey {
 pub(super) enum PaintedObject {
     /// The material with this index in the scene.
     Material(usize),
-    /// The material with this index in the scene, in an sRGB color of its color map, as the bits of its three components.
-    Mapped(usize, [u64; 3]),
+    /// The material with this index in the scene, with what follows a value.
+    Mapped(usize, MappedLook),
     /// An sRGB color, as the bits of its three components.
     Color([u64; 3]),
     /// The sRGB color of a spring or joint, as the bits of its three components.
@@ -30,6 +30,38 @@ pub(super) enum PaintedObject {
     Ground,
     /// The unknown look of a body without a material, which only POV-Ray code defines.
     Unknown,
+}
+
+/// The part of a look that follows a value. Numbers are kept as their bits, so that equal looks share a material.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct MappedLook {
+    /// The sRGB color.
+    color: Option<[u64; 3]>,
+    transparency: Option<u64>,
+    glow: Option<u64>,
+}
+
+impl MappedLook {
+    pub(super) fn new(color: Option<Color>, transparency: Option<f64>, glow: Option<f64>) -> MappedLook {
+        MappedLook {
+            color: color.map(|color| color.0.map(f64::to_bits)),
+            transparency: transparency.map(f64::to_bits),
+            glow: glow.map(f64::to_bits),
+        }
+    }
+
+    /// Returns a material in this look.
+    fn of(self, material: &scene::Material) -> scene::Material {
+        let number =
+            |bits: Option<u64>, usual| bits.map_or(usual, |it| LookNumber::Fixed(f64::from_bits(it)));
+        let color = self.color.map(|color| Color(color.map(f64::from_bits)));
+        scene::Material {
+            look: color.map_or_else(|| material.look.clone(), |color| material.look.with_color(color)),
+            transparency: number(self.transparency, material.transparency),
+            glow: number(self.glow, material.glow),
+            ..material.clone()
+        }
+    }
 }
 
 impl From<Color> for PaintedObject {
@@ -73,12 +105,11 @@ pub(super) fn look(what: PaintedObject, scene: &Scene) -> (String, Appearance) {
     match what {
         PaintedObject::Material(number) => {
             let material = &scene.materials[number];
-            (material.name.clone(), appearance(&material.look, preset))
+            (material.name.clone(), appearance_of(material, preset))
         }
-        PaintedObject::Mapped(number, bits) => {
+        PaintedObject::Mapped(number, look) => {
             let material = &scene.materials[number];
-            let look = material.look.with_color(Color(bits.map(f64::from_bits)));
-            (material.name.clone(), appearance(&look, preset))
+            (material.name.clone(), appearance_of(&look.of(material), preset))
         }
         PaintedObject::Color(bits) => ("axes".to_owned(), appearance(&satin(bits), preset)),
         PaintedObject::Link(bits) => ("link".to_owned(), appearance(&satin(bits), preset)),
@@ -88,9 +119,11 @@ pub(super) fn look(what: PaintedObject, scene: &Scene) -> (String, Appearance) {
 }
 
 fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material {
-    let color @ [red, green, blue, cover] = appearance.mean();
-    // The base color of a luminous surface is black. If it also reflected light, it would be brighter than its color.
-    let base = if appearance.emissive { [0.0, 0.0, 0.0, cover] } else { color };
+    let [red, green, blue, cover] = appearance.mean();
+    // What glows does not reflect light as well: otherwise, it would be brighter than its color.
+    let glow = appearance.glow;
+    let reflected = 1.0 - glow;
+    let base = [red * reflected, green * reflected, blue * reflected, cover];
     Material {
         name,
         pbr_metallic_roughness: Shading {
@@ -98,7 +131,7 @@ fn shaded(name: String, appearance: &Appearance, double_sided: bool) -> Material
             metallic_factor: appearance.metallic,
             roughness_factor: appearance.roughness,
         },
-        emissive_factor: appearance.emissive.then_some([red, green, blue]),
+        emissive_factor: (glow > 0.0).then(|| [red, green, blue].map(|part| part * glow)),
         alpha_mode: (cover < 1.0).then_some("BLEND"),
         double_sided,
     }

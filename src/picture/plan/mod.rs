@@ -16,13 +16,13 @@ use self::largest::narrowest_view;
 use super::arrows::{Arrow, ArrowSizes, Arrows, round_scales};
 use super::bar::{Bar, ScaleBars};
 use super::camera::{MovingCamera, Placed};
-use super::color_maps::ColorMaps;
 use super::ghosts::Ghosts;
 use super::grid::{GridLayout, GridPlan};
 use super::in_front::Planes;
 use super::labels::Labels;
 use super::lights::{self, Lights, PlacedLight};
 use super::links::Links;
+use super::looks::{LookMaps, Looks};
 use super::marks::{ArrowMarks, Marks, with_lines};
 use super::not_drawn::{self, NotDrawn};
 use super::plots::{PlannedPlot, PlotNow, Plots, UnseenPlot};
@@ -56,7 +56,7 @@ pub struct Plan {
     bar: Option<ScaleBars>,
     labels: Labels,
     plots: Plots,
-    color_maps: ColorMaps,
+    looks: LookMaps,
     /// Angles and dimension lines.
     marks: Marks,
     arrow_marks: ArrowMarks,
@@ -154,7 +154,7 @@ impl Plan {
             bar,
             labels: Labels::new(scene, ink, plots.areas(), measures.clone()),
             plots,
-            color_maps: ColorMaps::new(scene, survey, measures.clone()),
+            looks: LookMaps::new(scene, survey, measures.clone()),
             marks: Marks::new(scene, &measures, &stage, (placed, early), ink),
             arrow_marks: ArrowMarks::new(scene),
             screen: has_texts(scene).then(|| placed.screen()),
@@ -252,7 +252,12 @@ impl Plan {
 
     /// The color of a ghost, which follows the value at the time of the ghost. `None` if the color of its body stays.
     pub fn ghost_color(&self, ghost: &Ghost) -> Option<Color> {
-        self.color_maps.of_ghost(ghost)
+        self.looks.colors.of_ghost(ghost)
+    }
+
+    /// The size of a ghost, relative to the largest drawn size of its body.
+    pub fn ghost_scale(&self, ghost: &Ghost) -> f64 {
+        self.looks.scale_of_ghost(ghost)
     }
 
     /// The arrows of a ghost in the picture of a frame. Empty if the ghosts of its body have no arrows.
@@ -319,12 +324,12 @@ impl Plan {
 
     /// The colors of each color map, from the lowest value to the highest; the last one is for undefined values.
     pub fn mapped_colors(&self) -> Vec<Vec<Color>> {
-        self.color_maps.colors()
+        self.looks.colors.colors()
     }
 
     /// The color of a value, as an index into the [colors](Plan::mapped_colors) of a map. `None` means an undefined value.
     pub fn shade(&self, map: usize, value: Option<f64>) -> u16 {
-        self.color_maps.shade(map, value)
+        self.looks.colors.shade(map, value)
     }
 
     /// The color maps of trails, as indices in the scene, in increasing order.
@@ -335,10 +340,9 @@ impl Plan {
         maps
     }
 
-    /// The color of each body in a frame, as an index into the [colors](Plan::mapped_colors) of its map. Bodies without a map have 0. Empty
-    /// if the scene has no maps.
-    pub fn colors(&self, frame: &Frame) -> Vec<u16> {
-        self.color_maps.at(frame)
+    /// The looks of the bodies in a frame, as far as they follow values.
+    pub fn looks(&self, frame: &Frame) -> Looks {
+        self.looks.at(frame)
     }
 
     /// The image plane of a frame's camera. `None` if the pictures have no texts.

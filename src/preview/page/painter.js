@@ -46,7 +46,7 @@ export class Painter {
     this.forms?.forEach((form) => form.buffers.forEach((buffer) => gl.deleteBuffer(buffer)));
     Object.keys(this.batches).forEach((name) => this.release(name));
     this.scattered = undefined;
-    this.colored = undefined;
+    this.looked = undefined;
     this.forms = run.forms.map((form) => upload(gl, form));
     this.description = run.description;
     this.space = spaceOf(run.description);
@@ -64,22 +64,25 @@ export class Painter {
     for (const { body, pose, color } of bodies) {
       for (const piece of byBody[body] ?? []) {
         const material = description.materials[description.bodies[body].material] ?? PLAIN;
+        const own = Boolean(piece.color || pale);
         const clear = !piece.color && material.color[3] < 1;
-        const key = `${piece.form} ${clear}`;
-        if (!groups.has(key)) groups.set(key, { form: piece.form, ball: piece.ball, clear, numbers: [], mapped: [] });
+        // Glass has a bright rim; what is transparent by a number has none.
+        const transparent = !own && Boolean(material.transparent);
+        const key = `${piece.form} ${clear} ${transparent}`;
+        if (!groups.has(key)) groups.set(key, { form: piece.form, ball: piece.ball, clear, transparent, numbers: [], mapped: [] });
         const group = groups.get(key);
-        const isMapped = (material.map ?? null) !== null && !piece.color && !pale;
-        if (isMapped) group.mapped.push({ body, map: material.map, at: group.numbers.length + COLOR });
+        const follows = (material.map ?? null) !== null || material.clears || material.glows;
+        if (follows && !own) group.mapped.push({ body, material, at: group.numbers.length });
         group.numbers.push(...instance(piece, material, pose, space.size, pale && (color ?? material.pale)));
       }
     }
-    const made = [...groups.values()].map(({ form, ball, clear, numbers: list, mapped }) => {
+    const made = [...groups.values()].map(({ form, ball, clear, transparent, numbers: list, mapped }) => {
       const numbers = new Float32Array(list);
       const count = numbers.length / NUMBERS;
       const kind = ball && count > MOST_ROUND ? "BALLS" : "BODY";
       const shape = kind === "BALLS" ? (this.facing ??= upload(gl, FACING)) : this.forms[form];
       const { vertices, buffer } = instances(gl, shape, numbers);
-      return { form: shape, kind, clear, vertices, buffer, count, numbers, mapped };
+      return { form: shape, kind, clear, transparent, vertices, buffer, count, numbers, mapped };
     });
     made.sort((a, b) => Number(a.clear) - Number(b.clear));
     const count = bodies.reduce((most, { pose }) => Math.max(most, pose + 1), 1);
@@ -87,13 +90,17 @@ export class Painter {
     this.batches[name] = { groups: made, poses: poseTexture(gl, count), total };
   }
 
-  /** Gives the bodies of the run the colors of their maps: `colors` has the index of each body's color in its map. */
-  color(colors, maps) {
-    if (!colors?.length || this.colored === colors) return;
-    this.colored = colors;
+  /** Gives the bodies of the run their looks in a frame, as far as they follow values. `maps` has the colors of each color map. */
+  look(shown, maps) {
+    if (!shown || this.looked === shown) return;
+    this.looked = shown;
     const { gl } = this;
     for (const { buffer, numbers, mapped } of this.batches.run.groups.filter((group) => group.mapped.length)) {
-      for (const { body, map, at } of mapped) numbers.set(maps[map][colors[body]], at);
+      for (const { body, material: { map, clears, glows }, at } of mapped) {
+        if (map !== null) numbers.set(maps[map][shown.colors[body]], at + COLOR);
+        if (clears) numbers[at + COLOR + 3] = 1 - shown.transparency[body] / 255;
+        if (glows) numbers[at + GLOW] = shown.glow[body] / 255;
+      }
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferSubData(gl.ARRAY_BUFFER, 0, numbers);
     }
@@ -142,17 +149,18 @@ export class Painter {
     return this.sorted.byBody;
   }
 
-  /** Sets the poses of all bodies in a batch. `at(index)` returns a location and an orientation. */
-  place(name, at) {
+  /** Sets the poses of all bodies in a batch. `at(index)` returns a location and an orientation, and `size(index)` the size, relative to the pieces. */
+  place(name, at, size = () => 1) {
     const { poses } = this.batches[name];
-    const { center, size } = this.space;
+    const { center, size: span } = this.space;
     for (let i = 0; i < poses.count; i++) {
       const pose = at(i);
-      const [x, y, z, a, b, c, d] = isThere(pose) ? pose : [AWAY * size, 0, 0, 0, 0, 0, 1];
+      const [x, y, z, a, b, c, d] = isThere(pose) ? pose : [AWAY * span, 0, 0, 0, 0, 0, 1];
       const k = 8 * i;
-      poses.numbers[k] = (x - center[0]) / size;
-      poses.numbers[k + 1] = (y - center[1]) / size;
-      poses.numbers[k + 2] = (z - center[2]) / size;
+      poses.numbers[k] = (x - center[0]) / span;
+      poses.numbers[k + 1] = (y - center[1]) / span;
+      poses.numbers[k + 2] = (z - center[2]) / span;
+      poses.numbers[k + 3] = size(i);
       poses.numbers[k + 4] = a;
       poses.numbers[k + 5] = b;
       poses.numbers[k + 6] = c;
@@ -307,13 +315,23 @@ export class Painter {
 
   drawBodies(name, ghost) {
     if (!this.batches[name]) return;
-    const ready = (shader) => {
+    const { gl } = this;
+    const ready = (part) => (shader) => {
       this.common(shader);
-      this.gl.uniform4fv(shader.at("u_ghost"), ghost);
+      gl.uniform4fv(shader.at("u_ghost"), ghost);
+      gl.uniform1i(shader.at("u_part"), part);
     };
-    if (ghost[3] > 0) return this.blended(() => this.groups(name, "body", ready));
-    this.groups(name, "body", ready, (group) => !group.clear);
-    this.blended(() => this.groups(name, "body", ready, (group) => group.clear));
+    if (ghost[3] > 0) return this.blended(() => this.groups(name, "body", ready(ALL), () => true));
+    this.groups(name, "body", ready(ALL), (group) => !group.clear && !group.transparent);
+    this.groups(name, "body", ready(OPAQUE), (group) => group.transparent);
+    this.blended(() => {
+      this.groups(name, "body", ready(ALL), (group) => group.clear && !group.transparent);
+      // Only the front is drawn, so that the transparency is that of the whole body. Balls that face the camera have only a front.
+      this.groups(name, "body", ready(TRANSPARENT), (group) => group.transparent && group.kind === "BALLS");
+      gl.enable(gl.CULL_FACE);
+      this.groups(name, "body", ready(TRANSPARENT), (group) => group.transparent && group.kind === "BODY");
+      gl.disable(gl.CULL_FACE);
+    });
   }
 
   blended(draw) {
@@ -405,7 +423,7 @@ export class Painter {
 /** The distance at which absent bodies are placed, in sizes of the scene. It is outside of every view. */
 const AWAY = 1e6;
 
-const PLAIN = { color: [0.3, 0.3, 0.3, 1], metallic: 0, roughness: 0.6, emissive: false, motif: "none", second: null, pale: [0.5, 0.5, 0.5] };
+const PLAIN = { color: [0.3, 0.3, 0.3, 1], metallic: 0, roughness: 0.6, glow: 0, motif: "none", second: null, pale: [0.5, 0.5, 0.5] };
 
 /** Returns the origin (m) and the unit length (m) of the coordinates that shaders use. */
 export function spaceOf({ stage, bounds }) {
@@ -414,8 +432,12 @@ export function spaceOf({ stage, bounds }) {
   return { center: times(add(bounds[0], bounds[1]), 0.5), size: length(sub(bounds[1], bounds[0])) || 1 };
 }
 
-/** The position of the color among the numbers of an instance: behind location, turn and scale. */
+/** The positions of the color and of the glow among the numbers of an instance. */
 const COLOR = 10;
+const GLOW = 20;
+
+/** The parts of a group that are drawn: all of its instances, or only the opaque or the transparent ones. */
+const [ALL, OPAQUE, TRANSPARENT] = [0, 1, 2];
 
 /** Returns the numbers of an instance. `pale` is the color of a ghost; false for a body. */
 function instance(piece, material, pose, size, pale) {
@@ -423,7 +445,7 @@ function instance(piece, material, pose, size, pale) {
   const plain = Boolean(own || pale);
   const color = own ? [...own, 1] : pale ? [...pale, 1] : material.color;
   const second = [...(material.second ?? [1, 1, 1]), plain ? 0 : MOTIFS[material.motif]];
-  const look = [own ? 0 : material.metallic, own ? 0.5 : material.roughness, !own && material.emissive ? 1 : 0, pose];
+  const look = [own ? 0 : material.metallic, own ? 0.5 : material.roughness, own ? 0 : material.glow, pose];
   return [
     ...times(piece.location, 1 / size), ...piece.turn, ...times(piece.scale, 1 / size),
     ...color, ...second, ...look, piece.radius / size,

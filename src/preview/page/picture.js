@@ -8,6 +8,8 @@ import { drawn, element, open, panel, player, plots, texts, viewpoint } from "./
 /** The largest number of points of all trails together. */
 const MOST_POINTS = 60_000;
 const NONE = new Float64Array();
+/** The pose of a body that is not drawn. */
+const NOWHERE = Array(7).fill(NaN);
 
 let before;
 
@@ -70,8 +72,9 @@ function draw() {
   const stage = run.description.stage;
   const camera = !present && shown ? shown.camera : sceneCamera(run, position);
   const view = viewpoint.view(camera, open.painter.space, width, height, run.description.size, (eye) => nearestTo(run, at, eye));
-  open.painter.place("run", at);
-  open.painter.color(shown?.colors, stage?.maps ?? []);
+  const drawnAt = (body) => (shown?.drawn.length && !shown.drawn[body] ? NOWHERE : at(body));
+  open.painter.place("run", drawnAt, (body) => shown?.scale[body] ?? 1);
+  open.painter.look(shown, stage?.maps ?? []);
   if (particles) open.painter.scatter(particles);
   const lines = new Lines();
   streaks(lines, open.painter.scattered ?? NONE);
@@ -79,7 +82,7 @@ function draw() {
   if (viewpoint.own && stage && !camera.width) outlineCamera(lines, camera, run.description.size);
   strobes(run, position, at);
   if (open.other) placeOther(run);
-  open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, at);
+  open.painter.draw(view, shown?.lights ?? stage?.lights ?? [], lines, drawnAt);
   texts.show(shown, view, open.painter.space, (body) => at(body).slice(0, 3), triads(run, shown, at), stage?.plots ?? []);
   const film = element("film");
   film.hidden = viewpoint.own;
@@ -172,7 +175,7 @@ function strobes(run, position, at) {
     open.strobes = key;
     open.painter.put("ghosts", apart.map(({ body, color }, pose) => ({ body, pose, color })), true);
   }
-  if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation]);
+  if (apart.length) open.painter.place("ghosts", (i) => [...apart[i].location, ...apart[i].orientation], (i) => apart[i].scale);
 }
 
 /** Sets the poses of the compared run, and shows the largest distance between a body and the same body of the shown run. */

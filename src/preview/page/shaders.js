@@ -18,7 +18,7 @@ layout(location = 3) in vec4 a_turn;
 layout(location = 4) in vec3 a_scale;
 layout(location = 5) in vec4 a_color;
 layout(location = 6) in vec4 a_second; // the second color, and the pattern
-layout(location = 7) in vec4 a_look;   // metallic, roughness, emissive, index of the body's pose
+layout(location = 7) in vec4 a_look;   // metallic, roughness, glow, index of the body's pose
 layout(location = 8) in float a_radius;
 uniform sampler2D u_poses;
 uniform mat4 u_clip;
@@ -40,11 +40,11 @@ flat out vec4 v_second;
 flat out vec4 v_look;
 void main() {
   ivec2 texel = texelOfPose();
-  vec3 location = texelFetch(u_poses, texel, 0).xyz;
+  vec4 location = texelFetch(u_poses, texel, 0); // w is the size of the body, relative to its pieces
   vec4 turn = texelFetch(u_poses, texel + ivec2(1, 0), 0);
   vec3 inside = turned(a_turn, a_position * a_scale) + a_offset;
   v_inside = inside / a_radius;
-  v_place = turned(turn, inside) + location;
+  v_place = turned(turn, inside * location.w) + location.xyz;
   v_normal = turned(turn, turned(a_turn, a_normal / a_scale));
   v_color = a_color;
   v_second = a_second;
@@ -111,10 +111,11 @@ flat out vec4 v_look;
 void main() {
   ivec2 texel = texelOfPose();
   v_pose = texelFetch(u_poses, texel + ivec2(1, 0), 0);
-  vec3 center = texelFetch(u_poses, texel, 0).xyz + turned(v_pose, a_offset);
-  float radius = a_scale.x;
+  vec4 location = texelFetch(u_poses, texel, 0); // w is the size of the body, relative to its pieces
+  vec3 center = location.xyz + turned(v_pose, a_offset * location.w);
+  float radius = a_scale.x * location.w;
   v_ball = vec4(center, radius);
-  v_offset = vec4(a_offset, a_radius);
+  v_offset = vec4(a_offset, a_radius) * location.w;
   vec3 away = u_toward == vec3(0.0) ? u_eye - center : u_toward;
   float far = length(away);
   vec3 back = away / far;
@@ -161,6 +162,7 @@ void find() { place = v_place; normalThere = normalize(v_normal); inside = v_ins
 
 const bodyFragment = (surface) => `${HEAD}${LIGHT}
 uniform vec4 u_ghost;   // color and opacity of ghosts; the opacity 0 means no ghost
+uniform int u_part;     // 0: all; 1: only what is opaque; 2: only what is transparent, without the bright rim of glass
 ${surface}
 flat in vec4 v_color;
 flat in vec4 v_second;
@@ -182,16 +184,15 @@ vec3 painted() {
   return v_color.rgb;
 }
 void main() {
+  if (u_part == 1 && v_color.a < 1.0 || u_part == 2 && (v_color.a >= 1.0 || v_color.a <= 0.0)) discard;
   find();
   vec3 base = painted();
   vec3 eye = u_toward == vec3(0.0) ? normalize(u_eye - place) : u_toward;
   vec3 normal = normalThere;
   if (dot(normal, eye) < 0.0) normal = -normal;
   float metallic = v_look.x, roughness = v_look.y;
-  vec3 sum;
-  if (v_look.z > 0.5) {
-    sum = base;
-  } else {
+  vec3 sum = base;
+  if (v_look.z < 1.0) {
     sum = base * u_ambient * 0.17;
     float shine = 2.0 / max(1e-3, roughness * roughness * roughness * roughness) + 2.0;
     for (int i = 0; i < 8; i++) {
@@ -208,8 +209,9 @@ void main() {
     float rim = pow(1.0 - max(dot(normal, eye), 0.0), 5.0);
     vec3 mirror = mix(vec3(mix(0.03, 0.5, rim)), base * mix(0.55, 0.8, rim), metallic);
     sum += mirror * around * (1.0 - roughness);
+    sum = mix(sum, base, v_look.z);
   }
-  float alpha = mix(v_color.a, 1.0, v_color.a < 1.0 ? 0.5 * pow(1.0 - abs(dot(normal, eye)), 3.0) : 0.0);
+  float alpha = mix(v_color.a, 1.0, v_color.a < 1.0 && u_part == 0 ? 0.5 * pow(1.0 - abs(dot(normal, eye)), 3.0) : 0.0);
   sum = mix(sum, u_ghost.rgb, u_ghost.a > 0.0 ? 0.35 : 0.0);
   color = vec4(toScreen(sum), u_ghost.a > 0.0 ? u_ghost.a : alpha);
 }`;

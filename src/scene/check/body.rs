@@ -11,11 +11,12 @@ use crate::diagnostic::{Code, Diagnostic, Span};
 use crate::physics::{RigidBody, Shape};
 use crate::scene::default_looks::DefaultLooks;
 use crate::scene::grammar::bodies::{body, orientation};
+use crate::scene::grammar::scene::scene;
 use crate::scene::grammar::shapes::shape as shape_keys;
 use crate::scene::grammar::{Key, KeySpec};
 use crate::scene::source::Table;
 use crate::scene::value;
-use crate::scene::{Body, BodyLook, LibraryMaterial, Look, Material, Showing, SimulationSettings};
+use crate::scene::{Body, BodyLook, LibraryMaterial, Material, Showing, SimulationSettings};
 
 /// The keys for the initial velocities of a body.
 static VELOCITY_KEYS: [&Key<DVec3>; 2] = [&body::VELOCITY, &body::ANGULAR_VELOCITY];
@@ -301,15 +302,10 @@ fn euler(angles: DVec3) -> DQuat {
 
 /// Returns the index in `materials` of the material that the body's own `material` table describes. Copies of a body with equal looks
 /// share one material.
-fn own_material(
-    name: &str,
-    (look, color_map): (Look, Option<usize>),
-    materials: &mut Vec<Material>,
-    context: &Context<'_>,
-) -> usize {
+fn own_material(own: Material, materials: &mut Vec<Material>, context: &Context<'_>) -> usize {
     /// The number of most recent materials that are compared with the new look.
     const MAX_COMPARED_MATERIALS: usize = 16;
-    if let Some(original) = context.groups.original(name) {
+    if let Some(original) = context.groups.original(&own.name) {
         let of_copy = |material: &Material| context.groups.original(&material.name) == Some(original);
         let latest = materials
             .iter()
@@ -317,13 +313,11 @@ fn own_material(
             .rev()
             .take(MAX_COMPARED_MATERIALS)
             .take_while(|(_, other)| of_copy(other));
-        if let Some((number, _)) =
-            latest.into_iter().find(|(_, other)| other.look == look && other.color_map == color_map)
-        {
+        if let Some((number, _)) = latest.into_iter().find(|(_, other)| other.looks_like(&own)) {
             return number;
         }
     }
-    materials.push(Material { name: name.to_owned(), look, color_map });
+    materials.push(own);
     materials.len() - 1
 }
 
@@ -343,19 +337,30 @@ fn material(
         context.diagnostics.extend(view.key_span(&body::MATERIAL).map(|span| warning.at(span, why)));
         return None;
     }
+    let is_plane = matches!(shape, Shape::Plane { .. });
     // Take a palette color for every body, even for one with a material. Then the other bodies keep their colors when a user gives one body
     // a material.
     let usual = default_looks.next(shape);
     if let Some(table) = view.variant(&body::MATERIAL) {
-        let look = super::material::look(&table, root, context);
-        return Some(own_material(name, look, materials, context));
+        let own = super::material::look(name, &table, root, context);
+        if is_plane {
+            super::material::report_of_plane(name, &table, context);
+        }
+        return Some(own_material(own, materials, context));
     }
     // Raw SDL has its own textures, which a material would cover.
     let has_own = view.table(&body::SHAPE).has(&shape_keys::SDL);
-    let Some(name) = view.get_as::<value::Text>(&body::MATERIAL) else {
+    let Some(material) = view.get_as::<value::Text>(&body::MATERIAL) else {
         return (!has_own).then(|| default_looks.material(usual, materials));
     };
-    let number = context.names.materials.get(name).copied();
-    let number = number.or_else(|| Some(default_looks.of_library(LibraryMaterial::named(name)?, materials)));
+    if is_plane
+        && let Some((_, _, table)) =
+            root.named(&scene::MATERIAL).into_iter().find(|(known, ..)| *known == material)
+    {
+        super::material::report_of_plane(name, &table, context);
+    }
+    let number = context.names.materials.get(material).copied();
+    let number =
+        number.or_else(|| Some(default_looks.of_library(LibraryMaterial::named(material)?, materials)));
     Some(number.unwrap_or_else(|| default_looks.material(usual, materials)))
 }

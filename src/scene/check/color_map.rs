@@ -92,12 +92,13 @@ pub(super) fn read(
     }
     maps.into_iter()
         .filter_map(|Written { of: (of, span), palette, range, title, bar, .. }| {
-            let formula = text(root, (&of, span), things, context, |reader| {
+            let belongs = ("color", Code::BadColorMap);
+            let formula = text(root, belongs, (&of, span), things, context, |reader| {
                 reader.formula_with_unit(0..reader.text.len())
             });
             let name = of.rsplit_once(':').map_or(of.as_str(), |(formula, _)| formula).trim();
             let title = match &title {
-                Some((title, span)) => text(root, (title, *span), things, context, set),
+                Some((title, span)) => text(root, belongs, (title, *span), things, context, set),
                 None => Some(name.to_owned()),
             };
             Some(ColorMap { of: formula?, palette, range, title: title?, bar })
@@ -105,22 +106,23 @@ pub(super) fn read(
         .collect()
 }
 
-/// Reads a text of a map. A name such as `speed` in it means the measure of each body itself. Reports a text that is too long.
-fn text<T>(
+/// Reads a text of a map. A name such as `speed` in it means the measure of each body itself. Reports a text that is too long. `noun` is what
+/// the text belongs to, for messages, and `code` that of its errors.
+pub(super) fn text<T>(
     root: &View<'_>,
+    (noun, code): (&'static str, Code),
     (text, span): (&str, Span),
     things: Things<'_>,
     context: &mut Context<'_>,
     read: impl FnOnce(&mut Reader<'_, '_, '_>) -> Option<T>,
 ) -> Option<T> {
     if text.len() > MAX_LENGTH {
-        let error =
-            Diagnostic::error(Code::BadColorMap, format!("this text has more than {MAX_LENGTH} bytes"));
+        let error = Diagnostic::error(code, format!("this text has more than {MAX_LENGTH} bytes"));
         context.diagnostics.push(error.at(span, "write a shorter one"));
         return None;
     }
     let own = OwnBody { body: Subject::Each, ghosts: false };
-    read(&mut Reader::new("color", (text, span), root, Some(own), things, context))
+    read(&mut Reader::new(noun, (text, span), root, Some(own), things, context))
 }
 
 /// Sets the subscripts and superscripts of a title. Reports the letters that the font does not have.

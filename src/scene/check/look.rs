@@ -1,20 +1,20 @@
 //! Reads the `look` of bodies, `[light.NAME]`, `[environment]` and `[output]`.
 
 use super::view::View;
-use super::{Context, motion};
+use super::{Context, motion, value_map};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::physics::Shape;
 use crate::scene::grammar::bodies::{body, look};
 use crate::scene::grammar::lights::{area, light, point, sun};
 use crate::scene::grammar::scene::{environment, ground, output, scene};
 use crate::scene::grammar::shapes::{sdl, shape};
-use crate::scene::value;
+use crate::scene::value::{self, Text};
 use crate::scene::{
-    Body, BodyLook, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, Output, Preset,
-    SimulationSettings, Sky,
+    Body, BodyLook, Color, DecimalSign, Environment, Ground, Layout, Light, LightKind, LookNumber, Output,
+    Preset, SimulationSettings, Sky, Visibility,
 };
 
-/// Reads the `look` of a body: the scale at which it is drawn, and its raw SDL.
+/// Reads the `look` of a body: the scale at which it is drawn, whether it is drawn, and its raw SDL.
 pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut Context<'_>) -> BodyLook {
     let look = view.table(&body::LOOK);
     if shape.is_unbounded() {
@@ -30,8 +30,21 @@ pub(super) fn of_body(name: &str, view: &View<'_>, shape: &Shape, context: &mut 
             context.diagnostics.extend(look.key_span(key).map(|span| error.at(span, label)));
         }
     }
+    let scale = value_map::number(&look, &look::SCALE, [1.0, 2.0], context);
+    let scale = scale.filter(|_| !shape.is_unbounded()).unwrap_or(LookNumber::Fixed(1.0));
+    let condition = look.get_as::<Text>(&look::VISIBLE).zip(look.span(&look::VISIBLE));
+    let visible = match (look.get_as::<bool>(&look::VISIBLE), condition) {
+        (Some(false), _) => Visibility::Never,
+        (_, Some((condition, span))) => Visibility::While(value_map::condition(condition, span, context)),
+        _ => Visibility::Always,
+    };
     BodyLook {
-        scale: look.get(&look::SCALE),
+        scale: match scale {
+            LookNumber::Fixed(number) => number,
+            LookNumber::Mapped(map) => value_map::largest(map, context),
+        },
+        scale_map: scale.map(),
+        visible,
         object: view.table(&body::SHAPE).table(&shape::SDL).get(&sdl::OBJECT),
         sdl_before: look.get(&look::SDL_BEFORE),
         sdl_after: look.get(&look::SDL_AFTER),

@@ -37,6 +37,7 @@ mod templates;
 mod trajectory;
 mod usable;
 mod validate;
+mod value_map;
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -126,6 +127,10 @@ struct Context<'a> {
     aggregates: Vec<Aggregate>,
     /// The color maps of materials as they are written, each once.
     color_maps: Vec<color_map::Written>,
+    /// The maps of the numbers of looks as they are written, each once.
+    value_maps: Vec<value_map::Written>,
+    /// The conditions under which bodies are drawn, each once, with their places.
+    conditions: Vec<(String, Span)>,
 }
 
 impl Context<'_> {
@@ -161,6 +166,8 @@ impl Context<'_> {
             pairs: Vec::new(),
             aggregates: Vec::new(),
             color_maps: Vec::new(),
+            value_maps: Vec::new(),
+            conditions: Vec::new(),
         }
     }
 
@@ -353,6 +360,8 @@ fn build(
     let labels = label::read(&root, things, &simulation.timeline, context);
     let (plots, places_of_plots) = plot::read(&root, things, context);
     let color_maps = color_map::read(&root, things, &materials, context);
+    let value_maps = value_map::read(&root, things, context);
+    let conditions = value_map::conditions(&root, things, context);
     let camera = camera::read(&root, &simulation, &bodies, context);
     let output = look::output(&root.table(&scene::OUTPUT));
     context.diagnostics.extend(context.meshes.too_large_to_repeat(&simulation, &camera, output));
@@ -390,6 +399,8 @@ fn build(
         scale_bar,
         grid,
         color_maps,
+        value_maps,
+        conditions,
         pairs: std::mem::take(&mut context.pairs),
         aggregates: std::mem::take(&mut context.aggregates),
         output,

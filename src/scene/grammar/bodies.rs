@@ -125,16 +125,27 @@ table! {
     TRAIL: Any = showing::TRAIL,
 }
 
+// The bounds of a scale are wide enough for any use, and keep the square of every drawn length finite.
+static SCALE_KINDS: [super::Kind; 2] =
+    [Number(Bound::From(1e-9, 1e9)), Table(&materials::mapped_number::TABLE)];
+static VISIBLE_KINDS: [super::Kind; 2] = [Boolean, super::Kind::Text];
+
 table! {
     look: "a body's look", Rule::Any;
-    // These bounds are wide enough for any use, and keep the square of every drawn length finite.
-    SCALE: f64 = KeySpec::new(
+    SCALE: Any = KeySpec::new(
         "scale",
-        Number(Bound::From(1e-9, 1e9)),
-        "Draw it this many times its true size, about its center of mass",
+        Either(&SCALE_KINDS),
+        "Draw it this many times its true size, about its center of mass; or `{ map = { … } }`, with the numbers `to = [1, 2]` unless given",
     )
     .default_number(1.0)
     .also(&["size", "magnification", "enlarge"]),
+    VISIBLE: Any = KeySpec::new(
+        "visible",
+        Either(&VISIBLE_KINDS),
+        "Whether it is drawn; a formula of measures, such as `\"speed > 1\"`, draws it while it is not 0",
+    )
+    .default_flag(true)
+    .also(&["show", "shown", "visibility", "draw", "drawn"]),
     SDL_BEFORE: Option<value::SharedText> = KeySpec::new(
         "sdl_before",
         Sdl(Where::Inside),

@@ -1,9 +1,9 @@
 //! The grammar of `[material.NAME]`: the keys that describe a material.
 
-use super::Kind::{Boolean, Choice, Color, Either, Identifier, List, Sdl, Table, Text};
+use super::Kind::{Boolean, Choice, Color, Either, Identifier, List, Number, Sdl, Table, Text};
 use super::key::table;
 use super::labels::{TWO_NUMBERS, corners};
-use super::{KeySpec, Kind, Rule};
+use super::{Bound, KeySpec, Kind, Rule};
 use crate::scene::sdl::Where;
 use crate::scene::{Finish, MATERIALS, Palette};
 
@@ -21,6 +21,7 @@ fn palettes() -> Vec<&'static str> {
 
 static COLOR_KINDS: [Kind; 2] = [Color, Table(&mapped_color::TABLE)];
 static PALETTE_KINDS: [Kind; 2] = [Choice(palettes), List { of: &Color, min: 2, max: 16 }];
+static PART_KINDS: [Kind; 2] = [Number(Bound::From(0.0, 1.0)), Table(&mapped_number::TABLE)];
 static BAR_KINDS: [Kind; 2] = [Boolean, Choice(corners)];
 
 table! {
@@ -53,7 +54,35 @@ table! {
 }
 
 table! {
-    material: "a material", Rule::AtMostOne(&[&["color", "texture", "sdl"], &["finish", "like", "texture", "sdl"]]);
+    mapped_number: "a number that follows a value", Rule::Any;
+    MAP: Any = KeySpec::new("map", Table(&value_map::TABLE), "The value that the number follows, and the numbers of its values")
+        .required(),
+}
+
+table! {
+    value_map: "a map from values to numbers", Rule::Any;
+    OF: Option<value::Text> = KeySpec::new(
+        "of",
+        Text,
+        "The measure that the number follows: `\"speed\"` is that of each body itself, or a formula of measures",
+    )
+    .required()
+    .also(&["by", "value", "measure", "quantity"]),
+    RANGE: Option<Vec<f64>> = KeySpec::new("range", TWO_NUMBERS, "The values of the first and the last number; values outside get the nearer one")
+        .default("the lowest and the highest value of the run")
+        .also(&["limits", "domain", "from"]),
+    TO: Option<Vec<f64>> = KeySpec::new("to", TWO_NUMBERS, "The first and the last number")
+        .default("[0, 1]")
+        .also(&["numbers", "values", "between", "output"]),
+}
+
+table! {
+    material: "a material", Rule::AtMostOne(&[
+        &["color", "texture", "sdl"],
+        &["finish", "like", "texture", "sdl"],
+        &["transparency", "texture", "sdl"],
+        &["glow", "texture", "sdl"],
+    ]);
     COLOR: Any = KeySpec::new(
         "color",
         Either(&COLOR_KINDS),
@@ -70,6 +99,20 @@ table! {
     .default("given by `color` and `finish`")
     .also(&["base", "kind", "extends"]),
     FINISH: value::Text = KeySpec::new("finish", Choice(finishes), "How its surface reflects light").default_word("glossy"),
+    TRANSPARENCY: Any = KeySpec::new(
+        "transparency",
+        Either(&PART_KINDS),
+        "The part of the light that passes through a convex body: 0 is opaque, 1 invisible; or `{ map = { … } }`",
+    )
+    .default("0")
+    .also(&["transparent", "transmit", "clear"]),
+    GLOW: Any = KeySpec::new(
+        "glow",
+        Either(&PART_KINDS),
+        "The part of its color that shines by itself: 0 is none, 1 as by the finish `luminous`; or `{ map = { … } }`",
+    )
+    .default("0")
+    .also(&["emission", "emissive", "shines", "luminosity"]),
     TEXTURE: Option<value::SharedText> = KeySpec::new("texture", Identifier, "The name of a texture from an include file")
         .default("given by `color` and `finish`"),
     SDL: Option<value::SharedText> = KeySpec::new(

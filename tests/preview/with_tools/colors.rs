@@ -26,3 +26,40 @@ const ALONG: &str = "
 in_the_browser! { Scene::of(ALONG), "colors.mjs":
     bodies_trails_and_ghosts_have_the_colors_of_their_values,
 }
+
+/// Bodies before a white wall, whose looks follow the time: one becomes transparent, one begins to glow, one grows, and one is hidden after
+/// 1 s.
+const CHANGING: &str = "
+    simulation = { duration = 2, frame_rate = 10 }
+    environment = 'blackboard'
+    light.weak = { sun.direction = [0, 0, -1], intensity = 0.1 }
+    [defaults.body]
+    shape.sphere.radius = 0.5
+    fixed = true
+    material = 'red'
+    [material.red]
+    color = 'red'
+    finish = 'luminous'
+    [body.wall]
+    shape.box.size = [20, 20, 0.1]
+    location = [0, 0, -3]
+    material = { color = 'white', finish = 'luminous' }
+    [body.veil]
+    location = [-3, 0, 0]
+    material = { color = 'red', finish = 'luminous', transparency.map = { of = 't', range = [0, 2] } }
+    [body.lamp]
+    material = { color = 'blue', finish = 'matte', glow.map = { of = 't', range = [0, 2] } }
+    [body.grows]
+    location = [3, 0, 0]
+    look.scale.map = { of = 't', range = [0, 2], to = [1, 2] }
+    [body.hides]
+    location = [0, 2, 0]
+    look.visible = 't < 1'
+    [camera]
+    location = [0, 0, 12]
+    look_at = [0, 0, 0]
+    ";
+
+in_the_browser! { Scene::of(CHANGING), "colors.mjs":
+    transparency_glow_size_and_visibility_follow_values,
+}

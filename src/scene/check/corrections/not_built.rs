@@ -127,15 +127,15 @@ static NOT_BUILT: &[NotBuilt] = &[
     NotBuilt {
         of: "a body",
         words: &["emissive", "emission", "glow", "glowing", "luminous", "emits"],
-        help: "`material = \"sun\"` glows, and `[light.NAME]` with `point.location` lights other bodies; leave the \
-               line out",
+        help: "write `material.glow = 1`, or `material = \"sun\"`; `[light.NAME]` with `point.location` lights other \
+               bodies; leave the line out",
         comes_with: "",
         is_removable: true,
     },
     NotBuilt {
         of: "a body",
         words: &["opacity", "alpha", "transparency", "transparent"],
-        help: "`material = \"glass\"` is transparent; leave the line out",
+        help: "write `material.transparency = 0.5`, or `material = \"glass\"`; leave the line out",
         comes_with: "",
         is_removable: true,
     },

@@ -40,7 +40,10 @@ pub(super) fn as_table(
         ([], Value::Boolean(true)) if name == "arrows" => entry(spec.keys.first()?, "true"),
         ([], Value::Boolean(true)) => Some("{}".to_owned()),
         ([], Value::Integer(_) | Value::Float(_)) => {
-            entry(spec.keys().find(|key| matches!(key.kind, Kind::Number(_)))?, raw)
+            let is_number = |kind: &Kind| matches!(kind, Kind::Number(_));
+            // A first key that also takes something else, such as the `scale` of a look, counts as well.
+            let first = spec.keys().next().filter(|key| key.kind.one_of(is_number).is_some());
+            entry(spec.keys().find(|key| is_number(&key.kind)).or(first)?, raw)
         }
         ([], Value::String(word)) => {
             let text = by_word(spec, word)?;
